@@ -1,0 +1,1 @@
+"""Finite elements that check the linear theory across alpha."""

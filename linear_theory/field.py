@@ -1,0 +1,124 @@
+"""What every linear solution of the sheet offers: displacement, velocity, strain, stress.
+
+A linear deformation is a sum of fixed fields times factors of time,
+
+    u(x, y, t) = alpha * sum_j amplitude_j(t) basis_j(x, y),
+
+and solvers differ only in the basis and in how they find it. All quantities are per unit alpha.
+"""
+
+from abc import ABC, abstractmethod
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from linear_theory import hooke, validation
+from linear_theory.motion import Motion, rectangle_cells
+from linear_theory.sheet import Sheet
+
+Array = NDArray[np.float64]
+
+
+class Wave(Protocol):
+    """What a solution needs to know of c(x, y, t): its values, its rate and its period."""
+
+    @property
+    def period(self) -> float:
+        """Units of time."""
+
+    def value(self, x: ArrayLike, y: ArrayLike, t: ArrayLike, length: float = 1.0) -> Array:
+        """Growth c on a sheet of that length."""
+
+    def rate(self, x: ArrayLike, y: ArrayLike, t: ArrayLike, length: float = 1.0) -> Array:
+        """Its time derivative."""
+
+
+class LinearField(ABC):
+    """Small-strain deformation of a sheet by a wave, per unit alpha.
+
+    Points x, y (units of length, inside the sheet) and times t broadcast. Vectors have (x, y) and
+    symmetric tensors (xx, yy, xy) on the first axis. The displacement has zero mean and zero mean
+    rotation over the reference area. `seconds` is what setting up and solving took.
+    """
+
+    sheet: Sheet
+    wave: Wave
+    seconds: float
+
+    @property
+    @abstractmethod
+    def error(self) -> float:
+        """Estimated relative L2 error of the displacement over the sheet at the worst phase."""
+
+    @abstractmethod
+    def _amplitudes(self, t: Array) -> Array:
+        """Factors of time, (basis functions, *t.shape)."""
+
+    @abstractmethod
+    def _amplitude_rates(self, t: Array) -> Array:
+        """Time derivatives of `_amplitudes`."""
+
+    @abstractmethod
+    def _displacements(self, x: Array, y: Array) -> Array:
+        """Displacement of each basis function, (basis functions, 2, *broadcast(x, y).shape)."""
+
+    @abstractmethod
+    def _strains(self, x: Array, y: Array) -> Array:
+        """Strain of each basis function, (basis functions, 3, *broadcast(x, y).shape)."""
+
+    def displacement(self, x: ArrayLike, y: ArrayLike, t: ArrayLike) -> Array:
+        """u, (2, ...), units of length. Raises ValueError for points outside the sheet."""
+        x, y, t = self._checked(x, y, t)
+        return _combine(self._amplitudes(t), self._displacements(x, y))
+
+    def velocity(self, x: ArrayLike, y: ArrayLike, t: ArrayLike) -> Array:
+        """du/dt in the frame of the mean motion, (2, ...), length per time."""
+        x, y, t = self._checked(x, y, t)
+        return _combine(self._amplitude_rates(t), self._displacements(x, y))
+
+    def strain(self, x: ArrayLike, y: ArrayLike, t: ArrayLike) -> Array:
+        """(xx, yy, xy) of the total strain, (3, ...), dimensionless."""
+        x, y, t = self._checked(x, y, t)
+        return _combine(self._amplitudes(t), self._strains(x, y))
+
+    def stress(self, x: ArrayLike, y: ArrayLike, t: ArrayLike) -> Array:
+        """(xx, yy, xy) of the stress, (3, ...), units of Young's modulus."""
+        strain = self.strain(x, y, t)
+        growth = self.wave.value(x, y, t, self.sheet.length)
+        return hooke.stress(strain, growth, self.sheet.poisson)
+
+    def motion(self, times: ArrayLike, cells: tuple[int, int], order: int, half: bool) -> Motion:
+        """The field on cells x cells Gauss points, as the friction balance reads it.
+
+        times (times,); cells: how many across and along; order: points per cell and direction;
+        half: whether to cover x >= 0 only (for waves that are mirror symmetric in x).
+        """
+        t = validation.real_array("times", times)
+        x, y, area = rectangle_cells(self.sheet, cells, order, half)
+        displacements = self._displacements(x, y)
+        strains = self._strains(x, y)
+        dilations = strains[:, 0] + strains[:, 1]
+        return Motion(
+            position=np.stack(np.broadcast_arrays(x, y)),
+            area=area,
+            velocity=np.moveaxis(np.tensordot(self._amplitude_rates(t).T, displacements, 1), 1, 0),
+            dilation=np.tensordot(self._amplitudes(t).T, dilations, 1),
+            growth=self.wave.value(x, y, t.reshape(-1, *(1,) * area.ndim), self.sheet.length),
+            mirrored=half,
+        )
+
+    def _checked(self, x: ArrayLike, y: ArrayLike, t: ArrayLike) -> tuple[Array, Array, Array]:
+        self.sheet.check_inside(x, y)
+        return (
+            validation.real_array("x", x),
+            validation.real_array("y", y),
+            validation.real_array("t", t),
+        )
+
+
+def _combine(amplitudes: Array, basis: Array) -> Array:
+    """Sum over j of amplitudes[j] (times) and basis[j] (components, *points), broadcast."""
+    if amplitudes.ndim == 1:
+        return np.asarray(np.tensordot(amplitudes, basis, 1))
+    return np.asarray(sum(a * b for a, b in zip(amplitudes, basis, strict=True)))

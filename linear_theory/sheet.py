@@ -1,0 +1,45 @@
+"""The thin rectangular sheet."""
+
+from dataclasses import dataclass
+
+from numpy.typing import ArrayLike
+
+from linear_theory import validation
+
+
+@dataclass(frozen=True)
+class Sheet:
+    """A flat rectangular sheet, |x| <= width/2, |y| <= length/2, of Young modulus 1.
+
+    Lengths are in any one unit (length = 1 makes them multiples of L). The defaults are
+    the sheet of the seed paper: L x L/2, nu = 1/2, h = 0.03 L.
+
+    Raises ValueError for sizes that are not finite and positive and for a Poisson ratio
+    outside (-1, 1/2].
+    """
+
+    length: float = 1.0
+    width: float = 0.5
+    poisson: float = 0.5
+    thickness: float = 0.03
+
+    def __post_init__(self) -> None:
+        for name in ("length", "width", "thickness"):
+            object.__setattr__(self, name, validation.positive(name, getattr(self, name)))
+        poisson = validation.real("poisson", self.poisson)
+        if not -1 < poisson <= 0.5:
+            raise ValueError(f"poisson = {poisson:g}: must be in (-1, 0.5]")
+        object.__setattr__(self, "poisson", poisson)
+
+    @property
+    def area(self) -> float:
+        """Reference area, length * width."""
+        return self.length * self.width
+
+    def check_inside(self, x: ArrayLike, y: ArrayLike) -> None:
+        """Raise ValueError if a point lies outside the sheet (by more than roundoff)."""
+        for name, values, half in (("x", x, self.width / 2), ("y", y, self.length / 2)):
+            array = validation.real_array(name, values)
+            if array.size and abs(array).max() > half * (1 + 1e-12):
+                worst = array.flat[abs(array).argmax()]
+                raise ValueError(f"{name} = {worst:g}: must be in [{-half:g}, {half:g}]")

@@ -1,0 +1,150 @@
+"""Travelling waves of growth c(y, t).
+
+Every wave here repeats along the sheet, so that it is a finite Fourier series in y/L:
+
+    c(y, t) = mean + sum_k [ p_k cos(k phi) + q_k sin(k phi) ],   phi = 2 pi (n y/L - t/T),
+
+with n = `count` waves on the sheet. Splitting the sums into parts even and odd in y separates
+y from t, which is all that a linear theory needs to know: one elastic problem for each of
+cos(2 pi r y/L) and sin(2 pi r y/L), r = |k n|, times a factor that depends on t alone.
+
+Sign convention: n > 0 runs towards +y. The printed amplitudes of the seed paper (appendix A.1,
+a_r = delta_1r cos wt, b_s = delta_1s sin wt) belong to cos(2 pi y/L - wt), not to this sine.
+"""
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from linear_theory import validation
+
+Array = NDArray[np.float64]
+
+
+class TimeFactors(NamedTuple):
+    """Coefficients of cos(2 pi r y/L) and of sin(2 pi r y/L), each (harmonics, *t.shape)."""
+
+    even: Array
+    odd: Array
+
+
+@dataclass(frozen=True, eq=False)
+class TravellingWave:
+    """c = mean + sum_k cosine[k-1] cos(k phi) + sine[k-1] sin(k phi), phi as in the module's head.
+
+    cosine, sine: (harmonics,) dimensionless amplitudes; count: waves on the sheet, any non-zero
+    integer (negative runs towards -y); period in units of time. Raises ValueError otherwise.
+    """
+
+    cosine: Array
+    sine: Array
+    count: int = 1
+    period: float = 1.0
+    mean: float = 0.0
+
+    def __post_init__(self) -> None:
+        for name in ("cosine", "sine"):
+            array = np.array(validation.real_array(name, getattr(self, name)), float)
+            array.setflags(write=False)
+            object.__setattr__(self, name, array)
+        if self.cosine.ndim != 1 or self.cosine.shape != self.sine.shape or not self.cosine.size:
+            raise ValueError(
+                f"cosine, sine have shapes {self.cosine.shape}, {self.sine.shape}: "
+                "must be one-dimensional, of one length >= 1"
+            )
+        object.__setattr__(self, "count", validation.wave_count(self.count))
+        object.__setattr__(self, "period", validation.positive("period", self.period))
+        object.__setattr__(self, "mean", validation.real("mean", self.mean))
+
+    @classmethod
+    def from_samples(
+        cls, samples: ArrayLike, count: int = 1, period: float = 1.0
+    ) -> "TravellingWave":
+        """The wave whose profile takes `samples` at N equidistant phases phi = 2 pi j/N.
+
+        samples: (N,), N >= 3, over one full wavelength; interpolated trigonometrically.
+        """
+        values = validation.real_array("samples", samples)
+        if values.ndim != 1 or values.size < 3:
+            raise ValueError(f"samples has shape {values.shape}: must be (N,) with N >= 3")
+        spectrum = np.fft.rfft(values) * (2 / values.size)
+        if values.size % 2 == 0:  # the Nyquist term has no partner at negative frequency
+            spectrum[-1] /= 2
+        return cls(spectrum.real[1:], -spectrum.imag[1:], count, period, spectrum.real[0] / 2)
+
+    @property
+    def harmonics(self) -> NDArray[np.int64]:
+        """Wave numbers k = 1, 2, ... of the profile, (harmonics,)."""
+        return np.arange(1, self.cosine.size + 1)
+
+    @property
+    def orders(self) -> NDArray[np.int64]:
+        """r = |k count|, the number of full waves on the sheet of each harmonic."""
+        return self.harmonics * abs(self.count)
+
+    @property
+    def is_half_period_antisymmetric(self) -> bool:
+        """Whether c(t + T/2) = -c(t): then dry friction gives no speed of first order."""
+        return self.mean == 0 and not np.any(self.cosine[1::2]) and not np.any(self.sine[1::2])
+
+    def profile(self, phase: ArrayLike) -> Array:
+        """f(phi) of c = f(2 pi (n y/L - t/T)), same shape as `phase` (radians)."""
+        angle = np.multiply.outer(self.harmonics, validation.real_array("phase", phase))
+        value = np.tensordot(self.cosine, np.cos(angle), 1) + np.tensordot(self.sine, np.sin(angle), 1)
+        return np.asarray(self.mean + value)
+
+    def profile_slope(self, phase: ArrayLike) -> Array:
+        """df/dphi, same shape as `phase` (radians)."""
+        angle = np.multiply.outer(self.harmonics, validation.real_array("phase", phase))
+        return np.asarray(
+            np.tensordot(self.harmonics * self.sine, np.cos(angle), 1)
+            - np.tensordot(self.harmonics * self.cosine, np.sin(angle), 1)
+        )
+
+    def value(self, x: ArrayLike, y: ArrayLike, t: ArrayLike, length: float = 1.0) -> Array:
+        """c at points of a sheet of that `length`; x, y, t broadcast (c does not depend on x)."""
+        x, y, t = np.broadcast_arrays(x, y, t)
+        return self.profile(2 * np.pi * (self.count * y / length - t / self.period))
+
+    def rate(self, x: ArrayLike, y: ArrayLike, t: ArrayLike, length: float = 1.0) -> Array:
+        """dc/dt at points of a sheet of that `length`; x, y, t broadcast."""
+        x, y, t = np.broadcast_arrays(x, y, t)
+        phase = 2 * np.pi * (self.count * y / length - t / self.period)
+        return -2 * np.pi / self.period * self.profile_slope(phase)
+
+    def factors(self, t: ArrayLike) -> TimeFactors:
+        """c = mean + sum_j even[j] cos(2 pi r_j y/L) + odd[j] sin(2 pi r_j y/L), r = `orders`."""
+        p, q, angle = self._phasors(t)
+        even = p * np.cos(angle) - q * np.sin(angle)
+        odd = p * np.sin(angle) + q * np.cos(angle)
+        return TimeFactors(even, np.sign(self.count) * odd)
+
+    def factor_rates(self, t: ArrayLike) -> TimeFactors:
+        """Time derivatives of `factors`."""
+        p, q, angle = self._phasors(t)
+        shape = (-1,) + (1,) * (angle.ndim - 1)
+        rate = (2 * np.pi / self.period * self.harmonics).reshape(shape)
+        even = -rate * (p * np.sin(angle) + q * np.cos(angle))
+        odd = rate * (p * np.cos(angle) - q * np.sin(angle))
+        return TimeFactors(even, np.sign(self.count) * odd)
+
+    def _phasors(self, t: ArrayLike) -> tuple[Array, Array, Array]:
+        t = validation.real_array("t", t)
+        angle = np.multiply.outer(2 * np.pi / self.period * self.harmonics, t)
+        shape = (-1,) + (1,) * t.ndim
+        return self.cosine.reshape(shape), self.sine.reshape(shape), angle
+
+
+class SineWave(TravellingWave):
+    """c(y, t) = sin(2 pi count y/L - 2 pi t/period), the wave of the seed paper's section 3.1.
+
+    count: any non-zero integer; count > 0 runs towards +y. period in units of time.
+    """
+
+    def __init__(self, count: int = 1, period: float = 1.0) -> None:
+        super().__init__(np.zeros(1), np.ones(1), count, period)
+
+    def __repr__(self) -> str:
+        return f"SineWave(count={self.count}, period={self.period:g})"
