@@ -59,9 +59,7 @@ class TravellingWave:
         object.__setattr__(self, "mean", validation.real("mean", self.mean))
 
     @classmethod
-    def from_samples(
-        cls, samples: ArrayLike, count: int = 1, period: float = 1.0
-    ) -> "TravellingWave":
+    def from_samples(cls, samples: ArrayLike, count: int = 1, period: float = 1.0) -> "TravellingWave":
         """The wave whose profile takes `samples` at N equidistant phases phi = 2 pi j/N.
 
         samples: (N,), N >= 3, over one full wavelength; interpolated trigonometrically.
