@@ -67,20 +67,27 @@ class LinearField(ABC):
     def _strains(self, x: Array, y: Array) -> Array:
         """Strain of each basis function, (basis functions, 3, *broadcast(x, y).shape)."""
 
+    def _for_times(self, t: Array) -> "LinearField":
+        """The field whose basis spans the motion at times t: itself, if its basis does so always."""
+        return self
+
     def displacement(self, x: ArrayLike, y: ArrayLike, t: ArrayLike) -> Array:
         """u, (2, ...), units of length. Raises ValueError for points outside the sheet."""
         x, y, t = self._checked(x, y, t)
-        return _combine(self._amplitudes(t), self._displacements(x, y))
+        field = self._for_times(t)
+        return combine(field._amplitudes(t), field._displacements(x, y))
 
     def velocity(self, x: ArrayLike, y: ArrayLike, t: ArrayLike) -> Array:
         """du/dt in the frame of the mean motion, (2, ...), length per time."""
         x, y, t = self._checked(x, y, t)
-        return _combine(self._amplitude_rates(t), self._displacements(x, y))
+        field = self._for_times(t)
+        return combine(field._amplitude_rates(t), field._displacements(x, y))
 
     def strain(self, x: ArrayLike, y: ArrayLike, t: ArrayLike) -> Array:
         """(xx, yy, xy) of the total strain, (3, ...), dimensionless."""
         x, y, t = self._checked(x, y, t)
-        return _combine(self._amplitudes(t), self._strains(x, y))
+        field = self._for_times(t)
+        return combine(field._amplitudes(t), field._strains(x, y))
 
     def stress(self, x: ArrayLike, y: ArrayLike, t: ArrayLike) -> Array:
         """(xx, yy, xy) of the stress, (3, ...), units of Young's modulus."""
@@ -96,14 +103,15 @@ class LinearField(ABC):
         """
         t = validation.real_array("times", times)
         x, y, area = rectangle_cells(self.sheet, cells, order, half)
-        displacements = self._displacements(x, y)
-        strains = self._strains(x, y)
+        field = self._for_times(t)
+        displacements = field._displacements(x, y)
+        strains = field._strains(x, y)
         dilations = strains[:, 0] + strains[:, 1]
         return Motion(
             position=np.stack(np.broadcast_arrays(x, y)),
             area=area,
-            velocity=np.moveaxis(np.tensordot(self._amplitude_rates(t).T, displacements, 1), 1, 0),
-            dilation=np.tensordot(self._amplitudes(t).T, dilations, 1),
+            velocity=np.moveaxis(np.tensordot(field._amplitude_rates(t).T, displacements, 1), 1, 0),
+            dilation=np.tensordot(field._amplitudes(t).T, dilations, 1),
             growth=self.wave.value(x, y, t.reshape(-1, *(1,) * area.ndim), self.sheet.length),
             mirrored=half,
         )
@@ -117,7 +125,7 @@ class LinearField(ABC):
         )
 
 
-def _combine(amplitudes: Array, basis: Array) -> Array:
+def combine(amplitudes: Array, basis: Array) -> Array:
     """Sum over j of amplitudes[j] (times) and basis[j] (components, *points), broadcast."""
     if amplitudes.ndim == 1:
         return np.asarray(np.tensordot(amplitudes, basis, 1))

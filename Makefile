@@ -1,0 +1,74 @@
+# Every target does its own set-up; a fresh machine needs only make and Python >= 3.11.
+#
+#   make figures   figures 3 and 7 (options: OUT=folder RTOL=1e-6)
+#   make test      lint, types, tests
+#   make bench     measured times and ratios
+#   make lock      rewrite requirements.lock after a change of dependencies
+#   make clean     remove figures and caches; `make distclean` also the environment
+#
+# Another interpreter: make test PYTHON=python3.13
+
+PYTHON ?= python3
+WORKERS ?= auto
+OUT ?=
+RTOL ?=
+LOCKFLAGS ?=
+
+VENV := .venv
+STAMP := $(VENV)/.installed
+RUN := $(VENV)/bin/python
+# Beside the environment and not in it: the tool that writes the lock is not part of the lock.
+LOCK_VENV := build/lock-venv
+PIP_TOOLS := pip-tools==7.6.2
+
+# One BLAS thread per process: test workers do not fight for the cores, and sums are taken in
+# the same order on every run, so figures keep their bytes.
+export OMP_NUM_THREADS := 1
+export OPENBLAS_NUM_THREADS := 1
+export MKL_NUM_THREADS := 1
+
+FIGURE_OPTIONS = $(if $(OUT),--out "$(OUT)") $(if $(RTOL),--rtol $(RTOL))
+
+.PHONY: figures test bench lock clean distclean
+.DEFAULT_GOAL := figures
+.DELETE_ON_ERROR:
+
+figures: $(STAMP)
+	$(RUN) -m figures.fig3 $(FIGURE_OPTIONS)
+	$(RUN) -m figures.fig7 $(FIGURE_OPTIONS)
+
+test: $(STAMP)
+	$(RUN) -m ruff check .
+	$(RUN) -m ruff format --check .
+	$(RUN) -m mypy
+	$(RUN) -m pytest -n $(WORKERS)
+
+bench: $(STAMP)
+	$(RUN) -m figures.bench
+
+# setuptools comes with the lock and build isolation is off: pip fetches nothing that is not pinned.
+$(STAMP): requirements.lock pyproject.toml
+	@$(PYTHON) -c 'import sys; sys.exit("sheetcrawl needs Python >= 3.11, not " + sys.version if sys.version_info < (3, 11) else 0)'
+	test -x $(VENV)/bin/pip || $(PYTHON) -m venv $(VENV)
+	$(RUN) -m pip install --disable-pip-version-check -r requirements.lock
+	$(RUN) -m pip install --disable-pip-version-check --no-build-isolation --no-deps -e .
+	@touch $@
+
+# The oldest supported Python decides: a release that runs there still runs on newer ones, while
+# the newest numpy has often dropped it. Pins that still fit stay; LOCKFLAGS=--upgrade renews all.
+# The output names no index: the lock says what to install, the user's pip says where from.
+lock:
+	@$(PYTHON) -c 'import sys; sys.exit("make lock needs Python 3.11: make lock PYTHON=python3.11" if sys.version_info[:2] != (3, 11) else 0)'
+	test -x $(LOCK_VENV)/bin/pip || $(PYTHON) -m venv $(LOCK_VENV)
+	$(LOCK_VENV)/bin/python -m pip install --disable-pip-version-check --quiet $(PIP_TOOLS)
+	CUSTOM_COMPILE_COMMAND="make lock" $(LOCK_VENV)/bin/python -m piptools compile --quiet \
+	    --extra test --build-deps-for editable --allow-unsafe --strip-extras \
+	    --no-emit-index-url --no-emit-find-links --no-emit-trusted-host \
+	    $(LOCKFLAGS) --output-file requirements.lock pyproject.toml
+
+clean:
+	rm -rf figures/out build dist .mypy_cache .ruff_cache .pytest_cache .hypothesis
+	find . -path ./$(VENV) -prune -o -type d -name __pycache__ -prune -exec rm -rf {} +
+
+distclean: clean
+	rm -rf $(VENV) *.egg-info

@@ -1,0 +1,47 @@
+"""Results in SI units: the theory knows only the sheet's length L and the wave's period T."""
+
+from dataclasses import dataclass
+from typing import TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linear_theory import validation
+
+Number = TypeVar("Number", float, NDArray[np.float64])
+
+
+@dataclass(frozen=True)
+class Scale:
+    """What L = 1 and T = 1 stand for: a sheet of `length_m` metres, a wave of `period_s` seconds.
+
+    Raises ValueError unless both are finite and positive.
+    """
+
+    length_m: float
+    period_s: float
+
+    def __post_init__(self) -> None:
+        for name in ("length_m", "period_s"):
+            object.__setattr__(self, name, validation.positive(name, getattr(self, name)))
+
+    def length(self, length: Number) -> Number:
+        """A length in L, in metres."""
+        return length * self.length_m
+
+    def time(self, time: Number) -> Number:
+        """A time in T, in seconds."""
+        return time * self.period_s
+
+    def speed(self, speed: Number) -> Number:
+        """A speed in L/T, in metres per second."""
+        return speed * (self.length_m / self.period_s)
+
+
+def speed_si(speed: Number, length_m: float, period_s: float) -> Number:
+    """A speed in L/T (number or array), in m/s, for a sheet of `length_m` and a wave of `period_s`.
+
+    >>> f"{speed_si(0.05, length_m=0.02, period_s=0.5) * 1000:.3g} mm/s"
+    '2 mm/s'
+    """
+    return Scale(length_m, period_s).speed(speed)

@@ -1,0 +1,225 @@
+"""The rigid motion of a sheet whose shape moves in a known way: friction is balanced (eqs 7, 11).
+
+With velocities per unit alpha, v = alpha v^, V = alpha q, and the load 1 + alpha e, the balance is
+
+    integral (1 + alpha e) f(|w|) w/|w| . R_j dA = 0,      w = v^ + sum_j q_j R_j,
+
+R_j the rigid velocities: (0, 1) for motions that are mirror symmetric in x, else (1, 0), (0, 1) and
+the rotation (-y, x). It is where the convex function int (1 + alpha e) F(|w|) dA, F' = f, is least.
+
+For small alpha the mean of q is much smaller than q(t). Hence q = q_0 + alpha q_1: q_0 balances the
+load 1, and q_1 solves what is left, divided by alpha, with the difference quotient of f w/|w| written
+without cancellation.
+"""
+
+from collections.abc import Callable
+from functools import partial
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linear_theory.cells import Integers, graded
+from linear_theory.friction import FrictionLaw
+from linear_theory.motion import Motion
+from linear_theory.newton import damped_newton, guarded_newton
+
+Array = NDArray[np.float64]
+
+Integrand = Callable[[Array, Integers], Array]
+Roughness = Callable[[Array, Integers], tuple[NDArray[np.bool_], Integers]]
+Residual = Callable[..., tuple[Array, Array]]
+
+_COARSE_HALVINGS = 10
+_MARGIN = 1.5  # mean over variation of w on a cell, above which Gauss quadrature sees it as smooth
+_TINY = 1e-80  # replaces |w| = 0, where w/|w| is any direction
+_REST = 1e-6  # speeds below this share of the mean speed count as rest
+_ALONG = (1,)  # rigid velocities of a mirror-symmetric motion; 0, 1 translations, 2 rotation
+_ALL = (0, 1, 2)
+
+
+class RigidMotion(NamedTuple):
+    """q = leading + alpha remainder per unit alpha, (times, 3) each: V_x, V_y, Omega.
+
+    rest: (times,), the share of the points that move slower than 1e-6 of the mean speed;
+    fastest: the largest speed against the ground, per unit alpha.
+    """
+
+    leading: Array
+    remainder: Array
+    rest: Array
+    fastest: float
+
+
+class Balance:
+    """Friction on a sheet in a given motion.
+
+    motion: velocities per unit alpha at T times; rate: e of the load, (T, cells, n, n); alpha: growth
+    coupling, not 0; law: for speeds per unit |alpha|; halvings: how often a cell is halved towards
+    points at rest; tolerance: of q, relative to the root mean square of v^.
+    """
+
+    def __init__(
+        self,
+        motion: Motion,
+        rate: Array,
+        alpha: float,
+        law: FrictionLaw,
+        halvings: int = 30,
+        tolerance: float = 1e-10,
+    ) -> None:
+        self._alpha, self._law = alpha, law
+        self._modes = _ALONG if motion.mirrored else _ALL
+        area = np.broadcast_to(motion.area, rate.shape)
+        channels = [*motion.velocity, area, rate]
+        if not motion.mirrored:
+            channels += [np.broadcast_to(p, rate.shape) for p in motion.position]
+        self._values = np.stack(channels)  # v_x, v_y, area, e and, if the sheet may turn, x, y
+        self._scale = float(np.sqrt(np.mean(motion.velocity**2))) or 1.0
+        self._stages = ((min(_COARSE_HALVINGS, halvings), 1e-2), (halvings, tolerance))
+
+    def solve(self) -> RigidMotion:
+        """Balance friction at all times. Raises NotConvergedError if an iteration stalls."""
+        leading = self._zero(self._leading, np.zeros((1, 1)), 1.0)
+        remainder = self._zero(partial(self._remainder, leading), leading, self._alpha)
+        velocity = self._moved(self._values, leading + self._alpha * remainder)
+        speed = _norm(velocity)
+        rest = np.mean(speed < _REST * self._scale, axis=(1, 2, 3))
+        return RigidMotion(self._full(leading), self._full(remainder), rest, float(speed.max()))
+
+    def _zero(self, residual: Residual, offset: Array, unit: float) -> Array:
+        """q (times, unknowns) of residual 0, first roughly with few halvings, then as asked."""
+        q = np.zeros((self._values.shape[1], len(self._modes)))
+        low, high = self._bracket()
+        ends = np.sort([(low - offset) / unit, (high - offset) / unit], axis=0)[:, :, 0]
+        for halvings, tolerance in self._stages:
+            xtol = tolerance * self._scale
+            if len(self._modes) == 1:
+                q = _single(residual, halvings, q, ends, xtol)
+            else:
+                q = damped_newton(partial(residual, halvings=halvings), q, xtol)
+        return q
+
+    def _bracket(self) -> tuple[Array, Array]:
+        """Bounds of q, (times, 1): friction cannot balance where all of the sheet slips one way."""
+        along = self._values[1].reshape(self._values.shape[1], -1)
+        margin = 0.1 * np.ptp(along, axis=1) + self._scale  # the polynomials exceed these values
+        return (-along.max(1) - margin)[:, None], (-along.min(1) + margin)[:, None]
+
+    def _leading(self, q: Array, times: Integers, halvings: int) -> tuple[Array, Array]:
+        """Residual and slope of the balance for the load 1."""
+
+        def integrand(values: Array, owners: Integers) -> Array:
+            w = self._moved(values, q[owners])
+            r = _norm(w)
+            ratio, slope = self._law.ratio(r), self._law.ratio_slope(r)
+            dots = [self._dot(i, w, values) for i in self._modes]
+            return values[2] * np.stack(
+                [ratio * d for d in dots] + self._hessian(values, dots, ratio, slope)
+            )
+
+        def roughness(values: Array, owners: Integers) -> tuple[NDArray[np.bool_], Integers]:
+            return self._roughness(self._moved(values, q[owners]))
+
+        return self._integrate(times, integrand, roughness, halvings)
+
+    def _remainder(
+        self, leading: Array, q: Array, times: Integers, halvings: int
+    ) -> tuple[Array, Array]:
+        """What is left of the balance with the load 1 + alpha e, divided by alpha, and its slope."""
+        first, alpha = leading[times], self._alpha
+
+        def integrand(values: Array, owners: Integers) -> Array:
+            before = self._moved(values, first[owners])
+            change = self._moved(np.zeros_like(values[:2]), q[owners], values)
+            after = before + alpha * change
+            r, r_after = _norm(before), _norm(after)
+            speed_slope = ((before + after) * change).sum(0) / (r + r_after)
+            quotient = self._law.ratio_quotient(r, r_after, speed_slope, alpha)
+            ratio, slope = self._law.ratio(r_after), self._law.ratio_slope(r_after)
+            rate = values[3]
+            force = ratio * (change + rate * after) + quotient * before
+            weight = 1 + alpha * rate
+            dots = [self._dot(i, after, values) for i in self._modes]
+            hessian = self._hessian(values, dots, weight * ratio, weight * slope)
+            return values[2] * np.stack([self._dot(i, force, values) for i in self._modes] + hessian)
+
+        def roughness(values: Array, owners: Integers) -> tuple[NDArray[np.bool_], Integers]:
+            rough, axis = self._roughness(self._moved(values, first[owners]))
+            again, axis_again = self._roughness(self._moved(values, first[owners] + alpha * q[owners]))
+            return rough | again, np.where(rough, axis, axis_again)
+
+        return self._integrate(times, integrand, roughness, halvings)
+
+    def _integrate(
+        self, times: Integers, integrand: Integrand, roughness: Roughness, halvings: int
+    ) -> tuple[Array, Array]:
+        """Gradients (times, J) and Hessians (times, J, J)."""
+        values = self._values[:, times]
+        channels, count, cells, n, _ = values.shape
+        owners = np.repeat(np.arange(count), cells)
+        flat = values.reshape(channels, count * cells, n, n)
+        cells_now = graded(flat, owners, roughness, halvings)
+        sums = cells_now.integrals(integrand(cells_now.values, cells_now.owners))
+        unknowns = len(self._modes)
+        return sums[:unknowns].T, sums[unknowns:].T.reshape(count, unknowns, unknowns)
+
+    def _moved(self, values: Array, q: Array, at: Array | None = None) -> Array:
+        """Velocity against the ground, (2, ...), of points that move with values[:2]; q (..., J)."""
+        spread = q.T.reshape(len(self._modes), -1, *(1,) * (values.ndim - 2))
+        if len(self._modes) == 1:
+            return np.stack([values[0], values[1] + spread[0]])
+        x, y = (values if at is None else at)[4:6]
+        return np.stack([values[0] + spread[0] - y * spread[2], values[1] + spread[1] + x * spread[2]])
+
+    def _dot(self, mode: int, w: Array, values: Array) -> Array:
+        """w . R of a rigid velocity R."""
+        return w[mode] if mode < 2 else values[4] * w[1] - values[5] * w[0]
+
+    def _hessian(self, values: Array, dots: list[Array], ratio: Array, slope: Array) -> list[Array]:
+        """Integrands of the Hessian, row by row."""
+        rows = []
+        for i in range(len(self._modes)):
+            for j in range(len(self._modes)):
+                rigid = self._rigid_product(self._modes[i], self._modes[j], values)
+                rows.append(ratio * rigid + slope * dots[i] * dots[j])
+        return rows
+
+    def _rigid_product(self, i: int, j: int, values: Array) -> Array | float:
+        """R_i . R_j."""
+        if i == j:
+            return 1.0 if i < 2 else values[4] ** 2 + values[5] ** 2
+        if 2 not in (i, j):
+            return 0.0
+        return -values[5] if 0 in (i, j) else values[4]
+
+    def _roughness(self, w: Array) -> tuple[NDArray[np.bool_], Integers]:
+        """Cells on which w/|w| may turn, and the axis along which w varies more."""
+        mean = w.mean(axis=(-2, -1), keepdims=True)
+        spread = ((w - mean) ** 2).sum(0).max(axis=(-2, -1))
+        size = (mean**2).sum(0)[..., 0, 0]
+        # tanh(r/s)/r is smooth up to r = i pi s/2
+        rough = size + (np.pi / 2 * self._law.width) ** 2 < _MARGIN**2 * spread
+        first = ((w[..., -1, :] - w[..., 0, :]) ** 2).sum(0).max(-1)
+        second = ((w[..., :, -1] - w[..., :, 0]) ** 2).sum(0).max(-1)
+        return rough, np.where(first > second, 0, 1)
+
+    def _full(self, q: Array) -> Array:
+        """(times, 3): V_x, V_y, Omega."""
+        full = np.zeros((q.shape[0], 3))
+        full[:, list(self._modes)] = q
+        return full
+
+
+def _single(residual: Residual, halvings: int, q: Array, ends: Array, xtol: float) -> Array:
+    """The zero for motions along y alone."""
+
+    def function(x: Array, which: Integers) -> tuple[Array, Array]:
+        value, slope = residual(x[:, None], which, halvings=halvings)
+        return value[:, 0], slope[:, 0, 0]
+
+    return guarded_newton(function, np.clip(q[:, 0], *ends), *ends, xtol)[:, None]
+
+
+def _norm(w: Array) -> Array:
+    return np.maximum(np.hypot(w[0], w[1]), _TINY)

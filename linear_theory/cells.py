@@ -1,0 +1,95 @@
+"""Integrals over cells of functions that turn round at points where the sheet is at rest.
+
+A cell carries polynomials by their values at order x order Gauss-Legendre points of [-1, 1]^2. Where
+the integrand is not smooth on a cell, the cell is halved along the direction in which the motion
+varies more, and the polynomials are interpolated to the halves. Cells so graded towards a point
+converge geometrically with the number of halvings.
+"""
+
+from collections.abc import Callable
+from functools import lru_cache
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+Integers = NDArray[np.int64]
+
+
+class Rule(NamedTuple):
+    """Gauss points and weights of one direction, and interpolation to the two halves, (n, n) each."""
+
+    points: Array
+    weights: Array
+    halves: tuple[Array, Array]
+
+
+@lru_cache
+def gauss(order: int) -> Rule:
+    """The rule with `order` points."""
+    points, weights = np.polynomial.legendre.leggauss(order)
+    vandermonde = np.linalg.inv(np.polynomial.legendre.legvander(points, order - 1))
+    halves = [
+        np.polynomial.legendre.legvander((points + shift) / 2, order - 1) @ vandermonde
+        for shift in (-1, 1)
+    ]
+    return Rule(points, weights, (halves[0], halves[1]))
+
+
+class Graded(NamedTuple):
+    """Cells after grading: values (channels, cells, n, n), owners (cells,) and shares (cells,) of the
+    area of the cell that they come from."""
+
+    values: Array
+    owners: Integers
+    shares: Array
+
+    def integrals(self, functions: Array) -> Array:
+        """Integrals of (functions, cells, n, n) summed for each owner, (functions, owners)."""
+        weights = gauss(functions.shape[-1]).weights
+        sums = ((functions @ weights) @ weights) * self.shares
+        return np.stack([np.bincount(self.owners, s) for s in sums])
+
+
+def graded(
+    values: Array,
+    owners: Integers,
+    roughness: Callable[[Array, Integers], tuple[NDArray[np.bool_], Integers]],
+    halvings: int,
+) -> Graded:
+    """Halve cells until they are smooth.
+
+    values: (channels, cells, n, n), polynomials at the Gauss points; owners: (cells,), 0, 1, ..., the
+    problem (here: the time) that a cell belongs to; roughness(values, owners) tells which cells to
+    halve and along which local axis (0 or 1); halvings: the most that one cell is halved.
+    """
+    rule = gauss(values.shape[-1])
+    parts: list[Graded] = []
+    share = 1.0
+    for depth in range(halvings + 1):
+        rough, axis = roughness(values, owners)
+        if depth == halvings:
+            rough[:] = False
+        smooth = ~rough
+        parts.append(Graded(values[:, smooth], owners[smooth], np.full(smooth.sum(), share)))
+        if not rough.any():
+            break
+        values, owners = _halved(values[:, rough], owners[rough], axis[rough], rule)
+        share /= 2
+    return Graded(
+        np.concatenate([p.values for p in parts], axis=1),
+        np.concatenate([p.owners for p in parts]),
+        np.concatenate([p.shares for p in parts]),
+    )
+
+
+def _halved(values: Array, owners: Integers, axis: Integers, rule: Rule) -> tuple[Array, Integers]:
+    """The halves of all cells, along axis 0 or 1 of each."""
+    first, second = values[:, axis == 0], values[:, axis == 1]
+    parts = [half @ first for half in rule.halves] + [second @ half.T for half in rule.halves]
+    owners_first, owners_second = owners[axis == 0], owners[axis == 1]
+    return (
+        np.concatenate(parts, axis=1),
+        np.concatenate([owners_first, owners_first, owners_second, owners_second]),
+    )

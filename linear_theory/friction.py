@@ -1,0 +1,110 @@
+"""Friction: how the force on a point depends on its speed (law) and on what rests on it (load).
+
+The force on an element is -mu N f(|w|) w/|w|, w its velocity against the ground. The coefficient mu
+cancels in the balance of a sheet that friction does not deform.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linear_theory import validation
+from linear_theory.motion import Motion
+
+Array = NDArray[np.float64]
+
+LOADS = ("current", "grown", "material")
+LAWS = ("coulomb", "tanh", "viscous")
+
+
+@dataclass(frozen=True)
+class FrictionLaw:
+    """f(r) of the speed r: 1 ("coulomb"), tanh(r/slip_speed) ("tanh", eq. 3), or r ("viscous").
+
+    slip_speed: length per time, > 0, for "tanh" only. Raises ValueError otherwise.
+    """
+
+    name: str = "coulomb"
+    slip_speed: float | None = None
+
+    def __post_init__(self) -> None:
+        validation.choice("friction", self.name, LAWS)
+        if self.name == "tanh":
+            if self.slip_speed is None:
+                raise ValueError("slip_speed = None: must be > 0 for friction = 'tanh'")
+            object.__setattr__(self, "slip_speed", validation.positive("slip_speed", self.slip_speed))
+        elif self.slip_speed is not None:
+            raise ValueError(f"slip_speed = {self.slip_speed!r}: only friction = 'tanh' has one")
+
+    @property
+    def width(self) -> float:
+        """Speed over which the force turns round: 0 for Coulomb, infinite for viscous friction."""
+        return {"coulomb": 0.0, "viscous": np.inf}.get(self.name, self.slip_speed or 0.0)
+
+    def scaled(self, factor: float) -> "FrictionLaw":
+        """The law for speeds divided by `factor`."""
+        if self.slip_speed is None:
+            return self
+        return FrictionLaw(self.name, self.slip_speed / factor)
+
+    def ratio(self, r: Array) -> Array:
+        """f(r)/r."""
+        if self.name == "viscous":
+            return np.ones_like(r)
+        return self._force(r) / r
+
+    def ratio_slope(self, r: Array) -> Array:
+        """d(f(r)/r)/dr / r."""
+        if self.name == "viscous":
+            return np.zeros_like(r)
+        if self.name == "coulomb":
+            return -(r**-3)
+        x = r / self.width
+        sech2 = 1 - np.tanh(x) ** 2
+        # x sech^2 x - tanh x, which is -2/3 x^3 for small x, where it would cancel
+        series = x**3 * (-2 / 3 + x * x * (8 / 15 - x * x * 34 / 105))
+        return np.asarray(np.where(x < 0.03, series, x * sech2 - np.tanh(x)) / r**3)
+
+    def ratio_quotient(self, before: Array, after: Array, slope: Array, step: float) -> Array:
+        """[f(r')/r' - f(r)/r]/step for r' = r + step slope, without cancellation."""
+        if self.name == "viscous":
+            return np.zeros_like(before)
+        if self.name == "coulomb":
+            return -slope / (before * after)
+        s = self.width
+        t, t_after = np.tanh(before / s), np.tanh(after / s)
+        change = np.tanh(step * slope / s) / step * (1 - t * t_after)
+        return np.asarray((change * before - t * slope) / (before * after))
+
+    def _force(self, r: Array) -> Array:
+        return np.ones_like(r) if self.name == "coulomb" else np.tanh(r / self.width)
+
+
+def load_rate(motion: Motion, load: str) -> Array:
+    """e of the load 1 + alpha e per reference area, (times, cells, n, n).
+
+    "current": weight grows with the current area, e = tr(strain), J of eq. 11; "grown": with the area
+    of the grown reference, e = 2c; "material": weight is conserved, e = 0. Raises ValueError for other
+    names.
+    """
+    validation.choice("load", load, LOADS)
+    if load == "current":
+        return motion.dilation
+    if load == "grown":
+        return 2 * motion.growth
+    return np.zeros_like(motion.growth)
+
+
+def check_load(motion: Motion, rate: Array, alpha: float) -> None:
+    """Raise ValueError where the load 1 + alpha e is not positive, and say where."""
+    lowest = 1 + alpha * rate
+    if lowest.min() > 0:
+        return
+    _, cell, i, j = np.unravel_index(lowest.argmin(), lowest.shape)
+    x, y = motion.position[:, cell, i, j]
+    limit = -1 / rate.min() if alpha > 0 else -1 / rate.max()
+    raise ValueError(
+        f"alpha = {alpha:g}: the area element 1 + alpha tr(strain) would be {lowest.min():.3g} at "
+        f"x = {x:.3g}, y = {y:.3g}; must be {'<' if alpha > 0 else '>'} {limit:.4g}"
+    )

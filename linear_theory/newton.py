@@ -1,0 +1,76 @@
+"""Zeros of many expensive monotone functions at once, in as few evaluations as will do.
+
+(`roots` is for cheap functions whose zeros are wanted to the last digit.)
+"""
+
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linear_theory.errors import NotConvergedError
+
+Array = NDArray[np.float64]
+Integers = NDArray[np.int64]
+Problem = Callable[[Array, Integers], tuple[Array, Array]]
+
+_MOST_EVALUATIONS = 120
+_PATIENCE = 10  # Newton steps before every second one becomes a bisection
+
+
+def guarded_newton(function: Problem, start: Array, low: Array, high: Array, xtol: float) -> Array:
+    """Zeros of N rising functions with low < zero < high, (N,) each.
+
+    function(x, which): values and slopes at x of the functions number `which`. Newton steps, until one
+    is below xtol; where a step would leave the bracket, which every evaluation narrows, the bracket is
+    halved. Where a function jumps through zero, the place of the jump. Raises NotConvergedError, with
+    the last iterates.
+    """
+    x, low, high = start.copy(), low.copy(), high.copy()
+    active = np.arange(start.size)
+    for evaluation in range(_MOST_EVALUATIONS):
+        value, slope = function(x[active], active)
+        rising = value > 0
+        high[active[rising]] = x[active[rising]]
+        low[active[~rising]] = x[active[~rising]]
+        below, above = low[active], high[active]
+        with np.errstate(divide="ignore", invalid="ignore"):
+            new = x[active] - value / slope
+        outside = ~((new > below) & (new < above))
+        if evaluation > _PATIENCE and evaluation % 2:
+            outside[:] = True
+        new = np.where(value == 0, x[active], np.where(outside, (below + above) / 2, new))
+        moved = abs(new - x[active])
+        x[active] = new
+        active = active[moved > xtol]
+        if not active.size:
+            return x
+    raise NotConvergedError(f"{active.size} of {x.size} zeros not found to {xtol:g}", x)
+
+
+def damped_newton(function: Problem, start: Array, xtol: float) -> Array:
+    """Zeros of N gradients of convex functions of J variables, (N, J).
+
+    function(x, which): gradients (n, J) and Hessians (n, J, J). A step that does not make the gradient
+    smaller is halved. Raises NotConvergedError, with the last iterates.
+    """
+    x, step = start.copy(), np.zeros_like(start)
+    before = np.full(start.shape[0], np.inf)
+    active = np.arange(start.shape[0])
+    for _ in range(_MOST_EVALUATIONS):
+        gradient, hessian = function(x[active], active)
+        size = np.linalg.norm(gradient, axis=1)
+        worse = size >= before[active]
+        back, ahead = active[worse], active[~worse]
+        step[back] /= 2
+        x[back] -= step[back]
+        if ahead.size:
+            slope = hessian[~worse]
+            floor = 1e-14 * np.trace(slope, axis1=1, axis2=2)[:, None, None] * np.eye(start.shape[1])
+            step[ahead] = np.linalg.solve(slope + floor, -gradient[~worse][:, :, None])[:, :, 0]
+            before[ahead] = size[~worse]
+            x[ahead] += step[ahead]
+        active = active[abs(step[active]).max(1) > xtol]
+        if not active.size:
+            return x
+    raise NotConvergedError(f"{active.size} of {len(x)} balances not found to {xtol:g}", x)
