@@ -111,6 +111,8 @@ class AirySeries(LinearField):
     along y (C, D); tail: whether their tails are summed.
     """
 
+    mirrored = True
+
     def __init__(
         self, sheet: Sheet, wave: TravellingWave, modes: tuple[int, int], tail: bool, printed: bool
     ) -> None:

@@ -67,9 +67,10 @@ def held_displacement(
     u = np.zeros((2 * cases, 2, *np.broadcast(x, y).shape))
     k = 2 * np.pi * orders / sheet.length
     angle = np.multiply.outer(k, y)
-    shape = (-1,) + (1,) * np.ndim(y)
-    u[:cases, 1] = (1 + nu) * np.sin(angle) / k.reshape(shape)
-    u[cases:, 1] = -(1 + nu) * np.cos(angle) / k.reshape(shape)
+    k = k.reshape((-1,) + (1,) * np.ndim(y))
+    between = (slice(None), *(np.newaxis,) * (u.ndim - 2 - np.ndim(y)))  # y may have fewer axes than x
+    u[:cases, 1] = ((1 + nu) * np.sin(angle) / k)[between]
+    u[cases:, 1] = (-(1 + nu) * np.cos(angle) / k)[between]
     if without_line:
         slope = end_slopes(orders) / sheet.length
         y2, x2 = y * y - sheet.length**2 / 12, x * x - sheet.width**2 / 12

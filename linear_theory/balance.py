@@ -30,7 +30,7 @@ Integrand = Callable[[Array, Integers], Array]
 Roughness = Callable[[Array, Integers], tuple[NDArray[np.bool_], Integers]]
 Residual = Callable[..., tuple[Array, Array]]
 
-_COARSE_HALVINGS = 10
+_COARSE_HALVINGS = 8
 _MARGIN = 1.5  # mean over variation of w on a cell, above which Gauss quadrature sees it as smooth
 _TINY = 1e-80  # replaces |w| = 0, where w/|w| is any direction
 _REST = 1e-6  # speeds below this share of the mean speed count as rest
@@ -76,7 +76,9 @@ class Balance:
             channels += [np.broadcast_to(p, rate.shape) for p in motion.position]
         self._values = np.stack(channels)  # v_x, v_y, area, e and, if the sheet may turn, x, y
         self._scale = float(np.sqrt(np.mean(motion.velocity**2))) or 1.0
-        self._stages = ((min(_COARSE_HALVINGS, halvings), 1e-2), (halvings, tolerance))
+        self._stages = [(halvings, tolerance)]
+        if halvings > 2 * _COARSE_HALVINGS:
+            self._stages.insert(0, (_COARSE_HALVINGS, 1e-2))
 
     def solve(self) -> RigidMotion:
         """Balance friction at all times. Raises NotConvergedError if an iteration stalls."""
@@ -86,6 +88,20 @@ class Balance:
         speed = _norm(velocity)
         rest = np.mean(speed < _REST * self._scale, axis=(1, 2, 3))
         return RigidMotion(self._full(leading), self._full(remainder), rest, float(speed.max()))
+
+    def correction(self, leading: Array, remainder: Array) -> RigidMotion:
+        """One Newton step from a motion (times, 3) that was found with other cells."""
+        modes, times = list(self._modes), np.arange(self._values.shape[1])
+        halvings = self._stages[-1][0]
+        first, second = leading[:, modes], remainder[:, modes]
+        steps = [
+            -np.linalg.solve(slope, value[:, :, None])[:, :, 0]
+            for value, slope in (
+                self._leading(first, times, halvings),
+                self._remainder(first, second, times, halvings),
+            )
+        ]
+        return RigidMotion(self._full(steps[0]), self._full(steps[1]), np.zeros(times.size), 0.0)
 
     def _zero(self, residual: Residual, offset: Array, unit: float) -> Array:
         """q (times, unknowns) of residual 0, first roughly with few halvings, then as asked."""

@@ -39,12 +39,15 @@ class LinearField(ABC):
 
     Points x, y (units of length, inside the sheet) and times t broadcast. Vectors have (x, y) and
     symmetric tensors (xx, yy, xy) on the first axis. The displacement has zero mean and zero mean
-    rotation over the reference area. `seconds` is what setting up and solving took.
+    rotation over the reference area. `seconds` is what setting up and solving took. `mirrored` tells
+    whether the motion is mirror symmetric in x.
     """
 
     sheet: Sheet
     wave: Wave
     seconds: float
+    mirrored: bool = False
+    _kept: tuple[object, tuple[Array, Array, Array, Array]] | None = None
 
     @property
     @abstractmethod
@@ -99,22 +102,33 @@ class LinearField(ABC):
         """The field on cells x cells Gauss points, as the friction balance reads it.
 
         times (times,); cells: how many across and along; order: points per cell and direction;
-        half: whether to cover x >= 0 only (for waves that are mirror symmetric in x).
+        half: whether to cover x >= 0 only (for motions that are mirror symmetric in x).
         """
         t = validation.real_array("times", times)
-        x, y, area = rectangle_cells(self.sheet, cells, order, half)
         field = self._for_times(t)
-        displacements = field._displacements(x, y)
-        strains = field._strains(x, y)
-        dilations = strains[:, 0] + strains[:, 1]
+        position, area, displacements, dilations = field._on_cells(cells, order, half)
+        growth_time = t.reshape(-1, *(1,) * area.ndim)
         return Motion(
-            position=np.stack(np.broadcast_arrays(x, y)),
+            position=position,
             area=area,
             velocity=np.moveaxis(np.tensordot(field._amplitude_rates(t).T, displacements, 1), 1, 0),
             dilation=np.tensordot(field._amplitudes(t).T, dilations, 1),
-            growth=self.wave.value(x, y, t.reshape(-1, *(1,) * area.ndim), self.sheet.length),
+            growth=self.wave.value(position[0], position[1], growth_time, self.sheet.length),
             mirrored=half,
         )
+
+    def _on_cells(
+        self, cells: tuple[int, int], order: int, half: bool
+    ) -> tuple[Array, Array, Array, Array]:
+        """Points, areas, displacements and dilations of the basis; kept, since times come in lots."""
+        key = cells, order, half
+        if self._kept is None or self._kept[0] != key:
+            x, y, area = rectangle_cells(self.sheet, cells, order, half)
+            strains = self._strains(x, y)
+            position = np.stack(np.broadcast_arrays(x, y))
+            values = position, area, self._displacements(x, y), strains[:, 0] + strains[:, 1]
+            self._kept = key, values
+        return self._kept[1]
 
     def _checked(self, x: ArrayLike, y: ArrayLike, t: ArrayLike) -> tuple[Array, Array, Array]:
         self.sheet.check_inside(x, y)
@@ -129,4 +143,6 @@ def combine(amplitudes: Array, basis: Array) -> Array:
     """Sum over j of amplitudes[j] (times) and basis[j] (components, *points), broadcast."""
     if amplitudes.ndim == 1:
         return np.asarray(np.tensordot(amplitudes, basis, 1))
+    missing = max(amplitudes.ndim + 1 - basis.ndim, 0)  # axes that t has and the points lack
+    basis = basis.reshape(*basis.shape[:2], *(1,) * missing, *basis.shape[2:])
     return np.asarray(sum(a * b for a, b in zip(amplitudes, basis, strict=True)))

@@ -81,19 +81,15 @@ class FrictionLaw:
         return np.ones_like(r) if self.name == "coulomb" else np.tanh(r / self.width)
 
 
-def load_rate(motion: Motion, load: str) -> Array:
-    """e of the load 1 + alpha e per reference area, (times, cells, n, n).
+def load_rate(load: str, dilation: Array, growth: Array) -> Array:
+    """e of the load 1 + alpha e per reference area, from tr(strain) and c per unit alpha.
 
     "current": weight grows with the current area, e = tr(strain), J of eq. 11; "grown": with the area
     of the grown reference, e = 2c; "material": weight is conserved, e = 0. Raises ValueError for other
     names.
     """
     validation.choice("load", load, LOADS)
-    if load == "current":
-        return motion.dilation
-    if load == "grown":
-        return 2 * motion.growth
-    return np.zeros_like(motion.growth)
+    return {"current": dilation, "grown": 2 * growth, "material": np.zeros_like(growth)}[load]
 
 
 def check_load(motion: Motion, rate: Array, alpha: float) -> None:

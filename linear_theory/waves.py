@@ -87,6 +87,15 @@ class TravellingWave:
         """Whether c(t + T/2) = -c(t): then dry friction gives no speed of first order."""
         return self.mean == 0 and not np.any(self.cosine[1::2]) and not np.any(self.sine[1::2])
 
+    @property
+    def reversal_time(self) -> float | None:
+        """t_0 with c(-y, t_0 - t) = c(y, t), so that V(t_0 - t) = V(t); None where there is none seen."""
+        if not np.any(self.sine):
+            return 0.0
+        if self.is_half_period_antisymmetric and not np.any(self.cosine):
+            return self.period / 2
+        return None
+
     def profile(self, phase: ArrayLike) -> Array:
         """f(phi) of c = f(2 pi (n y/L - t/T)), same shape as `phase` (radians)."""
         angle = np.multiply.outer(self.harmonics, validation.real_array("phase", phase))

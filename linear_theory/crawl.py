@@ -1,0 +1,148 @@
+"""Speed of a crawling sheet: balance of friction at every time, then the mean over a period."""
+
+import math
+import time
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from linear_theory import validation
+from linear_theory.airy import airy_series
+from linear_theory.field import LinearField, Wave
+from linear_theory.friction import LOADS, FrictionLaw, load_rate
+from linear_theory.period import Crawl, average, first_resolution
+from linear_theory.ritz import ritz_field
+from linear_theory.sheet import Sheet
+from linear_theory.speed import CrawlSpeed
+from linear_theory.waves import TravellingWave
+
+Array = NDArray[np.float64]
+
+METHODS = ("auto", "airy", "ritz")
+
+
+def crawl_speed(
+    sheet: Sheet,
+    wave: Wave,
+    alpha: float,
+    load: str = "current",
+    friction: str = "coulomb",
+    slip_speed: float | None = None,
+    rtol: float = 1e-4,
+    atol: float | None = None,
+    method: str = "auto",
+) -> CrawlSpeed:
+    """Mean speed of a rectangular sheet in the small-strain theory (eqs 10 and 11).
+
+    alpha: growth coupling; load: "current", "grown" or "material" (see `friction.load_rate`);
+    friction: "coulomb", "tanh" with its slip_speed (length per time), or "viscous"; rtol, atol: the
+    result is converged where error <= max(rtol |mean|, atol), atol = 1e-3 rtol alpha^2 L/T unless
+    given; method: "airy" for waves c(y, t), "ritz" for any, or "auto".
+
+    For a sine wave the speed is of order alpha^2, beyond what first-order strains determine: it is
+    the speed of the stated model, and `model_error`, its distance to a nonlinear sheet, is not known
+    here. Raises ValueError for bad input, among it an alpha so large that the area element
+    1 + alpha tr(strain) is not positive somewhere.
+    """
+    validation.choice("method", method, METHODS)
+    travelling = isinstance(wave, TravellingWave)
+    if method == "airy" and not travelling:
+        raise ValueError("method = 'airy': must be 'ritz' for a wave that depends on x")
+    field_rtol = max(0.3 * validation.tolerance(rtol), validation.SMALLEST_RTOL)
+    field: LinearField
+    if method != "ritz" and isinstance(wave, TravellingWave):
+        field = airy_series(sheet, wave, rtol=field_rtol)
+    else:
+        field = ritz_field(sheet, wave, rtol=field_rtol)
+    return field_speed(field, alpha, load, friction, slip_speed, rtol, atol)
+
+
+def field_speed(
+    field: LinearField,
+    alpha: float,
+    load: str = "current",
+    friction: str = "coulomb",
+    slip_speed: float | None = None,
+    rtol: float = 1e-4,
+    atol: float | None = None,
+) -> CrawlSpeed:
+    """`crawl_speed` for a deformation that is known: series, Ritz or finite elements."""
+    start = time.perf_counter()
+    alpha = validation.real("alpha", alpha)
+    rtol = validation.tolerance(rtol)
+    validation.choice("load", load, LOADS)
+    law = FrictionLaw(friction, slip_speed)
+    unit = field.sheet.length / field.wave.period
+    atol = 1e-3 * rtol * alpha**2 * unit if atol is None else validation.positive("atol", atol)
+    if alpha == 0:
+        return _at_rest(field, load, law)
+    crawl = Crawl(field, alpha, load, law, first_resolution(field, rtol))
+    period = average(crawl, rtol, atol)
+    return CrawlSpeed(
+        mean=period.mean,
+        error=period.error,
+        model_error=math.nan,
+        converged=period.error <= max(rtol * abs(period.mean), atol),
+        times=period.times,
+        velocity=period.rigid[1],
+        seconds=field.seconds + time.perf_counter() - start,
+        model=_model(field, load, law),
+        slip_ratio=law.width / period.fastest,
+        first_order=period.first_order,
+        sticks=period.sticks,
+        rigid=None if field.mirrored else period.rigid,
+    )
+
+
+def friction_field(
+    field: LinearField,
+    alpha: float,
+    x: ArrayLike,
+    y: ArrayLike,
+    t: float,
+    load: str = "current",
+    friction: str = "coulomb",
+    slip_speed: float | None = None,
+    rtol: float = 1e-6,
+) -> "FrictionField":
+    """Friction on a crawling sheet at time t and at the points x, y (broadcast).
+
+    Raises ValueError as `crawl_speed` does, and for points outside the sheet.
+    """
+    alpha, t = validation.real("alpha", alpha), validation.real("t", t)
+    law = FrictionLaw(friction, slip_speed)
+    resolution = first_resolution(field, validation.tolerance(rtol))
+    motion = Crawl(field, alpha, load, law, resolution).balance(np.array([t]))
+    v_x, v_y, omega = alpha * (motion.leading + alpha * motion.remainder)[0]
+    x, y = np.broadcast_arrays(validation.real_array("x", x), validation.real_array("y", y))
+    slip = alpha * field.velocity(x, y, t) + np.stack([v_x - omega * y, v_y + omega * x])
+    speed = np.hypot(*slip)
+    rate = load_rate(
+        load, field.strain(x, y, t)[:2].sum(0), field.wave.value(x, y, t, field.sheet.length)
+    )
+    weight = 1 + alpha * rate
+    with np.errstate(divide="ignore", invalid="ignore"):
+        force = np.where(speed > 0, -weight * law.ratio(speed) * slip, 0.0)
+    return FrictionField(force, slip, weight)
+
+
+class FrictionField(NamedTuple):
+    """force (2, ...): per reference area, over mu times the weight per area; slip (2, ...): velocity
+    against the ground, length per time; weight (...): load per reference area, 1 without growth."""
+
+    force: Array
+    slip: Array
+    weight: Array
+
+
+def _at_rest(field: LinearField, load: str, law: FrictionLaw) -> CrawlSpeed:
+    """No growth, no motion."""
+    nothing = np.zeros(1)
+    return CrawlSpeed(
+        0.0, 0.0, 0.0, True, nothing, nothing, field.seconds, _model(field, load, law), math.inf, 0.0
+    )
+
+
+def _model(field: LinearField, load: str, law: FrictionLaw) -> str:
+    return f"small strain ({type(field).__name__}), {load} load, {law.name} friction"

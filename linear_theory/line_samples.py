@@ -1,0 +1,189 @@
+"""Friction balance of any wave c(S, t) on a line, from samples.
+
+Eqs 5 and 6 give the velocity in the frame of the mean motion, alpha g, g = int_0^S c_t dS' less its
+mean; eq. 7 is balanced at every time by
+
+    V(t) = -alpha m,   m the weighted median of g over the body, weight 1 + alpha c      (dry)
+
+or by the root of the tanh law. Here c_t, hence g, is linear between equidistant points and the
+weight constant there: every step after that is exact, so the error falls with the square of the
+spacing, and samples and times are doubled until the last change meets the tolerance.
+"""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linear_theory import validation
+from linear_theory.field import Wave
+from linear_theory.line_law import REST_PART, REST_SPEED, Balance, LineLaw
+from linear_theory.roots import EPS, bracketed_newton
+
+Array = NDArray[np.float64]
+
+FEWEST = 64
+MOST_CELLS, MOST_TIMES, MOST_SAMPLES = 1 << 14, 1 << 10, 1 << 21
+"""Bounds of the doubling; a tolerance that needs more is reported as missed."""
+
+BLOCK = 1 << 19
+"""Cells times times held at once."""
+
+
+class Snapshot(NamedTuple):
+    """Speed, its coefficients of alpha and alpha^2, largest speed and part at rest, each (times,)."""
+
+    velocity: Array
+    first: Array
+    second: Array
+    fastest: Array
+    rest: Array
+
+
+def sampled_balance(wave: Wave, alpha: float, law: LineLaw, rtol: float) -> Balance:
+    """Speed of a general wave; raises ValueError if 1 + alpha c <= 0 at a sampled point."""
+    period = float(wave.period)
+    cells = times = FEWEST
+    space = time = math.inf
+    while True:
+        instants = period / times * np.arange(times)
+        fine = _snapshots(wave, alpha, law, instants, 2 * cells)
+        coarse = _snapshots(wave, alpha, law, instants, cells)
+        mean = float(fine.velocity.mean())
+        # A difference may vanish by chance; a quarter of the one before it, of second order, does not.
+        space = max(abs(mean - float(coarse.velocity.mean())), space / 4)
+        time = max(abs(mean - float(fine.velocity[::2].mean())), time / 4)
+        goal = max(rtol * abs(mean), 1e-3 * rtol * alpha**2 / period)
+        room = cells * times < MOST_SAMPLES
+        more_cells = room and space > goal / 2 and cells < MOST_CELLS
+        more_times = room and time > goal / 2 and times < MOST_TIMES
+        if space + time <= goal or not (more_cells or more_times):
+            break
+        cells, times = cells << more_cells, times << more_times
+    error = space + time + 16 * EPS * float(fine.fastest.max())
+    sticks = law.friction == "coulomb" and bool(fine.rest.max() >= REST_PART)
+    coefficients = float(fine.first.mean()), float(fine.second.mean())
+    fastest = float(fine.fastest.max())
+    return Balance(mean, error, instants, fine.velocity, fastest, *coefficients, sticks)
+
+
+def _snapshots(wave: Wave, alpha: float, law: LineLaw, times: Array, cells: int) -> Snapshot:
+    step = max(1, BLOCK // cells)
+    parts = [
+        _snapshot(wave, alpha, law, times[i : i + step, None], cells)
+        for i in range(0, times.size, step)
+    ]
+    return Snapshot(*(np.concatenate(column) for column in zip(*parts, strict=True)))
+
+
+def _snapshot(wave: Wave, alpha: float, law: LineLaw, times: Array, cells: int) -> Snapshot:
+    y = np.linspace(-0.5, 0.5, cells + 1)
+    growth, rate = (_on_grid(f(0.0, y, times), times, y) for f in (wave.value, wave.rate))
+    _check_stretch(alpha, growth, times, y)
+    g = np.zeros_like(rate)
+    np.cumsum(_middle(rate) / cells, axis=1, out=g[:, 1:])
+    g -= _middle(g).mean(axis=1, keepdims=True)
+    mean_growth = _middle(growth) if law.grows else np.zeros((times.size, cells))
+    weight = (1 + alpha * mean_growth) / cells
+    if law.friction == "coulomb":
+        level, _, _ = _weighted_median(g, weight)
+        velocity = -alpha * level
+        first, second = _dry_coefficients(g, mean_growth)
+    else:
+        velocity = -alpha * np.sum(weight * _middle(g), axis=1) / weight.sum(axis=1)
+        first, second = np.zeros(times.size), -np.mean(mean_growth * _middle(g), axis=1)
+        if law.slip_speed is not None:
+            velocity = _tanh_speed(alpha * g, weight, law.slip_speed, velocity)
+    slip = velocity[:, None] + alpha * g
+    tolerance = REST_SPEED * np.ptp(slip, axis=1, keepdims=True)
+    rest = np.mean(_part_below(slip, tolerance) - _part_below(slip, -tolerance), axis=1)
+    return Snapshot(velocity, first, second, abs(slip).max(axis=1), rest)
+
+
+def _on_grid(values: Array, times: Array, y: Array) -> Array:
+    return np.broadcast_to(validation.real_array("wave", values), (times.size, y.size))
+
+
+def _check_stretch(alpha: float, growth: Array, times: Array, y: Array) -> None:
+    stretch = 1 + alpha * growth
+    row, column = np.unravel_index(stretch.argmin(), stretch.shape)
+    if stretch[row, column] <= 0:
+        raise ValueError(
+            f"alpha = {alpha:g}: 1 + alpha c = {stretch[row, column]:g} at S = {y[column] + 0.5:.4g}, "
+            f"t = {times[row, 0]:.4g}, must be > 0"
+        )
+
+
+def _middle(values: Array) -> Array:
+    return np.asarray((values[:, 1:] + values[:, :-1]) / 2)
+
+
+def _part_below(g: Array, level: Array) -> Array:
+    """Part of each cell where the linear g is <= level, (times, cells); level (times, 1)."""
+    low, high = np.minimum(g[:, 1:], g[:, :-1]), np.maximum(g[:, 1:], g[:, :-1])
+    with np.errstate(divide="ignore", invalid="ignore"):
+        part = np.clip((level - low) / (high - low), 0, 1)
+    return np.where(high > low, part, level >= high)
+
+
+def _weighted_median(g: Array, weight: Array) -> tuple[Array, Array, Array]:
+    """Level, density of the weight there, and part of each cell below it, for every time.
+
+    The weight below a level is linear between neighbours of the sorted samples: bisect for the
+    neighbours, then interpolate. It jumps where a cell is flat.
+    """
+    rows = np.arange(g.shape[0])
+    ordered, half = np.sort(g, axis=1), weight.sum(axis=1) / 2
+    below, above = np.zeros(rows.size, int), np.full(rows.size, g.shape[1] - 1)
+    while np.any(above - below > 1):
+        middle = (below + above) // 2
+        enough = np.sum(weight * _part_below(g, ordered[rows, middle, None]), axis=1) >= half
+        below, above = np.where(enough, below, middle), np.where(enough, middle, above)
+    low, high = ordered[rows, below], ordered[rows, above]
+    flat = (g[:, 1:] == g[:, :-1]) & (g[:, 1:] == high[:, None])
+    at_low = np.sum(weight * _part_below(g, low[:, None]), axis=1)
+    at_high = np.sum(weight * np.where(flat, 0.0, _part_below(g, high[:, None])), axis=1)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        level = low + (high - low) * np.clip((half - at_low) / (at_high - at_low), 0, 1)
+        density = (at_high - at_low) / (high - low)
+    jump = ~((half < at_high) & (at_low < half))
+    level, density = np.where(jump, high, level), np.where(jump, np.inf, density)
+    return level, density, _part_below(g, level[:, None])
+
+
+def _dry_coefficients(g: Array, growth: Array) -> tuple[Array, Array]:
+    """Of V = V1 alpha + V2 alpha^2: V1 = -m0, V2 = E[c sgn(m0 - g)]/(2 p(m0))."""
+    level, density, below = _weighted_median(g, np.full(growth.shape, 1 / growth.shape[1]))
+    return -level, np.mean(growth * (2 * below - 1), axis=1) / (2 * density)
+
+
+def _tanh_speed(velocity: Array, weight: Array, slip_speed: float, guess: Array) -> Array:
+    """V with int w tanh((V + v)/v0) = 0, v = `velocity` linear on each cell."""
+
+    def balance(speed: Array) -> tuple[Array, Array]:
+        x = (speed[:, None] + velocity) / slip_speed
+        value, slope = _mean_tanh(x[:, :-1], x[:, 1:])
+        return np.sum(weight * value, axis=1), np.sum(weight * slope, axis=1) / slip_speed
+
+    fastest = abs(velocity).max(axis=1)
+    return bracketed_newton(balance, -fastest, fastest, guess, atol=EPS * float(fastest.max()))
+
+
+def _mean_tanh(a: Array, b: Array) -> tuple[Array, Array]:
+    """Means of tanh and of its derivative between a and b: integrals, or Gauss points if close."""
+    gap = b - a
+    close = (abs(gap) < 0.02) | ((a * b > 0) & (np.minimum(abs(a), abs(b)) > 20))
+    safe = np.where(close, 1.0, gap)
+    left, right = np.tanh(a), np.tanh(b)
+    far_value = (_log_cosh(b) - _log_cosh(a)) / safe
+    far_slope = (right - left) / safe
+    centre, offset = (a + b) / 2, gap / math.sqrt(12)
+    up, down = np.tanh(centre + offset), np.tanh(centre - offset)
+    near_slope = 1 - (up**2 + down**2) / 2
+    return np.where(close, (up + down) / 2, far_value), np.where(close, near_slope, far_slope)
+
+
+def _log_cosh(x: Array) -> Array:
+    x = abs(x)
+    return np.asarray(x + np.log1p(np.exp(-2 * x)))

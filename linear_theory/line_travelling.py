@@ -1,0 +1,200 @@
+"""Friction balance of any travelling wave on a line, to rounding.
+
+With n whole waves on the body, v_cm = -(alpha/nT) g, g = c - mean c, at all times, so that
+
+    V = (alpha/nT) m,   m the weighted median of g, weight w = 1 + alpha c        (dry, eq. 7)
+
+(weight 1 if the load is conserved), a constant. To leading order m is the plain median m0, and
+w adds a rise d of the level: twice the weight between m0 and m0 + d equals alpha E|g - m0|. Hence
+
+    V = (alpha/nT) m0 + (alpha^2/nT) E|g - m0|/(2 p(m0)) + ...,   p the density of the values of g.
+
+g is continuous and takes all values between its extremes, so its median is unique. Where it is flat
+at the median (a pulse with gaps) part of the body is at rest and bears any friction up to its limit:
+V stays where it is for a range of forces, and all the coefficients beyond the first vanish. It is
+also the limit v0 -> 0 of the law tanh(v/v0).
+"""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linear_theory.line_law import REST_PART, REST_SPEED, Balance, LineLaw
+from linear_theory.line_profile import Profile, polynomial
+from linear_theory.roots import EPS, bracketed_newton
+from linear_theory.waves import TravellingWave
+
+Array = NDArray[np.float64]
+
+SATURATED = 20.0
+"""|tanh(x)| = 1 to rounding beyond this."""
+
+GAUSS_POINTS = 10
+"""For tanh over an interval of length 1: poles at distance pi/2 or more, error < 1e-16."""
+
+MOST_HALVINGS = 60
+"""A cell halved so often is narrower than the rounding of its ends."""
+
+
+class Level(NamedTuple):
+    """Solution m = base + rise of a balance, and the error of m."""
+
+    base: float
+    rise: float
+    error: float
+
+
+def travelling_balance(wave: TravellingWave, alpha: float, law: LineLaw) -> Balance:
+    """Speed of a travelling wave; raises ValueError if 1 + alpha c <= 0 at some phase."""
+    sign = -1.0 if alpha < 0 else 1.0  # (alpha, c) and (-alpha, -c) are the same growth
+    profile, strength, mean = Profile.of(wave, sign), abs(alpha), sign * wave.mean
+    _check_stretch(profile, alpha, strength, mean)
+    weight = strength if law.grows else 0.0
+    unit = 1 / wave.count / wave.period
+    width = np.inf
+    if law.slip_speed is not None and strength:
+        width = law.slip_speed / (strength * abs(unit))
+    if law.friction == "coulomb":
+        level = _dry_level(profile, weight, mean)
+    elif math.isfinite(width):
+        level = _tanh_level(profile, weight, mean, width)
+    else:
+        level = _viscous_level(wave, weight, mean)
+    first, second = _coefficients(profile, wave, law)
+    value = level.base + level.rise
+    speed = strength * unit * value
+    fastest = strength * abs(unit) * float(abs(profile.values - value).max())
+    tolerance = REST_SPEED * float(np.ptp(profile.values))
+    sticks = law.friction == "coulomb" and profile.around(value, tolerance) >= REST_PART
+    error = strength * abs(unit) * (level.error + 4 * EPS * abs(value))
+    times = np.array([0.0, wave.period])
+    constant = np.array([speed, speed])
+    return Balance(speed, error, times, constant, fastest, sign * first * unit, second * unit, sticks)
+
+
+def _check_stretch(profile: Profile, alpha: float, strength: float, mean: float) -> None:
+    worst = int(profile.values.argmin())
+    growth = float(profile.values[worst]) + mean
+    if 1 + strength * growth <= 0:
+        side = "<" if alpha > 0 else ">"
+        raise ValueError(
+            f"alpha = {alpha:g}: 1 + alpha c = {1 + strength * growth:g} at the phase "
+            f"{profile.nodes[worst]:.4g} of the wave, must be > 0: alpha {side} "
+            f"{math.copysign(1, alpha) * -1 / growth:.6g}"
+        )
+
+
+def _coefficients(profile: Profile, wave: TravellingWave, law: LineLaw) -> tuple[float, float]:
+    """nT times the coefficients of |alpha| and alpha^2 for the profile as it is signed.
+
+    For tanh at a fixed slip speed the limit of small alpha is the viscous one.
+    """
+    if law.friction != "coulomb":
+        return 0.0, _variance(wave) if law.grows else 0.0
+    median = profile.median()
+    if not law.grows:
+        return median, 0.0
+    anchored = profile.anchored(median)
+    return median, anchored.mean_deviation(median) / (2 * anchored.density(median))
+
+
+def _variance(wave: TravellingWave) -> float:
+    return float(np.sum(wave.cosine**2 + wave.sine**2)) / 2
+
+
+def _viscous_level(wave: TravellingWave, weight: float, mean: float) -> Level:
+    """Weighted mean of g."""
+    level = weight * _variance(wave) / (1 + weight * mean)
+    return Level(0.0, level, 16 * EPS * level)
+
+
+def _dry_level(profile: Profile, weight: float, mean: float) -> Level:
+    """Weighted median of g."""
+    base = profile.median()
+    anchored = profile.anchored(base)
+    push = weight * anchored.mean_deviation(base)
+    factor, density = 1 + weight * mean, anchored.density(base)
+
+    def excess(height: Array) -> tuple[Array, Array]:
+        rise = anchored.rise(base, float(height))
+        value = 2 * (factor * rise.part + weight * rise.growth) - push
+        return np.array(value), np.array(2 * (factor * rise.part_rate + weight * rise.growth_rate))
+
+    room = float(anchored.values.max()) - base
+    height = (
+        bracketed_newton(excess, 0.0, room, push / (2 * factor * density)) if push else np.zeros(())
+    )
+    slope = float(excess(height)[1]) or np.inf
+    own = 0.0 if profile.symmetric else 4 * EPS * profile.scale + 4 * EPS / density
+    return Level(base, float(height), own + 8 * EPS * push / slope + 8 * EPS * float(height))
+
+
+def _tanh_level(profile: Profile, weight: float, mean: float, width: float) -> Level:
+    """Root m of int w tanh((m - g)/width) = 0, as a rise above the root for w = 1."""
+    base, own = (0.0, 0.0) if profile.symmetric else _tanh_median(profile, width)
+    shifted = profile.anchored(base).shifted(base)
+    top = float(shifted.values.max())
+
+    def balance(height: Array, finer: float = 1.0) -> tuple[Array, Array]:
+        # Free of cancellation: tanh x - tanh y = tanh(x - y) (1 - tanh x tanh y).
+        measure, above = _quadrature(shifted, (0.0, float(height)), width * finer)
+        before, after = np.tanh(-above / width), np.tanh((height - above) / width)
+        moved = np.tanh(height / width) * (measure @ (1 - before * after))
+        growth = mean + base + above
+        value = (1 + weight * (mean + base)) * moved + weight * (measure @ (above * after))
+        slope = measure @ ((1 + weight * growth) * (1 - after) * (1 + after)) / width
+        return np.array(value), np.array(slope)
+
+    if not weight:
+        return Level(base, 0.0, own)
+    height = bracketed_newton(balance, 0.0, top, weight * top**2 / 2)
+    miss, slope = balance(height, finer=0.5)
+    return Level(base, float(height), own + abs(float(miss / slope)) + 16 * EPS * float(height))
+
+
+def _tanh_median(profile: Profile, width: float) -> tuple[float, float]:
+    """Root of int tanh((m - g)/width) = 0, and its error."""
+
+    def balance(level: Array, finer: float = 1.0) -> tuple[Array, Array]:
+        measure, g = _quadrature(profile, (float(level),), width * finer)
+        t = np.tanh((level - g) / width)
+        return np.array(measure @ t), np.array(measure @ ((1 - t) * (1 + t)) / width)
+
+    ends = float(profile.values.min()), float(profile.values.max())
+    level = bracketed_newton(balance, *ends, profile.median(), atol=EPS * profile.scale)
+    miss, slope = balance(level, finer=0.5)
+    return float(level), float((abs(miss) + 4 * EPS) / slope) + 4 * EPS * profile.scale
+
+
+def _quadrature(profile: Profile, levels: tuple[float, ...], width: float) -> tuple[Array, Array]:
+    """Weights (of the period) and values of g at Gauss points that resolve tanh((level - g)/width).
+
+    Cells are halved until g varies by less than `width` over each, or stays SATURATED widths away
+    from all levels.
+    """
+    node, (left, right) = (
+        np.arange(profile.nodes.size - 1),
+        (0 * profile.nodes[1:], np.diff(profile.nodes)),
+    )
+    finished = []
+    for _ in range(MOST_HALVINGS):
+        ends = polynomial(profile.taylor[:, node], np.stack([left, right]))
+        low, high = ends.min(axis=0), ends.max(axis=0)
+        reach = SATURATED * width
+        near = np.any([(low - reach < m) & (m < high + reach) for m in levels], axis=0)
+        split = near & (high - low > width)
+        finished.append((node[~split], left[~split], right[~split]))
+        if not split.any():
+            break
+        node, left, right = node[split], left[split], right[split]
+        middle = (left + right) / 2
+        node = np.concatenate([node, node])
+        left, right = np.concatenate([left, middle]), np.concatenate([middle, right])
+    node, left, right = (np.concatenate(a) for a in zip(*finished, strict=True))
+    points, weights = np.polynomial.legendre.leggauss(GAUSS_POINTS)
+    half = (right - left) / 2
+    distance = left + half + half * points[:, None]
+    values = polynomial(profile.taylor[:, node], distance)
+    return (weights[:, None] * half / (2 * math.pi)).ravel(), values.ravel()

@@ -1,0 +1,175 @@
+"""Legendre-Ritz solution of the growing sheet: polynomial displacements of least elastic energy.
+
+It solves eqs 10 and 14 of the seed paper (free edges, strain c I of growth) without any Airy
+function: it is the independent second way to the same field, and the way for waves that depend
+on x.
+
+Corners weaken the exact solution (u ~ distance**2.74), so that the error falls with the degree p
+like p**-6.5, after an exponential fall while the wave and its edge layers are being resolved.
+"""
+
+import time
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linear_theory import legendre, ritz_error, validation
+from linear_theory.errors import NotConvergedError
+from linear_theory.field import LinearField, Wave
+from linear_theory.load_cases import Harmonics, LoadCases, load_cases
+from linear_theory.ritz_solver import RitzSolver, matrix_size
+from linear_theory.sheet import Sheet
+from linear_theory.waves import TravellingWave
+
+Array = NDArray[np.float64]
+Pair = tuple[int, int]
+
+DEFAULT_RTOL = 1e-6
+MOST_NUMBERS = 25_000_000  # in the matrix of one parity, 200 MB
+
+
+def ritz_field(
+    sheet: Sheet, wave: Wave, degree: int | Pair | None = None, rtol: float | None = None
+) -> "RitzField":
+    """Small-strain deformation of a rectangular sheet by any wave c(x, y, t), per unit alpha.
+
+    degree: of the polynomials, one number or (across, along), >= 3, rounded up to odd;
+    rtol: choose the degrees so that the estimated relative L2 error of the displacement at the worst
+    phase is below it (1e-6 where neither is given).
+
+    Raises ValueError for bad input, for both at once and for a degree that does not fit in memory,
+    and NotConvergedError, with the best field, where rtol needs such a degree.
+    """
+    if degree is None:
+        rtol = DEFAULT_RTOL if rtol is None else validation.tolerance(rtol)
+        return _with_enough_degrees(sheet, wave, rtol)
+    if rtol is not None:
+        raise ValueError(f"degree = {degree}, rtol = {rtol}: must be one of the two, not both")
+    return RitzField(wave, RitzSolver(sheet, _checked_degree(degree)))
+
+
+def _checked_degree(degree: int | Pair) -> Pair:
+    pair = degree if isinstance(degree, tuple) else (degree, degree)
+    if len(pair) != 2:
+        raise ValueError(f"degree = {degree}: must be one integer or (across, along)")
+    across, along = (ritz_error.odd(validation.integer("degree", d, 3)) for d in pair)
+    if matrix_size((across, along)) > MOST_NUMBERS:
+        raise ValueError(f"degree = {degree}: must make a matrix of <= {MOST_NUMBERS} numbers")
+    return across, along
+
+
+def _with_enough_degrees(sheet: Sheet, wave: Wave, rtol: float) -> "RitzField":
+    """Raise the degrees until the error estimate meets rtol."""
+    start, best = time.perf_counter(), None
+    degree = ritz_error.first_degrees(sheet, _order(wave), rtol)
+    while True:
+        if matrix_size(degree) > MOST_NUMBERS:
+            raise NotConvergedError(f"rtol = {rtol:g}: would need degrees {degree} or more", best)
+        best = RitzField(wave, RitzSolver(sheet, degree))
+        if best.error <= rtol:
+            best.seconds = time.perf_counter() - start
+            return best
+        degree = ritz_error.raised_degrees(degree, best.tails, rtol)
+
+
+def _order(wave: Wave) -> int:
+    """Waves on the sheet; 1 where nothing is known, more shows in the error estimate."""
+    return int(wave.orders[-1]) if isinstance(wave, TravellingWave) else 1
+
+
+class RitzField(LinearField):
+    """Deformation of a sheet by polynomials of least energy; made by `ritz_field`.
+
+    The basis functions are the solutions for the wave's load cases. degree: highest degrees
+    (across, along).
+    """
+
+    def __init__(self, wave: Wave, solver: RitzSolver, cases: LoadCases | None = None) -> None:
+        start = time.perf_counter()
+        self.sheet, self.wave, self.degree = solver.sheet, wave, solver.degree
+        self._solver = solver
+        self._cases = cases or load_cases(wave, solver.sheet.length)
+        self.mirrored = isinstance(self._cases, Harmonics)
+        self._growth = self._moments()
+        self._solution = solver.solve(self._growth)
+        self.seconds = time.perf_counter() - start
+
+    @property
+    def error(self) -> float:
+        """Estimated relative L2 error of the displacement over the sheet at the worst phase."""
+        return float(np.max(np.hypot(*self._tails), initial=0.0)) + ritz_error.ROUNDOFF
+
+    @property
+    def tails(self) -> tuple[float, float]:
+        """The parts of `error` that higher degrees across and along the sheet would take away."""
+        across, along = self._tails.max(axis=1)
+        return float(across), float(along)
+
+    @cached_property
+    def _tails(self) -> Array:
+        across, along = self.degree
+        missed = (
+            self._growth[:, across + 1 :] * (self.sheet.width / 2 / across),
+            self._growth[:, :, along + 1 :] * (self.sheet.length / 2 / along),
+        )
+        resolving = ritz_error.resolving_degrees(self.sheet, _order(self.wave))
+        return ritz_error.relative_tails(
+            self._polynomials, missed, self._cases.samples(), resolving, self.sheet.poisson
+        )
+
+    def _moments(self) -> Array:
+        """Integrals of the growths against p_i(x) p_j(y), (cases, i, j); some beyond `degree`."""
+        if isinstance(self._cases, Harmonics):
+            return self._moments_of_harmonics(self._cases)
+        counts = [degree + degree // 4 + 12 for degree in self.degree]  # exact for c of degree 3/2 p
+        (x, weights_x), (y, weights_y) = (legendre.gauss(count) for count in counts)
+        across = legendre.orthonormal(counts[0], x) * weights_x[:, None]
+        along = legendre.orthonormal(counts[1], y) * weights_y[:, None]
+        growth = self._cases.growths(x[:, None] * self.sheet.width / 2, y * self.sheet.length / 2)
+        return np.asarray(across.T @ growth @ along)
+
+    def _moments_of_harmonics(self, cases: Harmonics) -> Array:
+        orders = cases.wave.orders
+        count = max(
+            self.degree[1] + 1, ritz_error.resolving_degrees(self.sheet, int(orders[-1]))[1] + 9
+        )
+        cosine, sine = legendre.wave_moments(count, orders)
+        moments = np.zeros((2 * len(orders) + bool(cases.wave.mean), self.degree[0] + 1, count))
+        moments[: 2 * len(orders), 0] = np.sqrt(2) * np.concatenate([cosine, sine])
+        moments[2 * len(orders) :, 0, 0] = 2  # growth 1 for the mean of c
+        return moments
+
+    @cached_property
+    def _polynomials(self) -> Array:
+        """Displacement in orthonormal Legendre polynomials, (cases, 2, degree x + 1, degree y + 1)."""
+        return legendre.values(legendre.values(self._solution, 2), 3)
+
+    @cached_property
+    def _strain_polynomials(self) -> Array:
+        """Strain in orthonormal Legendre polynomials, (cases, 3, degree x + 1, degree y + 1)."""
+        x, y = self._solution[:, 0], self._solution[:, 1]
+        half_x, half_y = self.sheet.width / 2, self.sheet.length / 2
+        values, slopes = legendre.values, legendre.slopes
+        x_x, x_y = values(slopes(x, 1), 2) / half_x, slopes(values(x, 1), 2) / half_y
+        y_x, y_y = values(slopes(y, 1), 2) / half_x, slopes(values(y, 1), 2) / half_y
+        return np.stack([x_x, y_y, (x_y + y_x) / 2], 1)
+
+    def _for_times(self, t: Array) -> "RitzField":
+        cases = self._cases.at(t)
+        return self if cases is self._cases else RitzField(self.wave, self._solver, cases)
+
+    def _amplitudes(self, t: Array) -> Array:
+        return self._cases.amplitudes(t)
+
+    def _amplitude_rates(self, t: Array) -> Array:
+        return self._cases.rates(t)
+
+    def _displacements(self, x: Array, y: Array) -> Array:
+        return legendre.evaluate(self._polynomials, *self._local(x, y))
+
+    def _strains(self, x: Array, y: Array) -> Array:
+        return legendre.evaluate(self._strain_polynomials, *self._local(x, y))
+
+    def _local(self, x: Array, y: Array) -> tuple[Array, Array]:
+        return 2 * x / self.sheet.width, 2 * y / self.sheet.length
