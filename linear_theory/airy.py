@@ -112,13 +112,14 @@ class AirySeries(LinearField):
     """
 
     mirrored = True
+    wave: TravellingWave
 
     def __init__(
         self, sheet: Sheet, wave: TravellingWave, modes: tuple[int, int], tail: bool, printed: bool
     ) -> None:
         start = time.perf_counter()
         self.sheet, self.wave, self.modes, self.tail = sheet, wave, modes, tail
-        self._travelling, self._printed = wave, printed
+        self._printed = printed
         even = self._solve(1, airy_loads.even_load)
         odd = self._solve(-1, self._odd_load)
         self._cases = Cases(sheet, wave.orders, tail, even, odd)
@@ -126,7 +127,7 @@ class AirySeries(LinearField):
 
     def amplitudes(self, t: ArrayLike) -> AiryAmplitudes:
         """A, B, C, D at the times t in the paper's normalisation, per unit alpha."""
-        even, odd = self._travelling.factors(t)
+        even, odd = self.wave.factors(t)
         cases = self._cases
         b, d = cases.odd.amplitudes
         if self.tail:  # the paper expands the whole sine: put the stress-free line back
@@ -150,33 +151,39 @@ class AirySeries(LinearField):
     def error(self) -> float:
         """Estimated relative L2 error of the displacement over the sheet at the worst phase."""
         cases = self._cases
-        phases = min(8 * cases.orders.size, 64)
-        t = np.linspace(0, self.wave.period, phases, endpoint=False)
-        even, odd = self._travelling.factors(t)
+        even, odd = self._error_phases()
         even_load, odd_load = (
             load(pair.families[1].extended(), cases.orders)
             for pair, load in ((cases.even, airy_loads.even_load), (cases.odd, self._odd_load))
         )
         missing = missing_mean_square(cases.even, even_load, even)
         missing += missing_mean_square(cases.odd, odd_load, odd)
-        size = cases.mean_squares(self._amplitudes(t))
+        mean = np.full((1, even.shape[1]), self.wave.mean)
+        size = cases.mean_squares(np.concatenate([even, odd, mean]))
         return _SAFETY[self.tail] * float(np.sqrt(np.max(missing / size))) + _ROUNDOFF
+
+    def _error_phases(self) -> tuple[Array, Array]:
+        """Factors of the cosines and of the sines at phases among which the worst will be."""
+        count = self.wave.harmonics.size
+        if count > 1 or self.wave.mean:
+            t = np.linspace(0, self.wave.period, min(16 * count, 128), endpoint=False)
+            return self.wave.factors(t)
+        # one harmonic: the error relative to u is largest where one of the two cases is alone
+        return np.array([[1.0, 0.0]]), np.array([[0.0, 1.0]])
 
     def _solve(self, parity: int, load: Callable[[Family, NDArray[np.int64]], Array]) -> Pair:
         families = airy_system.families(self.sheet, self.modes, parity)
-        right = load(families[1], self._travelling.orders)
+        right = load(families[1], self.wave.orders)
         return airy_system.solve(families, right, self.tail, self._printed)
 
     def _odd_load(self, across: Family, orders: NDArray[np.int64]) -> Array:
         return airy_loads.odd_load(across, orders, without_line=self.tail)
 
     def _amplitudes(self, t: Array) -> Array:
-        return np.concatenate(
-            [*self._travelling.factors(t), np.full((1, *t.shape), self._travelling.mean)]
-        )
+        return np.concatenate([*self.wave.factors(t), np.full((1, *t.shape), self.wave.mean)])
 
     def _amplitude_rates(self, t: Array) -> Array:
-        return np.concatenate([*self._travelling.factor_rates(t), np.zeros((1, *t.shape))])
+        return np.concatenate([*self.wave.factor_rates(t), np.zeros((1, *t.shape))])
 
     def _displacements(self, x: Array, y: Array) -> Array:
         return self._cases.displacements(x, y)

@@ -58,7 +58,7 @@ class Family:
     def signs(self) -> Array:
         """Barred amplitudes are these times the printed ones, (count,)."""
         start = 1.0 if self.step == 2 else -1.0
-        return start * (-1.0) ** np.arange(self.count)
+        return np.asarray(start * (-1.0) ** np.arange(self.count), float)
 
     @cached_property
     def diagonal(self) -> Array:

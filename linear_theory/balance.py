@@ -220,7 +220,7 @@ class Balance:
         second = ((w[..., :, -1] - w[..., :, 0]) ** 2).sum(0).max(-1)
         return rough, np.where(first > second, 0, 1)
 
-    def _full(self, q: Array) -> Array:
+    def _full(self, q: NDArray[np.floating]) -> Array:
         """(times, 3): V_x, V_y, Omega."""
         full = np.zeros((q.shape[0], 3))
         full[:, list(self._modes)] = q
@@ -234,7 +234,8 @@ def _single(residual: Residual, halvings: int, q: Array, ends: Array, xtol: floa
         value, slope = residual(x[:, None], which, halvings=halvings)
         return value[:, 0], slope[:, 0, 0]
 
-    return guarded_newton(function, np.clip(q[:, 0], *ends), *ends, xtol)[:, None]
+    low, high = ends
+    return guarded_newton(function, np.clip(q[:, 0], low, high), low, high, xtol)[:, None]
 
 
 def _norm(w: Array) -> Array:

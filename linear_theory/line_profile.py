@@ -22,6 +22,7 @@ from linear_theory.roots import EPS, bracketed_newton
 from linear_theory.waves import TravellingWave
 
 Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
 
 OVERSAMPLING = 16
 """Equal cells per wavelength of the highest harmonic."""
@@ -61,13 +62,13 @@ class Profile:
     @classmethod
     def of(cls, wave: TravellingWave, sign: float) -> "Profile":
         """sign (c - mean c) of a wave, sign = +-1."""
-        amplitude = sign * (wave.cosine - 1j * wave.sine)
+        amplitude: Complex = np.asarray(sign * (wave.cosine - 1j * wave.sine), complex)
         points = max(64, OVERSAMPLING * amplitude.size)
         spectrum = np.zeros((TERMS, points // 2 + 1), complex)
-        row = amplitude * (points / 2)
+        row: Complex = amplitude * (points / 2)
         for j in range(TERMS):
             spectrum[j, 1 : amplitude.size + 1] = row
-            row = row * 1j * wave.harmonics / (j + 1)
+            row = row * (1j * wave.harmonics / (j + 1))
         taylor = np.fft.irfft(spectrum, points)
         taylor = np.concatenate([taylor, taylor[:, :1]], axis=1)
         nodes = np.linspace(0, 2 * math.pi, points + 1)
@@ -132,6 +133,11 @@ class Profile:
         with np.errstate(divide="ignore"):
             return float(np.sum(1 / abs(slope))) / (2 * math.pi)
 
+    def turns(self, level: float) -> bool:
+        """Whether a level where the profile is `anchored` is a turning value, to rounding."""
+        slope = abs(self.taylor[1][self.values == level])
+        return bool(np.any(slope <= 16 * EPS * float(abs(self.taylor[1]).max())))
+
     def around(self, level: float, tolerance: float) -> float:
         """Part of the period with |g - level| <= tolerance."""
         base = max(level - tolerance, float(self.values.min()))
@@ -175,8 +181,7 @@ class Profile:
         def excess(distance: Array) -> tuple[Array, Array]:
             return polynomial(series, distance), polynomial(slope, distance)
 
-        # An error d of a turning point changes its value by d^2 only.
-        distance = bracketed_newton(excess, 0.0, width, width / 2, rtol=1e-10)
+        distance = bracketed_newton(excess, 0.0, width, width / 2)
         return self._with_nodes(cell, distance)._sorted()
 
     def _with_nodes(self, start: NDArray[np.intp], distance: Array) -> "Profile":

@@ -18,7 +18,8 @@ from numpy.typing import NDArray
 
 from linear_theory import validation
 from linear_theory.field import Wave
-from linear_theory.line_law import REST_PART, REST_SPEED, Balance, LineLaw
+from linear_theory.friction import FrictionLaw
+from linear_theory.line_result import REST_PART, REST_SPEED, Balance
 from linear_theory.roots import EPS, bracketed_newton
 
 Array = NDArray[np.float64]
@@ -41,53 +42,60 @@ class Snapshot(NamedTuple):
     rest: Array
 
 
-def sampled_balance(wave: Wave, alpha: float, law: LineLaw, rtol: float) -> Balance:
+def sampled_balance(
+    wave: Wave, alpha: float, law: FrictionLaw, grows: bool, rtol: float, atol: float
+) -> Balance:
     """Speed of a general wave; raises ValueError if 1 + alpha c <= 0 at a sampled point."""
     period = float(wave.period)
     cells = times = FEWEST
     space = time = math.inf
     while True:
-        instants = period / times * np.arange(times)
-        fine = _snapshots(wave, alpha, law, instants, 2 * cells)
-        coarse = _snapshots(wave, alpha, law, instants, cells)
+        instants: Array = period / times * np.arange(float(times))
+        fine = _snapshots(wave, alpha, law, grows, instants, 2 * cells)
+        coarse = _snapshots(wave, alpha, law, grows, instants, cells)
         mean = float(fine.velocity.mean())
-        # A difference may vanish by chance; a quarter of the one before it, of second order, does not.
-        space = max(abs(mean - float(coarse.velocity.mean())), space / 4)
-        time = max(abs(mean - float(fine.velocity[::2].mean())), time / 4)
-        goal = max(rtol * abs(mean), 1e-3 * rtol * alpha**2 / period)
+        # A difference may vanish by chance; a quarter of the one before, for second order, does not.
+        last_space, space = space, abs(mean - float(coarse.velocity.mean()))
+        last_time, time = time, abs(mean - float(fine.velocity[::2].mean()))
+        in_space, in_time = max(space, last_space / 4), max(time, last_time / 4)
+        goal = max(rtol * abs(mean), atol)
         room = cells * times < MOST_SAMPLES
-        more_cells = room and space > goal / 2 and cells < MOST_CELLS
-        more_times = room and time > goal / 2 and times < MOST_TIMES
-        if space + time <= goal or not (more_cells or more_times):
+        more_cells = room and in_space > goal / 2 and cells < MOST_CELLS
+        more_times = room and in_time > goal / 2 and times < MOST_TIMES
+        if in_space + in_time <= goal or not (more_cells or more_times):
             break
         cells, times = cells << more_cells, times << more_times
-    error = space + time + 16 * EPS * float(fine.fastest.max())
-    sticks = law.friction == "coulomb" and bool(fine.rest.max() >= REST_PART)
+    error = in_space + in_time + 16 * EPS * float(fine.fastest.max())
+    sticks = law.width == 0 and bool(fine.rest.max() >= REST_PART)
     coefficients = float(fine.first.mean()), float(fine.second.mean())
     fastest = float(fine.fastest.max())
     return Balance(mean, error, instants, fine.velocity, fastest, *coefficients, sticks)
 
 
-def _snapshots(wave: Wave, alpha: float, law: LineLaw, times: Array, cells: int) -> Snapshot:
+def _snapshots(
+    wave: Wave, alpha: float, law: FrictionLaw, grows: bool, times: Array, cells: int
+) -> Snapshot:
     step = max(1, BLOCK // cells)
     parts = [
-        _snapshot(wave, alpha, law, times[i : i + step, None], cells)
+        _snapshot(wave, alpha, law, grows, times[i : i + step, None], cells)
         for i in range(0, times.size, step)
     ]
     return Snapshot(*(np.concatenate(column) for column in zip(*parts, strict=True)))
 
 
-def _snapshot(wave: Wave, alpha: float, law: LineLaw, times: Array, cells: int) -> Snapshot:
+def _snapshot(
+    wave: Wave, alpha: float, law: FrictionLaw, grows: bool, times: Array, cells: int
+) -> Snapshot:
     y = np.linspace(-0.5, 0.5, cells + 1)
     growth, rate = (_on_grid(f(0.0, y, times), times, y) for f in (wave.value, wave.rate))
     _check_stretch(alpha, growth, times, y)
     g = np.zeros_like(rate)
     np.cumsum(_middle(rate) / cells, axis=1, out=g[:, 1:])
     g -= _middle(g).mean(axis=1, keepdims=True)
-    mean_growth = _middle(growth) if law.grows else np.zeros((times.size, cells))
+    mean_growth = _middle(growth) if grows else np.zeros((times.size, cells))
     weight = (1 + alpha * mean_growth) / cells
-    if law.friction == "coulomb":
-        level, _, _ = _weighted_median(g, weight)
+    if law.width == 0:
+        level, _ = _weighted_median(g, weight)
         velocity = -alpha * level
         first, second = _dry_coefficients(g, mean_growth)
     else:
@@ -127,8 +135,8 @@ def _part_below(g: Array, level: Array) -> Array:
     return np.where(high > low, part, level >= high)
 
 
-def _weighted_median(g: Array, weight: Array) -> tuple[Array, Array, Array]:
-    """Level, density of the weight there, and part of each cell below it, for every time.
+def _weighted_median(g: Array, weight: Array) -> tuple[Array, Array]:
+    """Level, and part of each cell below it, for every time.
 
     The weight below a level is linear between neighbours of the sorted samples: bisect for the
     neighbours, then interpolate. It jumps where a cell is flat.
@@ -144,18 +152,27 @@ def _weighted_median(g: Array, weight: Array) -> tuple[Array, Array, Array]:
     flat = (g[:, 1:] == g[:, :-1]) & (g[:, 1:] == high[:, None])
     at_low = np.sum(weight * _part_below(g, low[:, None]), axis=1)
     at_high = np.sum(weight * np.where(flat, 0.0, _part_below(g, high[:, None])), axis=1)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        level = low + (high - low) * np.clip((half - at_low) / (at_high - at_low), 0, 1)
-        density = (at_high - at_low) / (high - low)
-    jump = ~((half < at_high) & (at_low < half))
-    level, density = np.where(jump, high, level), np.where(jump, np.inf, density)
-    return level, density, _part_below(g, level[:, None])
+    gain = np.where(at_high > at_low, at_high - at_low, np.inf)
+    level = low + (high - low) * np.clip((half - at_low) / gain, 0, 1)
+    level = np.where((at_low < half) & (half < at_high), level, high)
+    return level, _part_below(g, level[:, None])
+
+
+def _density(g: Array, level: Array) -> Array:
+    """Part of the body per unit of g at a level, (times,); infinite on a flat cell."""
+    low, high = np.minimum(g[:, 1:], g[:, :-1]), np.maximum(g[:, 1:], g[:, :-1])
+    at = level[:, None]
+    with np.errstate(divide="ignore"):
+        return np.mean(
+            np.where((low < at) & (at <= high) | (low == high) & (low == at), 1 / (high - low), 0),
+            axis=1,
+        )
 
 
 def _dry_coefficients(g: Array, growth: Array) -> tuple[Array, Array]:
     """Of V = V1 alpha + V2 alpha^2: V1 = -m0, V2 = E[c sgn(m0 - g)]/(2 p(m0))."""
-    level, density, below = _weighted_median(g, np.full(growth.shape, 1 / growth.shape[1]))
-    return -level, np.mean(growth * (2 * below - 1), axis=1) / (2 * density)
+    level, below = _weighted_median(g, np.full(growth.shape, 1 / growth.shape[1]))
+    return -level, np.mean(growth * (2 * below - 1), axis=1) / (2 * _density(g, level))
 
 
 def _tanh_speed(velocity: Array, weight: Array, slip_speed: float, guess: Array) -> Array:

@@ -21,8 +21,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from linear_theory.line_law import REST_PART, REST_SPEED, Balance, LineLaw
+from linear_theory.friction import FrictionLaw
 from linear_theory.line_profile import Profile, polynomial
+from linear_theory.line_result import REST_PART, REST_SPEED, Balance
 from linear_theory.roots import EPS, bracketed_newton
 from linear_theory.waves import TravellingWave
 
@@ -46,68 +47,85 @@ class Level(NamedTuple):
     error: float
 
 
-def travelling_balance(wave: TravellingWave, alpha: float, law: LineLaw) -> Balance:
-    """Speed of a travelling wave; raises ValueError if 1 + alpha c <= 0 at some phase."""
+def travelling_balance(wave: TravellingWave, alpha: float, law: FrictionLaw, grows: bool) -> Balance:
+    """Speed of a travelling wave; grows: whether the load on a piece grows with its length.
+
+    Raises ValueError if 1 + alpha c <= 0 at some phase.
+    """
     sign = -1.0 if alpha < 0 else 1.0  # (alpha, c) and (-alpha, -c) are the same growth
-    profile, strength, mean = Profile.of(wave, sign), abs(alpha), sign * wave.mean
-    _check_stretch(profile, alpha, strength, mean)
-    weight = strength if law.grows else 0.0
-    unit = 1 / wave.count / wave.period
-    width = np.inf
-    if law.slip_speed is not None and strength:
-        width = law.slip_speed / (strength * abs(unit))
-    if law.friction == "coulomb":
-        level = _dry_level(profile, weight, mean)
-    elif math.isfinite(width):
-        level = _tanh_level(profile, weight, mean, width)
-    else:
-        level = _viscous_level(wave, weight, mean)
-    first, second = _coefficients(profile, wave, law)
+    profile, mean = Profile.of(wave, sign), sign * wave.mean
+    _check_stretch(profile, alpha, mean)
+    unit = abs(alpha) / wave.count / wave.period
+    level = _level(profile, wave, abs(alpha) if grows else 0.0, mean, _width(law, abs(unit)))
     value = level.base + level.rise
-    speed = strength * unit * value
-    fastest = strength * abs(unit) * float(abs(profile.values - value).max())
-    tolerance = REST_SPEED * float(np.ptp(profile.values))
-    sticks = law.friction == "coulomb" and profile.around(value, tolerance) >= REST_PART
-    error = strength * abs(unit) * (level.error + 4 * EPS * abs(value))
-    times = np.array([0.0, wave.period])
-    constant = np.array([speed, speed])
-    return Balance(speed, error, times, constant, fastest, sign * first * unit, second * unit, sticks)
+    first, second = _coefficients(profile, wave, law, grows)
+    return Balance(
+        mean=unit * value,
+        error=abs(unit) * (level.error + 4 * EPS * abs(value)),
+        times=np.array([0.0, wave.period]),
+        velocity=np.array([unit * value, unit * value]),
+        fastest=abs(unit) * float(abs(profile.values - value).max()),
+        first=sign * first / wave.count / wave.period,
+        second=second / wave.count / wave.period,
+        sticks=law.width == 0 and _rests(profile, value),
+    )
 
 
-def _check_stretch(profile: Profile, alpha: float, strength: float, mean: float) -> None:
+def _width(law: FrictionLaw, unit: float) -> float:
+    """Slip speed over |alpha/nT|; infinite where that is 0 or beyond doubles."""
+    if law.width == 0 or unit == 0:
+        return law.width if law.width == 0 else math.inf
+    with np.errstate(over="ignore"):
+        return float(np.float64(law.width) / unit)
+
+
+def _level(profile: Profile, wave: TravellingWave, weight: float, mean: float, width: float) -> "Level":
+    if width == 0:
+        return _dry_level(profile, weight, mean)
+    if math.isfinite(width):
+        return _tanh_level(profile, weight, mean, width)
+    level = weight * _variance(wave) / (1 + weight * mean)
+    return Level(0.0, level, 16 * EPS * level)
+
+
+def _check_stretch(profile: Profile, alpha: float, mean: float) -> None:
     worst = int(profile.values.argmin())
     growth = float(profile.values[worst]) + mean
-    if 1 + strength * growth <= 0:
-        side = "<" if alpha > 0 else ">"
+    stretch = 1 + abs(alpha) * growth
+    if stretch <= 0:
         raise ValueError(
-            f"alpha = {alpha:g}: 1 + alpha c = {1 + strength * growth:g} at the phase "
-            f"{profile.nodes[worst]:.4g} of the wave, must be > 0: alpha {side} "
-            f"{math.copysign(1, alpha) * -1 / growth:.6g}"
+            f"alpha = {alpha:g}: 1 + alpha c = {stretch:g} at the phase {profile.nodes[worst]:.4g} of "
+            f"the wave; must be {'<' if alpha > 0 else '>'} {math.copysign(1 / growth, alpha):.6g}"
         )
 
 
-def _coefficients(profile: Profile, wave: TravellingWave, law: LineLaw) -> tuple[float, float]:
+def _coefficients(
+    profile: Profile, wave: TravellingWave, law: FrictionLaw, grows: bool
+) -> tuple[float, float]:
     """nT times the coefficients of |alpha| and alpha^2 for the profile as it is signed.
 
-    For tanh at a fixed slip speed the limit of small alpha is the viscous one.
+    For tanh at a fixed slip speed the limit of small alpha is the viscous one. NaN for the second
+    where the median is a turning value and the body does not stick: V is not smooth in alpha there.
     """
-    if law.friction != "coulomb":
-        return 0.0, _variance(wave) if law.grows else 0.0
+    if law.width > 0:
+        return 0.0, _variance(wave) if grows else 0.0
     median = profile.median()
-    if not law.grows:
-        return median, 0.0
     anchored = profile.anchored(median)
+    if not grows:
+        return median, 0.0
+    if anchored.turns(median) and not _rests(profile, median):
+        return median, math.nan
     return median, anchored.mean_deviation(median) / (2 * anchored.density(median))
+
+
+def _rests(profile: Profile, level: float) -> bool:
+    """Whether much of the body moves with the ground when V belongs to that level."""
+    tolerance = REST_SPEED * float(np.ptp(profile.values))
+    return profile.around(level, tolerance) >= REST_PART
 
 
 def _variance(wave: TravellingWave) -> float:
     return float(np.sum(wave.cosine**2 + wave.sine**2)) / 2
-
-
-def _viscous_level(wave: TravellingWave, weight: float, mean: float) -> Level:
-    """Weighted mean of g."""
-    level = weight * _variance(wave) / (1 + weight * mean)
-    return Level(0.0, level, 16 * EPS * level)
 
 
 def _dry_level(profile: Profile, weight: float, mean: float) -> Level:
@@ -174,10 +192,11 @@ def _quadrature(profile: Profile, levels: tuple[float, ...], width: float) -> tu
     Cells are halved until g varies by less than `width` over each, or stays SATURATED widths away
     from all levels.
     """
-    node, (left, right) = (
-        np.arange(profile.nodes.size - 1),
-        (0 * profile.nodes[1:], np.diff(profile.nodes)),
-    )
+    # From the end nearer to 0, as g is exact at nodes of value 0: `width` may be below rounding.
+    node = np.arange(profile.nodes.size - 1)
+    ahead = abs(profile.values[:-1]) <= abs(profile.values[1:])
+    right = np.where(ahead, 1.0, -1.0) * np.diff(profile.nodes)
+    node, left = np.where(ahead, node, node + 1), np.zeros(node.size)
     finished = []
     for _ in range(MOST_HALVINGS):
         ends = polynomial(profile.taylor[:, node], np.stack([left, right]))
@@ -197,4 +216,4 @@ def _quadrature(profile: Profile, levels: tuple[float, ...], width: float) -> tu
     half = (right - left) / 2
     distance = left + half + half * points[:, None]
     values = polynomial(profile.taylor[:, node], distance)
-    return (weights[:, None] * half / (2 * math.pi)).ravel(), values.ravel()
+    return (weights[:, None] * abs(half) / (2 * math.pi)).ravel(), values.ravel()

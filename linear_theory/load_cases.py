@@ -43,7 +43,9 @@ class LoadCases(Protocol):
 
 
 def load_cases(wave: Wave, length: float) -> LoadCases:
-    """Those of a wave on a sheet of that length."""
+    """Those of a wave on a sheet of that length. Raises ValueError for what is no wave."""
+    if not all(hasattr(wave, name) for name in ("value", "rate", "period")):
+        raise ValueError(f"wave = {wave!r}: must be a TravellingWave or a FieldWave")
     if isinstance(wave, TravellingWave):
         return Harmonics(wave, length)
     return Snapshots(wave, length, np.linspace(0, wave.period, SAMPLES, endpoint=False))
@@ -120,3 +122,10 @@ class Snapshots:
 
     def _picked(self, t: Array) -> Array:
         return np.asarray(self.times.reshape(-1, *(1,) * t.ndim) == t, float)
+
+
+def mixed_norms(parts: Array, amplitudes: Array) -> Array:
+    """Euclidean norms of sum_j amplitudes[j] parts[j], (times,), for parts (cases, ...)."""
+    flat = parts.reshape(len(parts), -1)
+    square = np.einsum("jt,jk,kt->t", amplitudes, flat @ flat.T, amplitudes)
+    return np.asarray(np.sqrt(np.maximum(square, 0.0)))

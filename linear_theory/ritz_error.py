@@ -5,6 +5,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from linear_theory.load_cases import mixed_norms
 from linear_theory.sheet import Sheet
 
 Array = NDArray[np.float64]
@@ -12,7 +13,7 @@ Pair = tuple[int, int]
 
 SLOWEST = 5.0  # the coefficients of a corner fall at least like degree**-SLOWEST, in the end
 FASTEST = 0.4  # ratio of neighbours below which an extrapolation would trust to luck
-SAFETY = 3.5  # measured worst case over 80 sheets and waves: the estimate is 1.2 times the error
+SAFETY = 3.5  # measured on 590 fields of 60 sheets and waves: estimate/error is 1.5 or more
 FLAT = 1e-6  # a sheet whose displacement is this small for a moment has no relative error then
 ROUNDOFF = 3e-14
 
@@ -71,15 +72,18 @@ def relative_tails(
     shear is much stiffer than dilation and the energy a worse judge of the displacement.
     """
     safety = SAFETY / math.sqrt(1 + poisson)
-    total = _norms(coefficients, amplitudes)
+    total = mixed_norms(coefficients, amplitudes)
     floor = FLAT * total.max(initial=0.0)
     total = np.maximum(total, floor if floor > 0 else 1.0)
     tails = []
     for axis in (0, 1):
         shells = np.moveaxis(coefficients, axis + 2, 1)
-        last, before = _norms(shells[:, -2:], amplitudes), _norms(shells[:, -4:-2], amplitudes)
+        last, before = (
+            mixed_norms(shells[:, -2:], amplitudes),
+            mixed_norms(shells[:, -4:-2], amplitudes),
+        )
         tail = _extrapolated(last, before, shells.shape[1] - 1, resolving[axis])
-        tails.append((safety * tail + _norms(missed[axis], amplitudes)) / total)
+        tails.append((safety * tail + mixed_norms(missed[axis], amplitudes)) / total)
     return np.stack(tails)
 
 
@@ -99,10 +103,3 @@ def _extrapolated(last: Array, before: Array, degree: int, resolving: int) -> Ar
 def odd(degree: float) -> int:
     """The next odd integer, at least 3."""
     return max(2 * math.ceil((degree - 1) / 2) + 1, 3)
-
-
-def _norms(coefficients: Array, amplitudes: Array) -> Array:
-    """Euclidean norm of sum over cases of amplitudes times coefficients, (times,)."""
-    flat = coefficients.reshape(len(coefficients), -1)
-    square = np.einsum("jt,jk,kt->t", amplitudes, flat @ flat.T, amplitudes)
-    return np.asarray(np.sqrt(np.maximum(square, 0.0)))

@@ -89,7 +89,7 @@ class TravellingWave:
 
     @property
     def reversal_time(self) -> float | None:
-        """t_0 with c(-y, t_0 - t) = c(y, t), so that V(t_0 - t) = V(t); None where there is none seen."""
+        """t_0 with c(-y, t_0 - t) = c(y, t), so that V(t_0 - t) = V(t); None where none is seen."""
         if not np.any(self.sine):
             return 0.0
         if self.is_half_period_antisymmetric and not np.any(self.cosine):

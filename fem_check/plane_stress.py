@@ -1,0 +1,231 @@
+"""Small-strain deformation of a sheet of any outline, by linear finite elements.
+
+The field has the interface of the series and of the Ritz solution, so that the same friction
+balance gives its speed. Every solution comes with that on a mesh of twice the size, from which
+follows its error.
+"""
+
+import time
+from dataclasses import replace
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
+from skfem import MeshTri
+
+from fem_check.outline import Outline
+from fem_check.plane_stress_solver import ELEMENTS, PlaneStressSolver
+from fem_check.triangles import TriangleFinder, quadrilateral_points
+from linear_theory import validation
+from linear_theory.field import LinearField, Wave
+from linear_theory.load_cases import LoadCases, load_cases, mixed_norms
+from linear_theory.motion import Motion
+from linear_theory.sheet import Sheet
+from linear_theory.waves import TravellingWave
+
+Array = NDArray[np.float64]
+
+CELLS_PER_WIDTH = 6
+"""Triangles across the width, or along a wave where that is shorter, unless a size is given."""
+
+GAIN = {2: 3.0, 4: 7.0}
+"""Difference to the mesh of twice the size over the error, at least, in sheets with square corners:
+there halving the mesh divides the error by 7 to 8 (degree 2) or 13 (degree 4, limited by the corners,
+u ~ distance**2.74)."""
+
+FLAT = 1e-6  # a sheet whose displacement is this small for a moment has no relative error then
+
+
+def plane_stress_field(
+    outline: Sheet | Outline | MeshTri,
+    wave: Wave,
+    poisson: float | None = None,
+    degree: int = 4,
+    size: float | None = None,
+) -> "PlaneStressField":
+    """Small-strain deformation of a sheet by any wave c(x, y, t), per unit alpha.
+
+    outline: a rectangular `Sheet`, a polygon with holes, or a mesh of triangles in units of length;
+    poisson: of the material, in (-1, 1/2], by default that of the Sheet, else 1/2; degree: of the
+    elements, 2 or 4; size: longest side of the triangles (roughly, for polygons), units of length; a
+    given mesh is refined until it is reached, once at least.
+
+    Raises ValueError for bad input.
+    """
+    if degree not in ELEMENTS:
+        raise ValueError(f"degree = {degree!r}: must be 2 or 4")
+    sheet = _sheet(outline, poisson)
+    coarse = _coarse_mesh(outline, 2 * _size(sheet, wave, size))
+    while isinstance(outline, MeshTri) and size is not None and _longest_side(coarse) > 2 * size:
+        coarse = coarse.refined()
+    return PlaneStressField(sheet, wave, coarse, degree, _gain(outline, degree))
+
+
+def _sheet(outline: Sheet | Outline | MeshTri, poisson: float | None) -> Sheet:
+    """The rectangle around the outline, which carries its length and Poisson ratio."""
+    if isinstance(outline, Sheet):
+        return outline if poisson is None else replace(outline, poisson=poisson)
+    if isinstance(outline, MeshTri):
+        width, length = np.ptp(_checked_mesh(outline).p, axis=1)
+    elif isinstance(outline, Outline):
+        width, length = outline.width, outline.length
+    else:
+        raise ValueError(f"outline = {outline!r}: must be a Sheet, an Outline or a MeshTri")
+    return Sheet(float(length), float(width), 0.5 if poisson is None else poisson)
+
+
+def _size(sheet: Sheet, wave: Wave, size: float | None) -> float:
+    if size is not None:
+        return validation.positive("size", size)
+    waves = int(wave.orders[-1]) if isinstance(wave, TravellingWave) else 1
+    return min(sheet.width, sheet.length / waves) / CELLS_PER_WIDTH
+
+
+def _coarse_mesh(outline: Sheet | Outline | MeshTri, size: float) -> MeshTri:
+    if isinstance(outline, MeshTri):
+        return outline
+    return (Outline.rectangle(outline) if isinstance(outline, Sheet) else outline).mesh(size)
+
+
+def _gain(outline: Sheet | Outline | MeshTri, degree: int) -> float:
+    """GAIN, but 2 where obtuse corners and 1 where re-entrant ones slow the convergence."""
+    if isinstance(outline, MeshTri) or (isinstance(outline, Outline) and outline.largest_angle > np.pi):
+        return 1.0
+    square = isinstance(outline, Sheet) or outline.largest_angle < 0.51 * np.pi
+    return GAIN[degree] if square else 2.0
+
+
+def _checked_mesh(mesh: MeshTri) -> MeshTri:
+    """Raise ValueError for a mesh that has no area somewhere or falls apart."""
+    validation.real_array("outline.p", mesh.p)
+    a, b, c = mesh.p[:, mesh.t].transpose(1, 0, 2)
+    doubled = abs((b - a)[0] * (c - a)[1] - (b - a)[1] * (c - a)[0])
+    if doubled.min() <= 1e-12 * doubled.max():
+        raise ValueError(f"outline: triangle {doubled.argmin()} has the area {doubled.min() / 2:g}")
+    ends = mesh.facets
+    graph = coo_array((np.ones(ends.shape[1]), tuple(ends)), shape=(mesh.p.shape[1],) * 2)
+    parts, _ = connected_components(graph, directed=False)
+    if parts > 1:
+        raise ValueError(f"outline: the mesh has {parts} parts, must be one")
+    return mesh
+
+
+def _longest_side(mesh: MeshTri) -> float:
+    start, end = mesh.p[:, mesh.facets].transpose(1, 0, 2)
+    return float(np.linalg.norm(end - start, axis=0).max())
+
+
+class PlaneStressField(LinearField):
+    """Deformation of a sheet by finite elements; made by `plane_stress_field`.
+
+    sheet: the rectangle around the outline; mesh: the triangles; degree: of the elements.
+    """
+
+    def __init__(
+        self,
+        sheet: Sheet,
+        wave: Wave,
+        coarse: MeshTri,
+        degree: int,
+        gain: float,
+        solver: PlaneStressSolver | None = None,
+        cases: LoadCases | None = None,
+    ) -> None:
+        start = time.perf_counter()
+        self.sheet, self.wave, self.degree = sheet, wave, degree
+        self._coarse, self._gain = coarse, gain
+        self._solver = solver or PlaneStressSolver(coarse.refined(), degree, sheet.poisson)
+        self._cases = cases or load_cases(wave, sheet.length)
+        self._solution = self._solved(self._solver)
+        self.seconds = time.perf_counter() - start
+
+    @property
+    def mesh(self) -> MeshTri:
+        """The triangles."""
+        return self._solver.mesh
+
+    @cached_property
+    def error(self) -> float:
+        """Estimated relative L2 error of the displacement over the sheet at the worst phase."""
+        fine, coarse = self._solver, PlaneStressSolver(self._coarse, self.degree, self.sheet.poisson)
+        x, y = fine.x.ravel(), fine.y.ravel()
+        u = fine.displacements(self._solution, *TriangleFinder(fine.mesh)(x, y))
+        rough = coarse.displacements(self._solved(coarse), *TriangleFinder(coarse.mesh)(x, y))
+        size, difference = (self._norms(v, fine.weights.ravel()) for v in (u, u - rough))
+        if not size.any():
+            return 0.0
+        return float(np.max(difference / np.maximum(size, FLAT * size.max()))) / self._gain
+
+    def motion(self, times: ArrayLike, cells: tuple[int, int], order: int, half: bool) -> Motion:
+        """The field on three four-sided cells per triangle, whatever `cells` and `half` ask for.
+
+        times (times,); order: Gauss points per cell and direction. Never mirrored.
+        """
+        return super().motion(times, (len(self.mesh.t[0]), 3), order, half=False)
+
+    def _on_cells(
+        self, cells: tuple[int, int], order: int, half: bool
+    ) -> tuple[Array, Array, Array, Array]:
+        """Points, areas, displacements and dilations of the basis, straight from the elements."""
+        key = cells, order, half
+        if self._kept is None or self._kept[0] != key:
+            points, jacobian = quadrilateral_points(order)
+            local, mapping = points.reshape(2, -1), self.mesh.mapping()
+            displacements, strains = self._solver.everywhere(self._solution, local)
+            area = np.multiply.outer(abs(mapping.detA), jacobian)
+            values = (mapping.F(local), area, displacements, strains[:, 0] + strains[:, 1])
+            grid = (3 * cells[0], order, order)
+            position, area, displacements, dilations = (
+                v.reshape(*v.shape[:axes], *grid) for v, axes in zip(values, (1, 0, 2, 1), strict=True)
+            )
+            self._kept = key, (position, area, displacements, dilations)
+        return self._kept[1]
+
+    def _solved(self, solver: PlaneStressSolver) -> Array:
+        return solver.solve(self._cases.growths(solver.x, solver.y))
+
+    def _norms(self, values: Array, weights: Array) -> Array:
+        """L2 norm over the sheet of fields (cases, 2, n) put together, at the sampled phases."""
+        return mixed_norms(values * np.sqrt(weights), self._cases.samples())
+
+    @cached_property
+    def _finder(self) -> TriangleFinder:
+        return TriangleFinder(self.mesh)
+
+    def _checked(self, x: ArrayLike, y: ArrayLike, t: ArrayLike) -> tuple[Array, Array, Array]:
+        x, y, t = (validation.real_array(name, v) for name, v in (("x", x), ("y", y), ("t", t)))
+        return x, y, t
+
+    def _for_times(self, t: Array) -> "PlaneStressField":
+        cases = self._cases.at(t)
+        if cases is self._cases:
+            return self
+        return PlaneStressField(
+            self.sheet, self.wave, self._coarse, self.degree, self._gain, self._solver, cases
+        )
+
+    def _amplitudes(self, t: Array) -> Array:
+        return self._cases.amplitudes(t)
+
+    def _amplitude_rates(self, t: Array) -> Array:
+        return self._cases.rates(t)
+
+    def _displacements(self, x: Array, y: Array) -> Array:
+        x, y = np.broadcast_arrays(x, y)
+        values = self._solver.displacements(self._solution, *self._found(x, y))
+        return values.reshape(*values.shape[:2], *x.shape)
+
+    def _strains(self, x: Array, y: Array) -> Array:
+        x, y = np.broadcast_arrays(x, y)
+        values = self._solver.strains(self._solution, *self._found(x, y))
+        return values.reshape(*values.shape[:2], *x.shape)
+
+    def _found(self, x: Array, y: Array) -> tuple[NDArray[np.int64], Array]:
+        """Triangle and local coordinates of the points. Raises ValueError for points outside."""
+        triangle, local = self._finder(x.ravel(), y.ravel())
+        if np.any(triangle < 0):
+            out = int(np.argmin(triangle))
+            raise ValueError(f"x, y = {x.flat[out]:g}, {y.flat[out]:g}: must be inside the outline")
+        return triangle, local

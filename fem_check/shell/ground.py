@@ -1,0 +1,133 @@
+"""The ground: a repulsion that grows with the square of the penetration, and contact damping."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fem_check.shell.effect import Effect, outer
+from fem_check.shell.gravity import check_area
+from fem_check.shell.point_state import AREAS, PointState
+from fem_check.shell.rates import Step
+from fem_check.shell.region import Entries
+from linear_theory import validation
+
+Array = NDArray[np.float64]
+
+FORMS = ("clipped", "printed")
+
+
+class Height(Protocol):
+    """The height of the ground, z = f(x, y)."""
+
+    def __call__(self, x: Array, y: Array) -> Array:
+        """f, f_x, f_y, f_xx, f_yy, f_xy at the points, (6, points)."""
+
+
+@dataclass(frozen=True)
+class Ground:
+    """Pressure k g^2 - beta v on the gap g = z - f(x, y) where g <= 0 (eq. 2), as a potential.
+
+    The pressure acts along the gradient of the gap, (-f_x, -f_y, 1). stiffness: k > 0, force per
+    length^4. damping: beta >= 0, force times time per length^3; v is the rate of the gap. form:
+    "clipped", the pressure is never negative; "printed": as eq. 2 stands, damping pulls at a sheet
+    that leaves. area: what the pressure is counted in, see `AREAS`. height: None is the plane z = 0.
+    Raises ValueError for a stiffness <= 0, a damping < 0 and for other names.
+    """
+
+    stiffness: float
+    damping: float = 0.0
+    area: str = "grown"
+    height: Height | None = None
+    form: str = "clipped"
+    entries: Entries = (0,)
+
+    def __post_init__(self) -> None:
+        validation.positive("stiffness", self.stiffness)
+        if validation.real("damping", self.damping) < 0:
+            raise ValueError(f"damping = {self.damping:g}: must be >= 0")
+        validation.choice("area", self.area, AREAS)
+        validation.choice("form", self.form, FORMS)
+
+    @property
+    def reads_rest(self) -> bool:
+        """Only the grown area belongs to a rest state."""
+        return self.area == "grown"
+
+    def gap(self, position: Array) -> Array:
+        """z - f(x, y), (points,), at positions (3, points)."""
+        if self.height is None:
+            return np.asarray(position[2])
+        return np.asarray(position[2] - self.height(position[0], position[1])[0])
+
+    def pressure(self, state: PointState) -> Array:
+        """Minus the derivative of the potential per area by the gap, (points,)."""
+        gap = self.gap(state.position)
+        drag, base = self._drag(state)
+        pressure = np.where(gap <= 0, self.stiffness * gap**2 - drag * (gap - base), 0)
+        return np.maximum(pressure, 0) if self.form == "clipped" else pressure
+
+    def normal_load(self, state: PointState) -> Array:
+        """Force of the ground on each point, pressure times area, (points,)."""
+        load = self.pressure(state) * state.area_of(self.area)
+        return np.asarray(
+            load if self.height is None else load * np.sqrt((self._slope(state) ** 2).sum(0))
+        )
+
+    def energy(self, state: PointState) -> Array:
+        """See Effect. The integral of the pressure from the gap to 0 (a dissipation where damped)."""
+        gap = np.minimum(self.gap(state.position), 0)
+        drag, base = self._drag(state)
+        start = np.zeros_like(gap)
+        if drag and self.form == "clipped":
+            # If the base lies below 0, k g^2 - drag (g - base) is negative between 0 and its root.
+            deep = np.minimum(base, 0)
+            start = (drag - np.sqrt(drag**2 - 4 * self.stiffness * drag * deep)) / (2 * self.stiffness)
+            gap = np.minimum(gap, start)
+        work = self._antiderivative(start, drag, base) - self._antiderivative(gap, drag, base)
+        return np.asarray(work * state.area_of(self.area))
+
+    def _antiderivative(self, gap: Array, drag: float, base: Array) -> Array:
+        return np.asarray(self.stiffness * gap**3 / 3 - drag * (gap - base) ** 2 / 2)
+
+    def gradient(self, state: PointState) -> Array:
+        """See Effect."""
+        return -(self.pressure(state) * state.area_of(self.area) * self._slope(state))[None]
+
+    def hessian(self, state: PointState) -> Array:
+        """See Effect."""
+        gap, area = self.gap(state.position), state.area_of(self.area)
+        drag, _ = self._drag(state)
+        pressure = self.pressure(state)
+        touching = (gap <= 0) if self.form == "printed" else (pressure > 0)
+        rate = np.where(touching, drag - 2 * self.stiffness * gap, 0) * area
+        slope = self._slope(state)
+        out = rate * outer(slope, slope)
+        if self.height is not None:
+            f = self.height(state.position[0], state.position[1])
+            for pair, entry in ((0, 3), (1, 5), (3, 4)):  # xx, xy, yy among the component pairs
+                out[pair] += pressure * area * f[entry]
+        return np.asarray(out)[None, None]
+
+    def _slope(self, state: PointState) -> Array:
+        """Gradient of the gap, (3, points)."""
+        slope = np.zeros_like(state.position)
+        slope[2] = 1
+        if self.height is not None:
+            slope[:2] = -self.height(state.position[0], state.position[1])[1:3]
+        return slope
+
+    def _drag(self, state: PointState) -> tuple[float, Array]:
+        """damping * rate and the gap from which the rate of the gap is counted."""
+        step = state.step
+        if not self.damping or step is None or step.velocity is None:
+            return 0.0, np.zeros(state.measure.size)
+        return self.damping * step.velocity.rate, self.gap(step.velocity.base)
+
+    def check(self, components: int, effects: Sequence[Effect], step: Step | None) -> None:
+        """Raise ValueError in the plane, where nothing can touch the ground."""
+        if components == 2:
+            raise ValueError("effects: Ground must not be named in a planar scene (components = 2)")
+        check_area(self.area, step)

@@ -1,0 +1,61 @@
+"""Inertia as the potential of one time step."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fem_check.shell.effect import Effect, identity
+from fem_check.shell.material import Material
+from fem_check.shell.point_state import PointState
+from fem_check.shell.rates import Affine, Step
+from fem_check.shell.region import Entries
+from linear_theory import validation
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Inertia:
+    """Mass h rho per undeformed area times the acceleration of Newmark's rule (eq. 16).
+
+    The acceleration at the end of the step being rate (x - base), the potential is
+    h rho rate |x - base|^2/2. density: rho > 0, mass per volume; the paper gives none, nor does this.
+    """
+
+    density: float
+    material: Material
+    entries: Entries = (0,)
+    reads_rest: bool = False
+
+    def __post_init__(self) -> None:
+        validation.positive("density", self.density)
+
+    def _mass(self, state: PointState) -> Array:
+        return np.asarray(self.density * self.material.thickness * state.measure)
+
+    def _acceleration(self, state: PointState) -> Affine:
+        assert state.step is not None
+        assert state.step.acceleration is not None
+        return state.step.acceleration
+
+    def energy(self, state: PointState) -> Array:
+        """See Effect."""
+        rule = self._acceleration(state)
+        away = state.position - rule.base
+        return np.asarray(rule.rate / 2 * self._mass(state) * (away**2).sum(0))
+
+    def gradient(self, state: PointState) -> Array:
+        """See Effect."""
+        return np.asarray(self._mass(state) * self._acceleration(state)(state.position))[None]
+
+    def hessian(self, state: PointState) -> Array:
+        """See Effect."""
+        scale = self._mass(state) * self._acceleration(state).rate
+        return np.asarray(scale * identity(state.components))[None, None]
+
+    def check(self, components: int, effects: Sequence[Effect], step: Step | None) -> None:
+        """Raise ValueError without a step that has an acceleration."""
+        if step is None or step.acceleration is None:
+            raise ValueError("step: Inertia needs one with an acceleration; it has no static form")

@@ -1,0 +1,107 @@
+"""Loads on the sheet, on an edge of it or at a point."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fem_check.shell.effect import Effect, NoConditions, outer
+from fem_check.shell.point_state import PointState
+from fem_check.shell.rates import Step
+from fem_check.shell.region import Entries
+from linear_theory import validation
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class DeadLoad(NoConditions):
+    """A force that keeps its size and direction: per undeformed area, length of an edge, or at a point.
+
+    force: as many components as the scene has. Raises ValueError if they are not finite.
+    """
+
+    force: tuple[float, ...]
+    entries: Entries = (0,)
+    reads_rest: bool = False
+
+    def __post_init__(self) -> None:
+        validation.real_array("force", self.force)
+
+    def _density(self, state: PointState) -> Array:
+        return np.asarray(np.multiply.outer(np.array(self.force), state.measure))
+
+    def energy(self, state: PointState) -> Array:
+        """See Effect."""
+        return -np.asarray((self._density(state) * state.position).sum(0))
+
+    def gradient(self, state: PointState) -> Array:
+        """See Effect."""
+        return -self._density(state)[None]
+
+    def hessian(self, state: PointState) -> None:
+        """Vanishes."""
+
+    def check(self, components: int, effects: Sequence[Effect], step: Step | None) -> None:
+        """Raise ValueError if the force has not as many components as the scene."""
+        if len(self.force) != components:
+            raise ValueError(f"force has {len(self.force)} components: must have {components}")
+
+
+@dataclass(frozen=True)
+class EdgeMoment:
+    """A moment about the y axis on an edge, per undeformed length, that turns x towards z.
+
+    Its work is moment times the angle theta of the tangent a_entry, (cos theta, 0, sin theta). It is
+    the moment of a conservative load that does not follow the sheet, and the true moment as long as
+    the edge stays parallel to y, which it does in the roll-up of a strip. theta is measured in (angle
+    - pi, angle + pi]: state an `angle` near the expected one to go beyond half a turn. entry: 1 or 2,
+    the derivative across the edge.
+    """
+
+    moment: float
+    angle: float = 0.0
+    entry: int = 1
+    reads_rest: bool = False
+
+    def __post_init__(self) -> None:
+        validation.real("moment", self.moment)
+        validation.real("angle", self.angle)
+        if self.entry not in (1, 2):
+            raise ValueError(f"entry = {self.entry!r}: must be 1 or 2")
+
+    @property
+    def entries(self) -> Entries:
+        """The tangent across the edge."""
+        return (self.entry,)
+
+    def _tangent(self, state: PointState) -> tuple[Array, Array, Array]:
+        x, _, z = state.tangent(self.entry)
+        return x, z, x**2 + z**2
+
+    def energy(self, state: PointState) -> Array:
+        """See Effect."""
+        x, z, _ = self._tangent(state)
+        c, s = np.cos(self.angle), np.sin(self.angle)
+        theta = self.angle + np.arctan2(c * z - s * x, c * x + s * z)
+        return np.asarray(-self.moment * state.measure * theta)
+
+    def gradient(self, state: PointState) -> Array:
+        """See Effect."""
+        x, z, square = self._tangent(state)
+        scale = -self.moment * state.measure / square
+        return np.stack([-scale * z, np.zeros_like(x), scale * x])[None]
+
+    def hessian(self, state: PointState) -> Array:
+        """See Effect."""
+        x, z, square = self._tangent(state)
+        scale = -self.moment * state.measure / square**2
+        along, across = np.stack([x, 0 * x, z]), np.stack([-z, 0 * x, x])
+        mixed = outer(along, across) + outer(across, along)
+        return np.asarray(-scale * mixed)[None, None]
+
+    def check(self, components: int, effects: Sequence[Effect], step: Step | None) -> None:
+        """Raise ValueError in the plane, where there is no axis to turn about."""
+        if components == 2:
+            raise ValueError("loads: EdgeMoment must not be named in a planar scene (components = 2)")

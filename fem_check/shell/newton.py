@@ -1,0 +1,203 @@
+"""Newton's method downhill, for the free unknowns of a discretised sheet."""
+
+import time
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fem_check.shell.equilibrium import ConvergenceError, Equilibrium
+from fem_check.shell.linear_solver import Factor, factorise
+from fem_check.shell.orientation import Orientation
+from fem_check.shell.potential import Potential
+from fem_check.shell.sparsity import Sparsity
+from fem_check.shell.stability import NEUTRAL, lowest_mode
+from fem_check.shell.supports import Supports
+from linear_theory import validation
+
+Array = NDArray[np.float64]
+
+FIRST_SHIFT = 1e-10
+"""First multiple of its diagonal that is added to a Hessian that is not positive definite."""
+
+SUFFICIENT_DECREASE = 1e-4
+"""Share of the decrease that the slope promises which a step must achieve (Armijo)."""
+
+ROUNDOFF = 1e-12
+"""Relative error of an energy: smaller decreases cannot be seen in it."""
+
+CONTRACTION = 0.2
+"""A kept factor serves as long as each correction is at most this share of the one before."""
+
+SMALLEST_STEP = 2.0**-30
+
+
+@dataclass(eq=False)
+class Minimiser:
+    """Newton's method with a line search; the symbolic work and, if asked, the factor are kept.
+
+    tolerance: root mean square over the sheet of the last correction, relative to the size of the
+    sheet (the root of its area). iterations: limit per minimisation. keep_factor: use the factor of
+    an earlier iteration or minimisation while it serves, for series of similar problems.
+    check_stability: look for negative curvature at the end; if False, only where the last Hessian
+    that was factorised had one. Raises ValueError for values out of range.
+    """
+
+    supports: Supports
+    tolerance: float = 1e-8
+    iterations: int = 60
+    keep_factor: bool = False
+    check_stability: bool = True
+    sparsity: Sparsity = field(init=False)
+    kept: "Factorised | None" = field(init=False, default=None)
+
+    def __post_init__(self) -> None:
+        self.tolerance = validation.tolerance(self.tolerance)
+        self.iterations = validation.integer("iterations", self.iterations, 1)
+        self.sparsity = Sparsity(self.supports.discretisation, self.supports.free)
+        self.region = self.supports.discretisation.interior
+        self.orientation = Orientation(self.region)
+
+    def minimise(self, potential: Potential, start: Array, patience: int = 1) -> Equilibrium:
+        """The minimum next to `start` (size,), within `patience` times the usual iterations.
+
+        Raises ConvergenceError if it is not found within the iterations or if no step downhill keeps
+        the sheet from turning inside out.
+        """
+        begin = time.perf_counter()
+        search = _Search(self, potential, np.array(start, float))
+        correction, count = np.inf, 0
+        while correction > self.tolerance * self.length:
+            if count == patience * self.iterations:
+                text = f"no minimum within {count} iterations (last correction {correction:.2g})"
+                raise ConvergenceError(text, search.state)
+            correction = search.advance()
+            count += 1
+        suspected = self.check_stability or search.shifted
+        curvature, mode = search.negative_curvature() if suspected else (np.nan, None)
+        seconds = time.perf_counter() - begin
+        return Equilibrium(search.state, search.energy, count, correction, seconds, curvature, mode)
+
+    @property
+    def length(self) -> float:
+        """Root of the undeformed area."""
+        return float(np.sqrt(self.region.measure.sum()))
+
+    def rms(self, change: Array) -> float:
+        """Root mean square over the sheet of a displacement (size,)."""
+        square = (self.region.displacement(change, (0,))[0] ** 2).sum(0)
+        return float(np.sqrt(square @ self.region.measure / self.region.measure.sum()))
+
+    def factorised(self, potential: Potential, u: Array, shift: float) -> "Factorised":
+        """The Hessian at u, with the smallest multiple of its diagonal that makes it definite."""
+        values = self.sparsity.assemble(potential.hessian_blocks(u))
+        if not np.all(np.isfinite(values)):
+            raise ConvergenceError("the Hessian is not finite", u)
+        diagonal = np.abs(values[self.sparsity.diagonal])
+        scale = np.maximum(diagonal, 1e-12 * diagonal.max())
+        factor, used = factorise(self.sparsity, values), 0.0
+        while factor is None:
+            used = max(FIRST_SHIFT, shift / 10) if used == 0 else 10 * used
+            shifted = values.copy()
+            shifted[self.sparsity.diagonal] += used * scale
+            factor = factorise(self.sparsity, shifted)
+        return Factorised(values, scale, used, factor)
+
+
+@dataclass(frozen=True, eq=False)
+class Factorised:
+    """Stored entries of a Hessian and the factor of values + shift * diag(scale)."""
+
+    values: Array
+    scale: Array
+    shift: float
+    factor: Factor
+
+
+class _Search:
+    """One minimisation: the state and what is known there."""
+
+    def __init__(self, minimiser: Minimiser, potential: Potential, state: Array) -> None:
+        self.minimiser, self.potential, self.state = minimiser, potential, state
+        self.directors = minimiser.orientation.directors(state)
+        if not minimiser.orientation.keeps(self.directors, self.directors):
+            raise ConvergenceError(
+                "the start is turned inside out, or shrunk to nothing, somewhere", state
+            )
+        self.energy, gradient = potential.energy_and_gradient(state)
+        self.gradient = gradient[minimiser.sparsity.order]
+        self.current: Factorised | None = minimiser.kept if minimiser.keep_factor else None
+        self.fresh = False
+        self.correction = np.inf
+        if not np.isfinite(self.energy):
+            raise ConvergenceError("the energy of the start is not finite", state)
+
+    def advance(self) -> float:
+        """Make one correction; returns its root mean square."""
+        size = self._correct() if self.current is not None else None
+        if size is None:
+            self._factorise()
+            size = self._correct()
+        if size is None:
+            raise ConvergenceError(
+                "no step downhill keeps the sheet from turning inside out", self.state
+            )
+        if not self.minimiser.keep_factor:
+            self.current = None
+        self.correction, self.fresh = size, False
+        return size
+
+    def _factorise(self) -> None:
+        before = 0.0 if self.minimiser.kept is None else self.minimiser.kept.shift
+        self.current = self.minimiser.factorised(self.potential, self.state, before)
+        self.minimiser.kept, self.fresh = self.current, True
+
+    def _correct(self) -> float | None:
+        """Correct with the factor at hand; None if it is of no use (any longer)."""
+        assert self.current is not None
+        step = -self.current.factor.solve(self.gradient)
+        change = np.zeros_like(self.state)
+        change[self.minimiser.sparsity.order] = step
+        size = self.minimiser.rms(change)
+        if not self.fresh and (self.current.shift > 0 or size > CONTRACTION * self.correction):
+            return None
+        share, slope = 1.0, float(step @ self.gradient)
+        while share >= (SMALLEST_STEP if self.fresh else 1.0):
+            if self._accept(self.state + share * change, share * slope):
+                return size
+            share /= 2
+        return None
+
+    def _accept(self, trial: Array, slope: float) -> bool:
+        orientation = self.minimiser.orientation
+        directors = orientation.directors(trial)
+        if not orientation.keeps(self.directors, directors):
+            return False
+        energy, gradient = self.potential.energy_and_gradient(trial)
+        allowed = self.energy + SUFFICIENT_DECREASE * slope + ROUNDOFF * abs(self.energy)
+        if not energy <= allowed and -slope > ROUNDOFF * max(abs(self.energy), abs(energy)):
+            return False
+        self.state, self.energy, self.directors = trial, energy, directors
+        self.gradient = gradient[self.minimiser.sparsity.order]
+        return True
+
+    @property
+    def shifted(self) -> bool:
+        """Whether the last Hessian that was factorised was not positive definite."""
+        return self.minimiser.kept is not None and self.minimiser.kept.shift > 0
+
+    def negative_curvature(self) -> tuple[float, Array | None]:
+        """Lowest scaled eigenvalue of the Hessian here and its direction, (NaN, None) if positive."""
+        sparsity = self.minimiser.sparsity
+        if sparsity.size == 0:
+            return np.nan, None
+        here = self.minimiser.factorised(self.potential, self.state, 0.0)
+        self.minimiser.kept = here
+        if here.shift == 0:
+            return np.nan, None
+        lowest, direction = lowest_mode(sparsity, here.values, here.factor, here.shift, here.scale)
+        if lowest > -NEUTRAL:
+            return np.nan, None
+        mode = np.zeros_like(self.state)
+        mode[sparsity.order] = direction
+        return lowest, mode

@@ -1,0 +1,39 @@
+"""Whether a state turns the sheet inside out at some point.
+
+Koiter's energy depends on metric and curvature alone and does not notice a point where the sheet is
+folded over. In the plane the determinant of the deformation gradient tells. In space a sheet may turn
+over as a whole, so each state is compared with the one before: in one step no normal may turn by a
+right angle or more.
+"""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fem_check.shell.point_state import PointState, dot
+from fem_check.shell.region import Region
+
+Array = NDArray[np.float64]
+
+SMALLEST_AREA = 1e-3
+"""Share of its undeformed area to which a point may shrink: below it the sheet is about to invert."""
+
+
+class Orientation:
+    """Directors a_1 x a_2 over the undeformed area, at all points of a region."""
+
+    def __init__(self, region: Region) -> None:
+        self._region = region
+        a11, a22, a12 = region.metric
+        self._scale = 1 / np.sqrt(a11 * a22 - a12**2)
+
+    def directors(self, u: Array) -> Array:
+        """(3, points); (1, points) in the plane, the determinant of the deformation gradient."""
+        return np.asarray(PointState(self._region, u, (1, 2)).director * self._scale)
+
+    def keeps(self, before: Array, after: Array) -> bool:
+        """Whether no point is turned inside out between two states given by their directors."""
+        if not np.all(np.isfinite(after)):
+            return False
+        size = np.sqrt(dot(after, after))
+        aligned = dot(before, after) if len(before) == 3 else after[0]
+        return bool(np.all(size > SMALLEST_AREA) and np.all(aligned > 0))

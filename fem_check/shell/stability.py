@@ -1,0 +1,32 @@
+"""The lowest eigenvalue of a Hessian that is not positive definite, and its direction."""
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse.linalg import LinearOperator, eigsh
+
+from fem_check.shell.linear_solver import Factor
+from fem_check.shell.sparsity import Sparsity
+
+Array = NDArray[np.float64]
+
+NEUTRAL = 1e-10
+"""Eigenvalues closer to 0 than this are rigid motions and roundoff, not buckling."""
+
+
+def lowest_mode(
+    sparsity: Sparsity, values: Array, factor: Factor, shift: float, scale: Array
+) -> tuple[float, Array]:
+    """Lowest eigenvalue and eigenvector of H x = lambda diag(scale) x.
+
+    values: stored entries of H. factor: of H + shift diag(scale), positive definite. scale (n,).
+    The eigenvector (n,) of the free unknowns has a largest component of 1. Lanczos iteration on the
+    inverse of the shifted matrix, from a fixed start, so that results repeat.
+    """
+    root = np.sqrt(scale)
+    inverse = LinearOperator(
+        (sparsity.size,) * 2, matvec=lambda x: root * factor.solve(root * np.ravel(x)), dtype=float
+    )
+    start = np.random.default_rng(0).standard_normal(sparsity.size)
+    largest, vectors = eigsh(inverse, k=1, which="LA", v0=start, tol=1e-6)
+    mode = vectors[:, 0] / root
+    return float(1 / largest[0] - shift), mode / mode[np.abs(mode).argmax()]

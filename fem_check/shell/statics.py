@@ -1,0 +1,124 @@
+"""Equilibria under growth and loads: put on in steps that adapt, buckling followed on request.
+
+Koiter's energy has minima with inverted elements, and saddles where a sheet buckles. Full growth from
+the flat state can end in either. Therefore growth and loads are ramped, no step may turn the sheet
+inside out (`orientation`), and a saddle is reported as such or left along its falling direction.
+"""
+
+import time
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fem_check.shell.equilibrium import ConvergenceError, Equilibrium
+from fem_check.shell.newton import Minimiser
+from fem_check.shell.potential import Potential
+from linear_theory import validation
+
+Array = NDArray[np.float64]
+
+SMALLEST_INCREMENT = 1e-4
+"""Ramps give up below this share of the whole."""
+
+PATIENCE = 5
+"""A sheet that buckles goes a long way: so many times the usual iterations are allowed."""
+
+ATTEMPTS = 5
+"""How many saddles in a row are left."""
+
+FEW, MANY = 10, 20
+"""Newton iterations below which an increment grows and above which it shrinks."""
+
+
+def ramp(
+    minimiser: Minimiser,
+    problem: Callable[[float], Potential],
+    start: Array,
+    *,
+    first: float = 1.0,
+    follow: float = 0.0,
+    report: Callable[[float, Equilibrium], None] | None = None,
+) -> Equilibrium:
+    """The equilibrium of problem(1), reached from `start`, that of problem(0), by increments.
+
+    problem: the potential at a parameter in (0, 1], for instance with growth and loads times it.
+    first: the first increment. An increment is halved when its minimisation fails and grows when it
+    was easy; each starts from the extrapolation of the last two. follow: if > 0, a buckled state is
+    left by this amplitude (length) along its mode, see `follow_mode`. report is called after each
+    increment.
+
+    Raises ConvergenceError, with the last state and its parameter, when increments become too small.
+    """
+    begin = time.perf_counter()
+    done, increment, state = 0.0, _share("first", first), np.array(start, float)
+    path = [(0.0, state)]
+    iterations, result = 0, None
+    while done < 1:
+        target = min(1.0, done + increment) if done + 1.01 * increment < 1 else 1.0
+        try:
+            result = _increment(minimiser, problem(target), _extrapolated(path, target), state)
+            if result.buckled and follow > 0:
+                result = follow_mode(minimiser, problem(target), result, follow)
+        except ConvergenceError as error:
+            increment = (target - done) / 2
+            if increment < SMALLEST_INCREMENT:
+                raise ConvergenceError(
+                    f"stuck at {done:.4g} of the ramp: {error}", state, done
+                ) from error
+            continue
+        iterations += result.iterations
+        if result.iterations > MANY or result.iterations < FEW:
+            increment = (target - done) * (0.5 if result.iterations > MANY else 1.6)
+        done, state = target, result.state
+        path = [*path[-2:], (done, state)]
+        if report is not None:
+            report(done, result)
+    assert result is not None
+    return replace(result, iterations=iterations, seconds=time.perf_counter() - begin)
+
+
+def _increment(minimiser: Minimiser, potential: Potential, guess: Array, state: Array) -> Equilibrium:
+    """From the extrapolated state, or from the last one if that does not lie on the way."""
+    orientation = minimiser.orientation
+    if not orientation.keeps(orientation.directors(state), orientation.directors(guess)):
+        guess = state
+    return minimiser.minimise(potential, guess)
+
+
+def _extrapolated(path: list[tuple[float, Array]], target: float) -> Array:
+    """The polynomial through the last states (up to three), at the next parameter."""
+    total = np.zeros_like(path[0][1])
+    for i, (place, state) in enumerate(path):
+        others = [other for j, (other, _) in enumerate(path) if j != i]
+        total += np.prod([(target - o) / (place - o) for o in others]) * state
+    return total
+
+
+def follow_mode(
+    minimiser: Minimiser, potential: Potential, buckled: Equilibrium, amplitude: float
+) -> Equilibrium:
+    """The minimum on one side of a saddle: pushed along its falling direction, then minimised again.
+
+    amplitude: root mean square of the push over the sheet, in units of length; its sign selects the
+    side. Raises ValueError if the state is not buckled, ConvergenceError as `Minimiser.minimise`.
+    """
+    if buckled.mode is None:
+        raise ValueError("buckled.mode = None: the state is a minimum, there is nothing to follow")
+    size, result = validation.real("amplitude", amplitude), buckled
+    for _ in range(ATTEMPTS):
+        if result.mode is None:
+            break
+        push = result.mode * (size / minimiser.rms(result.mode))
+        lower = minimiser.minimise(potential, result.state + push, PATIENCE)
+        seconds, iterations = result.seconds + lower.seconds, result.iterations + lower.iterations
+        result = replace(lower, iterations=iterations, seconds=seconds)
+    return result
+
+
+def _share(name: str, value: float) -> float:
+    number = validation.real(name, value)
+    if not 0 < number <= 1:
+        raise ValueError(f"{name} = {number:g}: must be in (0, 1]")
+    return number

@@ -1,0 +1,87 @@
+"""Points in the triangles of a mesh: finding them, and four-sided cells that fill each triangle.
+
+A point of a triangle has the local coordinates (X, Y), X, Y >= 0, X + Y <= 1, of scikit-fem.
+"""
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial import cKDTree
+from skfem import MeshTri
+
+Array = NDArray[np.float64]
+Indices = NDArray[np.int64]
+
+TOLERANCE = 1e-9  # of a triangle's size: how far outside the mesh roundoff may put a point
+_CANDIDATES = 12
+_BLOCK = 2**22  # numbers in one temporary array
+
+
+class TriangleFinder:
+    """Which triangle holds a point, and where in it.
+
+    A tree of centroids gives candidates; points that are in none of them are tried in all triangles.
+    """
+
+    def __init__(self, mesh: MeshTri) -> None:
+        corners = mesh.p[:, mesh.t]
+        self._origin = corners[:, 0].T
+        self._inverse = np.linalg.inv(
+            np.stack([corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]], 1).transpose(
+                2, 0, 1
+            )
+        )
+        self._tree = cKDTree(corners.mean(axis=1).T)
+
+    def __call__(self, x: Array, y: Array) -> tuple[Indices, Array]:
+        """Triangles (n,) and local coordinates (2, n) of points x, y (n,); -1 where outside."""
+        points = np.stack([x, y], axis=1)
+        count = min(_CANDIDATES, self._tree.n)
+        candidates = self._tree.query(points, count)[1].reshape(len(points), count)
+        triangle, local, depth = self._best(points, candidates)
+        lost = np.flatnonzero(depth < -TOLERANCE)
+        every = np.arange(self._tree.n)[None]
+        for some in np.array_split(lost, 1 + lost.size * self._tree.n // _BLOCK):
+            triangle[some], local[some], depth[some] = self._best(points[some], every)
+        return np.where(depth < -TOLERANCE, -1, triangle), local.T
+
+    def _best(self, points: Array, candidates: Indices) -> tuple[Indices, Array, Array]:
+        """Of the candidates (n or 1, k), the one in which each point lies deepest."""
+        shift = points[:, None] - self._origin[candidates]
+        local = np.einsum(
+            "nkij,nkj->nki", np.broadcast_to(self._inverse[candidates], (*shift.shape, 2)), shift
+        )
+        depth = np.minimum(local.min(axis=2), 1 - local.sum(axis=2))
+        best = depth.argmax(axis=1)
+        row = np.arange(len(points))
+        triangle = np.broadcast_to(candidates, depth.shape)[row, best]
+        return triangle, local[row, best], depth[row, best]
+
+
+def quadrilateral_points(order: int) -> tuple[Array, Array]:
+    """Gauss points of the three cells of a triangle: local coordinates and Jacobian.
+
+    Each cell reaches from a corner to the centroid, with the middles of two sides as its other
+    corners. Returns (2, 3, order, order) and (3, order, order), the Jacobian of the bilinear map from
+    [-1, 1]^2 to local coordinates, linear along each axis.
+    """
+    nodes, _ = np.polynomial.legendre.leggauss(order)
+    s, t = nodes[:, None], nodes
+    corners = np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]])
+    points, jacobians = [], []
+    for k in range(3):
+        a, b, d = corners[k], (corners[k] + corners[k - 2]) / 2, (corners[k] + corners[k - 1]) / 2
+        c = corners.mean(axis=0)
+        a, b, c, d = (v[:, None, None] for v in (a, b, c, d))
+        points.append(
+            (
+                (1 - s) * (1 - t) * a
+                + (1 + s) * (1 - t) * b
+                + (1 + s) * (1 + t) * c
+                + (1 - s) * (1 + t) * d
+            )
+            / 4
+        )
+        along_s = ((1 - t) * (b - a) + (1 + t) * (c - d)) / 4
+        along_t = ((1 - s) * (d - a) + (1 + s) * (c - b)) / 4
+        jacobians.append(along_s[0] * along_t[1] - along_s[1] * along_t[0])
+    return np.stack(points, axis=1), np.stack(jacobians)
