@@ -1,6 +1,36 @@
 """How fast a sheet driven by a travelling wave of growth crawls: closed form, series, balance."""
 
+from linear_theory.airy import AirySeries, airy_series
+from linear_theory.crawl import crawl_speed, field_speed, friction_field
+from linear_theory.errors import NotConvergedError
+from linear_theory.field_wave import FieldWave
+from linear_theory.line import line_speed, line_speed_tanh, line_speed_viscous
+from linear_theory.line_balance import line_balance
+from linear_theory.line_series import LAPLACE_LIMIT, line_series, line_speed_series
+from linear_theory.ritz import RitzField, ritz_field
 from linear_theory.sheet import Sheet
+from linear_theory.speed import CrawlSpeed
 from linear_theory.waves import SineWave, TravellingWave
 
-__all__ = ["Sheet", "SineWave", "TravellingWave"]
+__all__ = [
+    "LAPLACE_LIMIT",
+    "AirySeries",
+    "CrawlSpeed",
+    "FieldWave",
+    "NotConvergedError",
+    "RitzField",
+    "Sheet",
+    "SineWave",
+    "TravellingWave",
+    "airy_series",
+    "crawl_speed",
+    "field_speed",
+    "friction_field",
+    "line_balance",
+    "line_series",
+    "line_speed",
+    "line_speed_series",
+    "line_speed_tanh",
+    "line_speed_viscous",
+    "ritz_field",
+]

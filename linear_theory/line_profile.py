@@ -98,12 +98,6 @@ class Profile:
         profile.taylor[0, self.nodes.size :] = level
         return profile._sorted()
 
-    def shifted(self, level: float) -> "Profile":
-        """g - level, without rounding where the profile is `anchored` at that level."""
-        taylor = self.taylor.copy()
-        taylor[0] -= level
-        return replace(self, taylor=taylor)
-
     def rise(self, base: float, height: float) -> Rise:
         """What lies between the levels base and base + height, height >= 0.
 

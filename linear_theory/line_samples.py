@@ -190,7 +190,7 @@ def _tanh_speed(velocity: Array, weight: Array, slip_speed: float, guess: Array)
 def _mean_tanh(a: Array, b: Array) -> tuple[Array, Array]:
     """Means of tanh and of its derivative between a and b: integrals, or Gauss points if close."""
     gap = b - a
-    close = (abs(gap) < 0.02) | ((a * b > 0) & (np.minimum(abs(a), abs(b)) > 20))
+    close = (abs(gap) < 0.02) | ((np.sign(a) == np.sign(b)) & (np.minimum(abs(a), abs(b)) > 20))
     safe = np.where(close, 1.0, gap)
     left, right = np.tanh(a), np.tanh(b)
     far_value = (_log_cosh(b) - _log_cosh(a)) / safe

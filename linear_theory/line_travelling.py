@@ -40,10 +40,9 @@ MOST_HALVINGS = 60
 
 
 class Level(NamedTuple):
-    """Solution m = base + rise of a balance, and the error of m."""
+    """Level m of g that belongs to the speed, and its error."""
 
-    base: float
-    rise: float
+    value: float
     error: float
 
 
@@ -57,17 +56,16 @@ def travelling_balance(wave: TravellingWave, alpha: float, law: FrictionLaw, gro
     _check_stretch(profile, alpha, mean)
     unit = abs(alpha) / wave.count / wave.period
     level = _level(profile, wave, abs(alpha) if grows else 0.0, mean, _width(law, abs(unit)))
-    value = level.base + level.rise
     first, second = _coefficients(profile, wave, law, grows)
     return Balance(
-        mean=unit * value,
-        error=abs(unit) * (level.error + 4 * EPS * abs(value)),
+        mean=unit * level.value,
+        error=abs(unit) * (level.error + 4 * EPS * abs(level.value)),
         times=np.array([0.0, wave.period]),
-        velocity=np.array([unit * value, unit * value]),
-        fastest=abs(unit) * float(abs(profile.values - value).max()),
+        velocity=np.array([unit * level.value, unit * level.value]),
+        fastest=abs(unit) * float(abs(profile.values - level.value).max()),
         first=sign * first / wave.count / wave.period,
         second=second / wave.count / wave.period,
-        sticks=law.width == 0 and _rests(profile, value),
+        sticks=law.width == 0 and _rests(profile, level.value),
     )
 
 
@@ -79,13 +77,13 @@ def _width(law: FrictionLaw, unit: float) -> float:
         return float(np.float64(law.width) / unit)
 
 
-def _level(profile: Profile, wave: TravellingWave, weight: float, mean: float, width: float) -> "Level":
+def _level(profile: Profile, wave: TravellingWave, weight: float, mean: float, width: float) -> Level:
     if width == 0:
         return _dry_level(profile, weight, mean)
     if math.isfinite(width):
         return _tanh_level(profile, weight, mean, width)
     level = weight * _variance(wave) / (1 + weight * mean)
-    return Level(0.0, level, 16 * EPS * level)
+    return Level(level, 16 * EPS * level)
 
 
 def _check_stretch(profile: Profile, alpha: float, mean: float) -> None:
@@ -129,61 +127,57 @@ def _variance(wave: TravellingWave) -> float:
 
 
 def _dry_level(profile: Profile, weight: float, mean: float) -> Level:
-    """Weighted median of g."""
-    base = profile.median()
-    anchored = profile.anchored(base)
-    push = weight * anchored.mean_deviation(base)
-    factor, density = 1 + weight * mean, anchored.density(base)
+    """Weighted median of g: the weight below it is half of all, w = factor + weight g."""
+    factor, lower, upper = 1 + weight * mean, float(profile.values.min()), float(profile.values.max())
+    base, target, guess = lower, factor / 2, -lower
+    if profile.symmetric:  # half of the body is below 0: what is missing is a weight of order alpha
+        profile, base = profile.anchored(0.0), 0.0
+        target = weight * profile.mean_deviation(0.0) / 2
+        guess = target / (factor * profile.density(0.0))
+    if target == 0:
+        return Level(base, 0.0)
 
     def excess(height: Array) -> tuple[Array, Array]:
-        rise = anchored.rise(base, float(height))
-        value = 2 * (factor * rise.part + weight * rise.growth) - push
-        return np.array(value), np.array(2 * (factor * rise.part_rate + weight * rise.growth_rate))
+        rise = profile.rise(base, float(height))
+        value = factor * rise.part + weight * rise.growth - target
+        return np.array(value), np.array(factor * rise.part_rate + weight * rise.growth_rate)
 
-    room = float(anchored.values.max()) - base
-    height = (
-        bracketed_newton(excess, 0.0, room, push / (2 * factor * density)) if push else np.zeros(())
-    )
-    slope = float(excess(height)[1]) or np.inf
-    own = 0.0 if profile.symmetric else 4 * EPS * profile.scale + 4 * EPS / density
-    return Level(base, float(height), own + 8 * EPS * push / slope + 8 * EPS * float(height))
+    coarse = 0.0 if profile.symmetric else 4 * EPS * profile.scale
+    height = bracketed_newton(excess, 0.0, upper - base, guess, atol=coarse)
+    slope = float(excess(height)[1]) or math.inf
+    return Level(base + float(height), 8 * EPS * (target / slope + float(height)) + coarse)
 
 
 def _tanh_level(profile: Profile, weight: float, mean: float, width: float) -> Level:
-    """Root m of int w tanh((m - g)/width) = 0, as a rise above the root for w = 1."""
-    base, own = (0.0, 0.0) if profile.symmetric else _tanh_median(profile, width)
-    shifted = profile.anchored(base).shifted(base)
-    top = float(shifted.values.max())
+    """Root m of int w tanh((m - g)/width) = 0."""
+    factor, lower, upper = 1 + weight * mean, float(profile.values.min()), float(profile.values.max())
 
-    def balance(height: Array, finer: float = 1.0) -> tuple[Array, Array]:
-        # Free of cancellation: tanh x - tanh y = tanh(x - y) (1 - tanh x tanh y).
-        measure, above = _quadrature(shifted, (0.0, float(height)), width * finer)
-        before, after = np.tanh(-above / width), np.tanh((height - above) / width)
-        moved = np.tanh(height / width) * (measure @ (1 - before * after))
-        growth = mean + base + above
-        value = (1 + weight * (mean + base)) * moved + weight * (measure @ (above * after))
-        slope = measure @ ((1 + weight * growth) * (1 - after) * (1 + after)) / width
-        return np.array(value), np.array(slope)
-
-    if not weight:
-        return Level(base, 0.0, own)
-    height = bracketed_newton(balance, 0.0, top, weight * top**2 / 2)
-    miss, slope = balance(height, finer=0.5)
-    return Level(base, float(height), own + abs(float(miss / slope)) + 16 * EPS * float(height))
-
-
-def _tanh_median(profile: Profile, width: float) -> tuple[float, float]:
-    """Root of int tanh((m - g)/width) = 0, and its error."""
-
-    def balance(level: Array, finer: float = 1.0) -> tuple[Array, Array]:
+    def direct(level: Array, finer: float = 1.0) -> tuple[Array, Array]:
         measure, g = _quadrature(profile, (float(level),), width * finer)
-        t = np.tanh((level - g) / width)
+        t, measure = np.tanh((level - g) / width), measure * (factor + weight * g)
         return np.array(measure @ t), np.array(measure @ ((1 - t) * (1 + t)) / width)
 
-    ends = float(profile.values.min()), float(profile.values.max())
-    level = bracketed_newton(balance, *ends, profile.median(), atol=EPS * profile.scale)
-    miss, slope = balance(level, finer=0.5)
-    return float(level), float((abs(miss) + 4 * EPS) / slope) + 4 * EPS * profile.scale
+    def remainder(level: Array, finer: float = 1.0) -> tuple[Array, Array]:
+        # int tanh(-g/width) = 0 by symmetry; tanh x - tanh y = tanh(x - y) (1 - tanh x tanh y).
+        measure, g = _quadrature(profile, (0.0, float(level)), width * finer)
+        before, t = np.tanh(-g / width), np.tanh((level - g) / width)
+        value = factor * np.tanh(level / width) * (measure @ (1 - before * t)) + weight * (
+            measure @ (g * t)
+        )
+        slope = (measure * (factor + weight * g)) @ ((1 - t) * (1 + t)) / width
+        return np.array(value), np.array(slope)
+
+    if not profile.symmetric:
+        coarse = 4 * EPS * profile.scale
+        level = bracketed_newton(direct, lower, upper, profile.median(), atol=coarse)
+        miss, slope = direct(level, finer=0.5)
+        return Level(float(level), float((abs(miss) + 4 * EPS) / slope) + coarse)
+    if not weight:
+        return Level(0.0, 0.0)
+    profile = profile.anchored(0.0)
+    level = bracketed_newton(remainder, 0.0, upper, weight * upper**2 / 2)
+    miss, slope = remainder(level, finer=0.5)
+    return Level(float(level), float(abs(miss) / slope) + 16 * EPS * float(level))
 
 
 def _quadrature(profile: Profile, levels: tuple[float, ...], width: float) -> tuple[Array, Array]:

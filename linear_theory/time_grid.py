@@ -25,8 +25,8 @@ class TimeGrid(NamedTuple):
     def mean(self, values: Array) -> tuple[float, float]:
         """Mean of values (times,) by Boole's rule, and its estimated error.
 
-        Half the difference of Simpson's rule with two and with one step per panel, panel by panel: far
-        too large where the function is smooth, and about right at a kink.
+        The difference of Simpson's rule with two and with one step per panel, panel by panel: far too
+        large where the function is smooth, and about right at a kink.
         """
         share = self.lengths / self.lengths.sum()
         return float(share @ (_panels(values) @ _BOOLE)), float(self._errors(values).sum())
@@ -44,7 +44,7 @@ class TimeGrid(NamedTuple):
 
     def _errors(self, values: Array) -> Array:
         share = self.lengths / self.lengths.sum()
-        return np.asarray(share * abs(_panels(values) @ (_TWO_SIMPSONS - _SIMPSON)) / 2)
+        return np.asarray(share * abs(_panels(values) @ (_TWO_SIMPSONS - _SIMPSON)))
 
 
 def first_grid(start: float, end: float, panels: int) -> TimeGrid:

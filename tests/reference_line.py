@@ -1,9 +1,10 @@
-"""Slow, literal second implementations of the one-dimensional theory, in mpmath to 50 digits."""
+"""Slow, literal second implementations of the one-dimensional theory, most of them in mpmath."""
 
 import math
 
 import mpmath as mp
 import numpy as np
+from scipy import special
 
 DIGITS = 50
 
@@ -33,15 +34,13 @@ def kapteyn_sine(alpha, terms):
 
     cos(E) = -e/2 + sum_k (2/k) J'_k(k e) cos(k pi/2): alpha/2 - sum_j (-1)^j/j J'_2j(2 j alpha).
     """
-    alpha = mp.mpf(alpha)
-    return alpha / 2 - mp.fsum(
-        mp.mpf(-1) ** j / j * mp.besselj(2 * j, 2 * j * alpha, 1) for j in range(1, terms + 1)
-    )
+    j = np.arange(1, terms + 1)
+    return alpha / 2 - math.fsum((-1.0) ** j / j * special.jvp(2 * j, 2 * j * alpha))
 
 
 def tanh_level(alpha, width):
     """q with int (1 + alpha sin phi) tanh((q - sin phi)/width) dphi = 0, by adaptive quadrature."""
-    with mp.workdps(30):
+    with mp.workdps(20 + max(0, -math.floor(math.log10(alpha)))):  # q ~ alpha is a difference
         alpha, width = mp.mpf(alpha), mp.mpf(width)
 
         def balance(q):
@@ -53,13 +52,13 @@ def tanh_level(alpha, width):
                 lambda phi: (1 + alpha * mp.sin(phi)) * mp.tanh((q - mp.sin(phi)) / width), sorted(cuts)
             )
 
-        return mp.findroot(balance, (alpha / 2, alpha * 0.9), tol=1e-40, verify=False)
+        return mp.findroot(balance, (alpha / 2, alpha * 0.9), tol=1e-30, verify=False)
 
 
 def travelling_level(wave, alpha, grows, guess):
     """Weighted median m - mean of a travelling wave's profile to 30 digits, near a guess."""
     with mp.workdps(30):
-        grid = np.linspace(0, 2 * np.pi, 40001)
+        grid = np.linspace(0, 2 * np.pi, 4001)  # must tell any two crossings apart
         values = wave.profile(grid) - wave.mean
         p, q = [list(map(mp.mpf, map(float, a))) for a in (wave.cosine, wave.sine)]
         slope_weight = mp.mpf(alpha) if grows else mp.mpf(0)
@@ -73,7 +72,7 @@ def travelling_level(wave, alpha, grows, guess):
             return total
 
         def crossing(phi, level):
-            for _ in range(6):
+            for _ in range(5):
                 phi -= (series(phi, 0) - level) / series(phi, 1)
             return phi
 

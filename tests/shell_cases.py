@@ -1,10 +1,11 @@
 """Problems of thin shells with known answers, as functions of the mesh, and helpers of the shell tests.
 
-Sources. Sze, Liu & Lo 2004: Finite Elem. Anal. Des. 40:1551, Abaqus S4R. Its tables for end shear and
-end moment were read again in the test suite of MBDyn (tests/plates/sze2004); those of the slit
-annulus and of the pinched semi-cylinder are quoted from issue 3 of this project. Taylor & Govindjee
-2004: Commun. Numer. Meth. Eng. 20:757, quoted by libMesh's shell example. Scordelis-Lo: 0.3006 is the
-Kirchhoff-Love value quoted in isogeometric papers.
+Sources. Sze, Liu & Lo 2004: Finite Elem. Anal. Des. 40:1551, Abaqus S4R. Its tables were read where
+others quote them: end shear and end moment in MBDyn (tests/plates/sze2004), the pinched semi-cylinder
+in FEniCSx-Shells (demo_nonlinear_naghdi_clamped_semicylinder.py); of the slit annulus the data were
+confirmed (PENGoLINS, slit_annular.py), its two deflections were not. Clamped plate: Taylor &
+Govindjee 2004, Commun. Numer. Meth. Eng. 20:757, in libMesh's Clough-Tocher shell example.
+Scordelis-Lo: 0.3006 for Kirchhoff-Love shells in PENGoLINS (Scordelis_Lo.py).
 """
 
 from collections.abc import Callable
@@ -176,7 +177,7 @@ def slit_annulus(element: str, n: int, m: int) -> Path:
     )
 
 
-def semi_cylinder(element: str, n: int, m: int) -> Path:
+def semi_cylinder(element: str, n: int, m: int, shares: tuple[float, ...] = (1.0,)) -> Path:
     """r 101.6, L 304.8, t 3, E 2068.5, nu 0.3: half of it, n around and m along; (deflection,).
 
     One curved end clamped, straight edges free of vertical displacement and of rotation about the axis,
@@ -193,6 +194,7 @@ def semi_cylinder(element: str, n: int, m: int) -> Path:
         Material(3.0, 0.3, 2068.5),
         lambda s: (Load(tip, DeadLoad((0.0, 0.0, -1000.0 * s))),),
         lambda state: (-displacement(sheet, state, (0.0, 304.8))[2],),
+        shares,
         first=0.02,
     )
 

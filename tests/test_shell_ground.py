@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 import skfem
 from numpy.typing import NDArray
-from shell_cases import affine, koiter, shell
 
 from fem_check.shell.discretisation import Discretisation
 from fem_check.shell.friction import Friction, load_bearer, log_cosh, sech_squared, tanh_ratio
@@ -21,6 +20,7 @@ from fem_check.shell.rest_state import RestState, grown_state
 from fem_check.shell.statics import ramp
 from fem_check.shell.supports import Supports
 from linear_theory import SineWave
+from tests.shell_cases import affine, koiter, shell
 
 Array = NDArray[np.float64]
 PAPER = Material(0.03, 0.5)

@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 import skfem
 from numpy.typing import NDArray
-from shell_cases import koiter, shell
 
 from fem_check.shell.discretisation import Discretisation
 from fem_check.shell.growth import GROWTH_LAWS, bilayer, metric_factor
@@ -18,6 +17,7 @@ from fem_check.shell.statics import ramp
 from fem_check.shell.supports import Supports
 from fem_check.shell.surface import AnnulusSector, Cylinder
 from linear_theory import SineWave
+from tests.shell_cases import koiter, shell
 
 Array = NDArray[np.float64]
 

@@ -5,7 +5,6 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 import skfem
-from shell_cases import at, koiter, shell
 
 from fem_check.shell.discretisation import Discretisation
 from fem_check.shell.friction import Friction
@@ -23,6 +22,7 @@ from fem_check.shell.rest_state import grown_state, tensor_state
 from fem_check.shell.statics import ramp
 from fem_check.shell.supports import Supports
 from fem_check.shell.surface import Cylinder, SpherePart, Trapezoid
+from tests.shell_cases import at, koiter, shell
 
 PAPER = Material(0.03, 0.5)
 GRID = np.linspace(0, 1, 3)

@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 import skfem
 from numpy.typing import NDArray
-from shell_cases import at, displacement, end_shear, koiter, shell
 
 from fem_check.shell import newton, region
 from fem_check.shell.discretisation import Discretisation
@@ -21,6 +20,7 @@ from fem_check.shell.rest_state import grown_state, tensor_state
 from fem_check.shell.statics import follow_mode, ramp
 from fem_check.shell.supports import Supports
 from linear_theory import SineWave
+from tests.shell_cases import at, displacement, end_shear, koiter, shell
 
 Array = NDArray[np.float64]
 PAPER = Material(0.03, 0.5)

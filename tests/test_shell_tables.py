@@ -5,7 +5,8 @@ Sources and what was confirmed of them stand in shell_cases.py.
 
 import numpy as np
 import pytest
-from shell_cases import (
+
+from tests.shell_cases import (
     Path,
     clamped_plate,
     end_moment,
@@ -20,9 +21,8 @@ ROOF = 0.3006  # Kirchhoff-Love limit; converged here: 0.3005925
 SHEAR = {0.25: (0.563, 3.015), 0.5: (1.604, 4.933), 0.75: (2.541, 6.031), 1.0: (3.286, 6.698)}
 MOMENT = {0.25: (4.361, 7.639), 0.5: (12.0, 7.639), 0.75: (14.546, 2.546), 1.0: (12.0, 0.0)}
 ANNULUS = (17.528, 13.891)  # Abaqus S4R; the Kirchhoff-Love limit found here is (17.480, 13.842)
-SEMI_CYLINDER = (
-    171.505  # shear-flexible; the Kirchhoff-Love values found here reach 171.26 at 392 elements
-)
+# Shear-flexible; Kirchhoff-Love here reaches 171.26 at 392 elements of Argyris, 0.14 % less.
+SEMI_CYLINDER = {0.1: 16.1, 0.25: 48.537, 0.5: 132.653, 0.75: 156.584, 1.0: 171.505}
 
 
 @pytest.mark.parametrize("element", ["bfs", "argyris"])
@@ -82,11 +82,13 @@ def test_slit_annulus(element: str, n: int, m: int) -> None:
     assert not path.result.buckled
 
 
-@pytest.mark.parametrize(("element", "n"), [("bfs", 10), ("argyris", 6)])
+@pytest.mark.parametrize(("element", "n"), [("bfs", 12), ("argyris", 6)])
 def test_pinched_semi_cylinder(element: str, n: int) -> None:
-    path = semi_cylinder(element, n, n)
+    """The reference also shears under the load: 0.3 of 16 at a tenth of it, where 1 % is missed."""
+    path = semi_cylinder(element, n, n, tuple(SEMI_CYLINDER))
     assert path.elements <= 400
-    assert path.values[1.0][0] == pytest.approx(SEMI_CYLINDER, rel=0.01)
+    for share, expected in SEMI_CYLINDER.items():
+        assert path.values[share][0] == pytest.approx(expected, rel=0.03 if share == 0.1 else 0.01)
 
 
 @pytest.mark.parametrize(

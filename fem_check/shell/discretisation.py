@@ -18,7 +18,10 @@ Array = NDArray[np.float64]
 Where = Callable[[Array], NDArray[np.bool_]]
 
 QUADRATURE = {"ElementQuadBFS": 7, "ElementTriArgyris": 8}
-"""Polynomial degree integrated exactly: what the linear theory of the element needs at least."""
+"""Polynomial degree integrated exactly by default: 4 x 4 points of a rectangle, 16 of a triangle.
+
+For BFS degree 5 (3 x 3 points) is as accurate and halves the work on meshes of 2 x 2 elements or more;
+a single element then has three motions besides the rigid ones that cost no energy."""
 
 
 class Discretisation:

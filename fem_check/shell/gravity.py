@@ -23,10 +23,11 @@ def check_area(area: str, step: Step | None) -> None:
 
 @dataclass(frozen=True)
 class Gravity:
-    """The force -weight e_z per area (section 2: rho g = 2.5e-4 per unit of E L).
+    """The force -weight e_z per area.
 
-    weight: rho g h > 0 as force per area; area: "grown", "current" or "material", see `AREAS`. In a
-    planar scene it does no work and is only the load that friction is proportional to.
+    weight: the rho g of the paper (2.5e-4 E), a force per area > 0. area: "grown", "current" or
+    "material", see `AREAS`. In a planar scene it does no work and is only the load that friction is
+    proportional to.
     """
 
     weight: float

@@ -45,7 +45,7 @@ def ramp(
 
     problem: the potential at a parameter in (0, 1], for instance with growth and loads times it.
     first: the first increment. An increment is halved when its minimisation fails and grows when it
-    was easy; each starts from the extrapolation of the last two. follow: if > 0, a buckled state is
+    was easy; each starts from the extrapolation of up to three. follow: if > 0, a buckled state is
     left by this amplitude (length) along its mode, see `follow_mode`. report is called after each
     increment.
 

@@ -1,0 +1,39 @@
+"""Slow, literal balances of friction: eq. 11 on one fine grid, and the convex function itself."""
+
+import numpy as np
+from scipy.optimize import brentq
+
+
+def grid(sheet, across, along):
+    """Midpoints of a grid of cells, x (across, 1) and y (along,)."""
+    x = ((np.arange(across) + 0.5) / across - 0.5) * sheet.width
+    y = ((np.arange(along) + 0.5) / along - 0.5) * sheet.length
+    return x[:, None], y
+
+
+def speed_at(field, alpha, t, load="current", force=lambda r: 1 / r, points=(400, 800)):
+    """V_y at one time: eq. 11 by the midpoint rule and bisection. force: f(r)/r."""
+    x, y = grid(field.sheet, *points)
+    v = alpha * field.velocity(x, y, t)
+    strain = field.strain(x, y, t)
+    rate = {
+        "current": strain[0] + strain[1],
+        "grown": 2 * field.wave.value(x, y, t, field.sheet.length),
+        "material": 0 * strain[0],
+    }[load]
+
+    def balance(speed):
+        r = np.hypot(v[0], v[1] + speed)
+        return np.mean((1 + alpha * rate) * force(r) * (v[1] + speed))
+
+    return brentq(balance, -v[1].max() - 1e-9, -v[1].min() + 1e-9, xtol=1e-14)
+
+
+def dissipation(field, alpha, t, motion, points=(200, 400)):
+    """Integral of (1 + alpha tr eps) |v + V + Omega x r| over the sheet, which the motion minimises."""
+    x, y = np.broadcast_arrays(*grid(field.sheet, *points))
+    v = alpha * field.velocity(x, y, t)
+    strain = field.strain(x, y, t)
+    v_x, v_y, omega = motion
+    speed = np.hypot(v[0] + v_x - omega * y, v[1] + v_y + omega * x)
+    return float(np.mean((1 + alpha * (strain[0] + strain[1])) * speed))
