@@ -21,7 +21,7 @@ from fem_check.triangles import TriangleFinder, quadrilateral_points
 from linear_theory import validation
 from linear_theory.field import LinearField, Wave
 from linear_theory.load_cases import LoadCases, load_cases, mixed_norms
-from linear_theory.motion import Motion
+from linear_theory.motion import CellGrid
 from linear_theory.sheet import Sheet
 from linear_theory.waves import TravellingWave
 
@@ -158,27 +158,18 @@ class PlaneStressField(LinearField):
             return 0.0
         return float(np.max(difference / np.maximum(size, FLAT * size.max()))) / self._gain
 
-    def motion(self, times: ArrayLike, cells: tuple[int, int], order: int, half: bool) -> Motion:
-        """The field on three four-sided cells per triangle, whatever `cells` and `half` ask for.
-
-        times (times,); order: Gauss points per cell and direction. Never mirrored.
-        """
-        return super().motion(times, (len(self.mesh.t[0]), 3), order, half=False)
-
-    def _on_cells(
-        self, cells: tuple[int, int], order: int, half: bool
-    ) -> tuple[Array, Array, Array, Array]:
+    def _on_cells(self, grid: CellGrid, order: int) -> tuple[Array, Array, Array, Array]:
         """Points, areas, displacements and dilations of the basis, straight from the elements."""
-        key = cells, order, half
+        key = order  # the cells are those of the mesh, three to a triangle
         if self._kept is None or self._kept[0] != key:
             points, jacobian = quadrilateral_points(order)
             local, mapping = points.reshape(2, -1), self.mesh.mapping()
             displacements, strains = self._solver.everywhere(self._solution, local)
             area = np.multiply.outer(abs(mapping.detA), jacobian)
             values = (mapping.F(local), area, displacements, strains[:, 0] + strains[:, 1])
-            grid = (3 * cells[0], order, order)
+            shape = 3 * self.mesh.t.shape[1], order, order
             position, area, displacements, dilations = (
-                v.reshape(*v.shape[:axes], *grid) for v, axes in zip(values, (1, 0, 2, 1), strict=True)
+                v.reshape(*v.shape[:axes], *shape) for v, axes in zip(values, (1, 0, 2, 1), strict=True)
             )
             self._kept = key, (position, area, displacements, dilations)
         return self._kept[1]

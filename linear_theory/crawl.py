@@ -49,7 +49,7 @@ def crawl_speed(
     travelling = isinstance(wave, TravellingWave)
     if method == "airy" and not travelling:
         raise ValueError("method = 'airy': must be 'ritz' for a wave that depends on x")
-    field_rtol = max(0.3 * validation.tolerance(rtol), validation.SMALLEST_RTOL)
+    field_rtol = max(0.1 * validation.tolerance(rtol), validation.SMALLEST_RTOL)
     field: LinearField
     if method != "ritz" and isinstance(wave, TravellingWave):
         field = airy_series(sheet, wave, rtol=field_rtol)
@@ -77,7 +77,7 @@ def field_speed(
     atol = 1e-3 * rtol * alpha**2 * unit if atol is None else validation.positive("atol", atol)
     if alpha == 0:
         return _at_rest(field, load, law)
-    crawl = Crawl(field, alpha, load, law, first_resolution(field, rtol))
+    crawl = Crawl(field, alpha, load, law, first_resolution(rtol))
     period = average(crawl, rtol, atol)
     return CrawlSpeed(
         mean=period.mean,
@@ -112,7 +112,7 @@ def friction_field(
     """
     alpha, t = validation.real("alpha", alpha), validation.real("t", t)
     law = FrictionLaw(friction, slip_speed)
-    resolution = first_resolution(field, validation.tolerance(rtol))
+    resolution = first_resolution(validation.tolerance(rtol))
     motion = Crawl(field, alpha, load, law, resolution).balance(np.array([t]))
     v_x, v_y, omega = alpha * (motion.leading + alpha * motion.remainder)[0]
     x, y = np.broadcast_arrays(validation.real_array("x", x), validation.real_array("y", y))

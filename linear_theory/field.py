@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from linear_theory import hooke, validation
-from linear_theory.motion import Motion, rectangle_cells
+from linear_theory.motion import CellGrid, Motion
 from linear_theory.sheet import Sheet
 
 Array = NDArray[np.float64]
@@ -98,15 +98,14 @@ class LinearField(ABC):
         growth = self.wave.value(x, y, t, self.sheet.length)
         return hooke.stress(strain, growth, self.sheet.poisson)
 
-    def motion(self, times: ArrayLike, cells: tuple[int, int], order: int, half: bool) -> Motion:
-        """The field on cells x cells Gauss points, as the friction balance reads it.
+    def motion(self, times: ArrayLike, grid: CellGrid, order: int) -> Motion:
+        """The field at the Gauss points of cells, as the friction balance reads it.
 
-        times (times,); cells: how many across and along; order: points per cell and direction;
-        half: whether to cover x >= 0 only (for motions that are mirror symmetric in x).
+        times (times,); order: points per cell and direction.
         """
         t = validation.real_array("times", times)
         field = self._for_times(t)
-        position, area, displacements, dilations = field._on_cells(cells, order, half)
+        position, area, displacements, dilations = field._on_cells(grid, order)
         growth_time = t.reshape(-1, *(1,) * area.ndim)
         return Motion(
             position=position,
@@ -114,16 +113,14 @@ class LinearField(ABC):
             velocity=np.moveaxis(np.tensordot(field._amplitude_rates(t).T, displacements, 1), 1, 0),
             dilation=np.tensordot(field._amplitudes(t).T, dilations, 1),
             growth=self.wave.value(position[0], position[1], growth_time, self.sheet.length),
-            mirrored=half,
+            mirrored=self.mirrored and grid.half,
         )
 
-    def _on_cells(
-        self, cells: tuple[int, int], order: int, half: bool
-    ) -> tuple[Array, Array, Array, Array]:
+    def _on_cells(self, grid: CellGrid, order: int) -> tuple[Array, Array, Array, Array]:
         """Points, areas, displacements and dilations of the basis; kept, since times come in lots."""
-        key = cells, order, half
+        key = grid, order
         if self._kept is None or self._kept[0] != key:
-            x, y, area = rectangle_cells(self.sheet, cells, order, half)
+            x, y, area = grid.points(order)
             strains = self._strains(x, y)
             position = np.stack(np.broadcast_arrays(x, y))
             values = position, area, self._displacements(x, y), strains[:, 0] + strains[:, 1]

@@ -1,9 +1,9 @@
 """A sine wave on a line: the speed in closed form (paper section 3.1, eqs 5-9).
 
 A body 0 <= S <= 1 (L = 1) grows by the factor 1 + alpha c, c = sin(phi), phi = 2 pi (n S - t/T).
-Integrating eq. 5 and removing the mean (eq. 6) gives v_cm = -(alpha/nT) sin(phi): a point that
-swells lets those ahead of it advance later. The sign is the opposite of the printed one. Dry
-friction on the current length (eq. 7) then balances where, with V = (alpha/nT) sin(theta),
+Integrating eq. 5 and removing the mean (eq. 6) gives v_cm = -(alpha/nT) sin(phi), with the sign
+opposite to the printed one. Dry friction on the current length (eq. 7) then balances where, with
+V = (alpha/nT) sin(theta),
 
     theta = alpha cos(theta),                                            (eq. 8, corrected)
     V = (alpha^2/nT) (1 - (2/3) alpha^2 + ...),                          (eq. 9, corrected)
@@ -13,7 +13,7 @@ The body crawls along the wave; viscous friction moves it the same way, half as 
 of the law tanh(v/v0). theta = alpha cos(theta) is Kepler's equation E + alpha sin(E) = pi/2 with
 E = pi/2 - theta.
 
-All speeds are in L/T units of length over `period`, positive towards +y; for count < 0 the wave
+All speeds are in units of L over the unit of `period`, positive towards +y; for count < 0 the wave
 runs towards -y and V is negative.
 """
 
@@ -52,7 +52,7 @@ def line_speed(alpha: ArrayLike, count: int = 1, period: float = 1.0, form: str 
 
     alpha: dimensionless growth coupling, any shape, |alpha| < 1; count: waves on the body, any
     non-zero integer; period: units of time. Returns the shape of alpha, length/time, within 2 ulp
-    for count = period = 1 (each of the two divisions otherwise may add half a ulp).
+    for count = period = 1 and 3 ulp otherwise, as alpha/count/period is rounded too.
     form="printed" solves eq. 8 as it stands in the paper, which does not balance eq. 7.
     Raises ValueError for |alpha| >= 1, where a contracted part would have no length left.
     """

@@ -65,11 +65,17 @@ def sampled_balance(
         if in_space + in_time <= goal or not (more_cells or more_times):
             break
         cells, times = cells << more_cells, times << more_times
-    error = in_space + in_time + 16 * EPS * float(fine.fastest.max())
-    sticks = law.width == 0 and bool(fine.rest.max() >= REST_PART)
-    coefficients = float(fine.first.mean()), float(fine.second.mean())
     fastest = float(fine.fastest.max())
-    return Balance(mean, error, instants, fine.velocity, fastest, *coefficients, sticks)
+    return Balance(
+        mean=mean,
+        error=in_space + in_time + 16 * EPS * fastest,
+        times=instants,
+        velocity=fine.velocity,
+        fastest=fastest,
+        first=float(fine.first.mean()),
+        second=float(fine.second.mean()),
+        sticks=law.width == 0 and bool(fine.rest.max() >= REST_PART),
+    )
 
 
 def _snapshots(

@@ -149,34 +149,40 @@ def _dry_level(profile: Profile, weight: float, mean: float) -> Level:
 
 
 def _tanh_level(profile: Profile, weight: float, mean: float, width: float) -> Level:
-    """Root m of int w tanh((m - g)/width) = 0."""
-    factor, lower, upper = 1 + weight * mean, float(profile.values.min()), float(profile.values.max())
+    """Root m of int w tanh((m - g)/width) = 0, w = factor + weight g."""
+    factor, coarse = 1 + weight * mean, 4 * EPS * profile.scale
+    if profile.symmetric:
+        return _symmetric_tanh_level(profile.anchored(0.0), weight, factor, width)
 
-    def direct(level: Array, finer: float = 1.0) -> tuple[Array, Array]:
+    def balance(level: Array, finer: float = 1.0) -> tuple[Array, Array]:
         measure, g = _quadrature(profile, (float(level),), width * finer)
         t, measure = np.tanh((level - g) / width), measure * (factor + weight * g)
         return np.array(measure @ t), np.array(measure @ ((1 - t) * (1 + t)) / width)
 
-    def remainder(level: Array, finer: float = 1.0) -> tuple[Array, Array]:
-        # int tanh(-g/width) = 0 by symmetry; tanh x - tanh y = tanh(x - y) (1 - tanh x tanh y).
-        measure, g = _quadrature(profile, (0.0, float(level)), width * finer)
-        before, t = np.tanh(-g / width), np.tanh((level - g) / width)
-        value = factor * np.tanh(level / width) * (measure @ (1 - before * t)) + weight * (
-            measure @ (g * t)
-        )
-        slope = (measure * (factor + weight * g)) @ ((1 - t) * (1 + t)) / width
-        return np.array(value), np.array(slope)
+    ends = float(profile.values.min()), float(profile.values.max())
+    level = bracketed_newton(balance, *ends, profile.median(), atol=coarse)
+    miss, slope = balance(level, finer=0.5)
+    return Level(float(level), float((abs(miss) + 4 * EPS) / slope) + coarse)
 
-    if not profile.symmetric:
-        coarse = 4 * EPS * profile.scale
-        level = bracketed_newton(direct, lower, upper, profile.median(), atol=coarse)
-        miss, slope = direct(level, finer=0.5)
-        return Level(float(level), float((abs(miss) + 4 * EPS) / slope) + coarse)
+
+def _symmetric_tanh_level(profile: Profile, weight: float, factor: float, width: float) -> Level:
+    """The same where int tanh(-g/width) = 0: what is left is of order alpha, and so is m.
+
+    Written without cancellation by tanh x - tanh y = tanh(x - y) (1 - tanh x tanh y).
+    """
     if not weight:
         return Level(0.0, 0.0)
-    profile = profile.anchored(0.0)
-    level = bracketed_newton(remainder, 0.0, upper, weight * upper**2 / 2)
-    miss, slope = remainder(level, finer=0.5)
+
+    def balance(level: Array, finer: float = 1.0) -> tuple[Array, Array]:
+        measure, g = _quadrature(profile, (0.0, float(level)), width * finer)
+        before, t = np.tanh(-g / width), np.tanh((level - g) / width)
+        moved = np.tanh(level / width) * (measure @ (1 - before * t))
+        slope = (measure * (factor + weight * g)) @ ((1 - t) * (1 + t)) / width
+        return np.array(factor * moved + weight * (measure @ (g * t))), np.array(slope)
+
+    upper = float(profile.values.max())
+    level = bracketed_newton(balance, 0.0, upper, weight * upper**2 / 2)
+    miss, slope = balance(level, finer=0.5)
     return Level(float(level), float(abs(miss) / slope) + 16 * EPS * float(level))
 
 
@@ -186,18 +192,30 @@ def _quadrature(profile: Profile, levels: tuple[float, ...], width: float) -> tu
     Cells are halved until g varies by less than `width` over each, or stays SATURATED widths away
     from all levels.
     """
+    node, left, right = _panels(profile, levels, width)
+    points, weights = np.polynomial.legendre.leggauss(GAUSS_POINTS)
+    half = (right - left) / 2
+    distance = left + half + half * points[:, None]
+    values = polynomial(profile.taylor[:, node], distance)
+    return (weights[:, None] * abs(half) / (2 * math.pi)).ravel(), values.ravel()
+
+
+def _panels(
+    profile: Profile, levels: tuple[float, ...], width: float
+) -> tuple[NDArray[np.intp], Array, Array]:
+    """Node and signed distances from it of both ends of every panel of the quadrature."""
     # From the end nearer to 0, as g is exact at nodes of value 0: `width` may be below rounding.
     node = np.arange(profile.nodes.size - 1)
     ahead = abs(profile.values[:-1]) <= abs(profile.values[1:])
     right = np.where(ahead, 1.0, -1.0) * np.diff(profile.nodes)
     node, left = np.where(ahead, node, node + 1), np.zeros(node.size)
     finished = []
-    for _ in range(MOST_HALVINGS):
+    for left_over in range(MOST_HALVINGS, -1, -1):
         ends = polynomial(profile.taylor[:, node], np.stack([left, right]))
         low, high = ends.min(axis=0), ends.max(axis=0)
         reach = SATURATED * width
         near = np.any([(low - reach < m) & (m < high + reach) for m in levels], axis=0)
-        split = near & (high - low > width)
+        split = near & (high - low > width) & (left_over > 0)
         finished.append((node[~split], left[~split], right[~split]))
         if not split.any():
             break
@@ -206,8 +224,4 @@ def _quadrature(profile: Profile, levels: tuple[float, ...], width: float) -> tu
         node = np.concatenate([node, node])
         left, right = np.concatenate([left, middle]), np.concatenate([middle, right])
     node, left, right = (np.concatenate(a) for a in zip(*finished, strict=True))
-    points, weights = np.polynomial.legendre.leggauss(GAUSS_POINTS)
-    half = (right - left) / 2
-    distance = left + half + half * points[:, None]
-    values = polynomial(profile.taylor[:, node], distance)
-    return (weights[:, None] * abs(half) / (2 * math.pi)).ravel(), values.ravel()
+    return node, left, right

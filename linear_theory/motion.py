@@ -6,6 +6,7 @@ Ritz, finite elements, shell) to the friction balance, which can refine a cell b
 without asking the deformation again.
 """
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -36,19 +37,56 @@ class Motion:
     mirrored: bool = False
 
 
-def rectangle_cells(
-    sheet: Sheet, cells: tuple[int, int], order: int, half: bool
-) -> tuple[Array, Array, Array]:
-    """Gauss points of a grid of equal cells: x, y (broadcast to (cells, n, n)) and their `area`.
+@dataclass(frozen=True)
+class CellGrid:
+    """Rows and columns of cells on a rectangle; edges ascend; `half`: the columns cover x >= 0 only."""
 
-    x has shape (cells, n, 1) and y (cells, 1, n): the first local axis runs across the sheet.
-    """
-    across, along = cells
-    nodes, _ = np.polynomial.legendre.leggauss(order)
-    left = 0.0 if half else -sheet.width / 2
-    dx, dy = (sheet.width / 2 - left) / across, sheet.length / along
-    column, row = np.divmod(np.arange(across * along), along)
-    x = left + dx * (column[:, None] + (nodes + 1) / 2)
-    y = -sheet.length / 2 + dy * (row[:, None] + (nodes + 1) / 2)
-    area = np.full((across * along, order, order), dx * dy / 4)
-    return x[:, :, None], y[:, None, :], area
+    x_edges: tuple[float, ...]
+    y_edges: tuple[float, ...]
+    half: bool
+
+    @classmethod
+    def uniform(cls, sheet: Sheet, across: int, along: int, half: bool) -> "CellGrid":
+        """Equal cells."""
+        left = 0.0 if half else -sheet.width / 2
+        x = np.linspace(left, sheet.width / 2, across + 1)
+        y = np.linspace(-sheet.length / 2, sheet.length / 2, along + 1)
+        return cls(tuple(x.tolist()), tuple(y.tolist()), half)
+
+    @classmethod
+    def graded(cls, sheet: Sheet, waves: int, density: float, half: bool) -> "CellGrid":
+        """Cells for `waves` waves along the sheet: `density` to a wave, more in the edge layers.
+
+        Away from an edge the deformation follows the wave alone; next to it the scale is the shorter of
+        the width and the wave. Layers double in thickness from there.
+        """
+        layer = 2 / density * min(sheet.width, sheet.length / waves)
+        rows = math.ceil(density * waves)
+        y = _graded(sheet.length / 2, layer, sheet.length / rows)
+        x = _graded(sheet.width / 2, layer, sheet.width)
+        x = np.concatenate([[0.0], x[x > 1e-9 * sheet.width]]) if half else x
+        return cls(tuple(x.tolist()), tuple(y.tolist()), half)
+
+    def points(self, order: int) -> tuple[Array, Array, Array]:
+        """Gauss points x (cells, n, 1), y (cells, 1, n), and Jacobians (cells, n, n)."""
+        nodes, _ = np.polynomial.legendre.leggauss(order)
+        left, bottom = np.array(self.x_edges), np.array(self.y_edges)
+        column, row = np.divmod(np.arange((left.size - 1) * (bottom.size - 1)), bottom.size - 1)
+        dx, dy = np.diff(left)[column], np.diff(bottom)[row]
+        x = left[column][:, None] + dx[:, None] * (nodes + 1) / 2
+        y = bottom[row][:, None] + dy[:, None] * (nodes + 1) / 2
+        area = np.repeat(dx * dy / 4, order * order).reshape(-1, order, order)
+        return x[:, :, None], y[:, None, :], area
+
+
+def _graded(half: float, layer: float, largest: float) -> Array:
+    """Edges from -half to half: layers that double from both ends, up to equal cells <= largest."""
+    depths = [0.0]
+    while layer < largest / 1.5 and depths[-1] + layer < 0.8 * half:
+        depths.append(depths[-1] + layer)
+        layer *= 2
+    inner = half - depths[-1]
+    count = 2 * math.ceil(inner / largest - 1e-9)  # even: one edge lies at the middle
+    middle = np.linspace(-inner, inner, max(count, 2) + 1)
+    ends = half - np.array(depths[:-1])
+    return np.concatenate([-ends, middle, ends[::-1]])

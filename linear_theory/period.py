@@ -8,15 +8,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linear_theory.balance import Balance, RigidMotion
-from linear_theory.field import LinearField
+from linear_theory.field import LinearField, Wave
 from linear_theory.friction import FrictionLaw, check_load, load_rate
+from linear_theory.motion import CellGrid, Motion
 from linear_theory.time_grid import TimeGrid, first_grid
 from linear_theory.waves import TravellingWave
 
 Array = NDArray[np.float64]
 
 _MOST_TIMES = 4096
-_LOT = 24  # times balanced together: bounds the memory
+_LOT = 200_000  # points balanced together: bounds the memory
+_FAINT = 0.1  # harmonics below this share of the largest are left to the check of the quadrature
 _STICKING = 0.01  # share of the sheet at rest that counts as sticking
 
 
@@ -39,32 +41,35 @@ class Period(NamedTuple):
 
 @dataclass(frozen=True)
 class Resolution:
-    """Cells (across, along), Gauss points per cell and direction, halvings, tolerance of q."""
+    """Cells per wave, Gauss points per cell and direction, halvings, tolerance of q."""
 
-    cells: tuple[int, int]
+    density: float
     order: int
     halvings: int
     tolerance: float
 
     def finer(self) -> "Resolution":
         """More of everything, to check with and to go on with."""
-        cells = math.ceil(1.5 * self.cells[0]), math.ceil(1.5 * self.cells[1])
-        return Resolution(cells, self.order + 1, self.halvings + 6, 0.1 * self.tolerance)
+        return Resolution(1.5 * self.density, self.order + 1, self.halvings + 6, 0.1 * self.tolerance)
 
 
-def first_resolution(field: LinearField, rtol: float) -> Resolution:
-    """Four cells to the shortest wave, and halvings until a point at rest takes an area rtol^1.6.
+def first_resolution(rtol: float) -> Resolution:
+    """Four cells to a wave, and halvings until a point at rest takes an area of about rtol^1.6.
 
     Next to it the remainder of the balance has the density 1/distance, so that the error falls like
     the square root of the area of the last cell.
     """
-    sheet, wave = field.sheet, field.wave
-    waves = int(wave.orders[-1]) if isinstance(wave, TravellingWave) else 2
-    along = max(4 * waves, math.ceil(2 * sheet.length / sheet.width))
-    across = math.ceil(along * sheet.width / sheet.length / (2 if field.mirrored else 1))
     digits = -math.log10(rtol)
     order = min(max(math.ceil(2.5 + 0.8 * digits), 5), 14)
-    return Resolution((across, along), order, math.ceil(5.3 * digits - 5), 0.02 * rtol)
+    return Resolution(4.0, order, max(math.ceil(5.3 * digits - 5), 2), 0.02 * rtol)
+
+
+def shortest_waves(wave: Wave) -> int:
+    """Number of the shortest waves on the sheet that matter in the velocity; 2 where it is unknown."""
+    if not isinstance(wave, TravellingWave):
+        return 2
+    rates = wave.harmonics * np.hypot(wave.cosine, wave.sine)
+    return int(wave.orders[rates >= _FAINT * rates.max()][-1])
 
 
 @dataclass(frozen=True)
@@ -85,7 +90,8 @@ class Crawl:
 
     def balance(self, times: Array) -> RigidMotion:
         """Rigid motion at the given times, in lots."""
-        lots = [self._balance(times[i : i + _LOT]).solve() for i in range(0, times.size, _LOT)]
+        lot = max(_LOT // self._motion(times[:1]).area.size, 1)
+        lots = [self._balance(times[i : i + lot]).solve() for i in range(0, times.size, lot)]
         leading, remainder, rest, fastest = zip(*lots, strict=True)
         return RigidMotion(
             np.concatenate(leading), np.concatenate(remainder), np.concatenate(rest), max(fastest)
@@ -119,13 +125,20 @@ class Crawl:
         by_load = 0.0 if self.load == "material" else 0.4 * abs(self.alpha)
         return speed * (by_load + (0.0 if self.starts_at_second_order else 0.02))
 
+    def _motion(self, times: Array) -> Motion:
+        field, r = self.field, self.resolution
+        waves = shortest_waves(field.wave)
+        grid = CellGrid.graded(field.sheet, waves, r.density, field.mirrored)
+        return field.motion(times, grid, r.order)
+
     def _balance(self, times: Array) -> Balance:
-        r = self.resolution
-        motion = self.field.motion(times, r.cells, r.order, self.field.mirrored)
+        motion, r = self._motion(times), self.resolution
         rate = load_rate(self.load, motion.dilation, motion.growth)
         check_load(motion, rate, self.alpha)
         law = self.law.scaled(abs(self.alpha))
-        return Balance(motion, rate, self.alpha, law, r.halvings, r.tolerance)
+        return Balance(
+            motion, rate, self.alpha, law, self.resolution.halvings, self.resolution.tolerance
+        )
 
 
 def average(crawl: Crawl, rtol: float, atol: float) -> Period:

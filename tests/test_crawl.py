@@ -33,7 +33,7 @@ def paper_field():
 
 def rigid(field, alpha, times, load="current", law=None, rtol=1e-7):
     """V_x, V_y, Omega at given times, (times, 3), without any use of symmetry in time."""
-    crawl = Crawl(field, alpha, load, law or FrictionLaw(), first_resolution(field, rtol))
+    crawl = Crawl(field, alpha, load, law or FrictionLaw(), first_resolution(rtol))
     motion = crawl.balance(np.asarray(times, float))
     return alpha * (motion.leading + alpha * motion.remainder)
 
@@ -173,7 +173,7 @@ HONEST = [
 
 @pytest.mark.parametrize(("sheet", "wave", "alpha", "options"), HONEST)
 def test_error_estimate_is_honest(sheet, wave, alpha, options):
-    exact = crawl_speed(sheet, wave, alpha, rtol=3e-6, **options)
+    exact = crawl_speed(sheet, wave, alpha, rtol=1e-5, **options)
     for rtol in (1e-2, 1e-3, 1e-4):
         speed = crawl_speed(sheet, wave, alpha, rtol=rtol, **options)
         assert speed.converged

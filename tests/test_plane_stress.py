@@ -12,6 +12,7 @@ from fem_check.plane_stress import plane_stress_field
 from fem_check.triangles import quadrilateral_points
 from linear_theory import Sheet, SineWave
 from linear_theory.field_wave import FieldWave
+from linear_theory.motion import CellGrid
 from linear_theory.ritz import ritz_field
 
 ELL = np.array([[-0.5, -0.5], [0.5, -0.5], [0.5, 0], [0, 0], [0, 0.5], [-0.5, 0.5]])
@@ -187,7 +188,7 @@ def test_motion_fills_the_sheet_and_holds_the_values(outline):
     for some in (SineWave(), wave):
         field = plane_stress_field(outline, some, size=0.15, degree=4)
         times = np.array([0.0, 0.3])
-        motion = field.motion(times, (1, 1), 3, True)
+        motion = field.motion(times, CellGrid.uniform(field.sheet, 1, 1, half=True), 3)
         weights = np.multiply.outer(*[np.polynomial.legendre.leggauss(3)[1]] * 2)
         assert not motion.mirrored
         assert (motion.area > 0).all()

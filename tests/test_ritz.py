@@ -7,6 +7,7 @@ import sympy as sp
 from linear_theory import Sheet, SineWave, TravellingWave, hooke, ritz
 from linear_theory.errors import NotConvergedError
 from linear_theory.field_wave import FieldWave
+from linear_theory.motion import CellGrid
 from linear_theory.ritz import ritz_field
 
 SHEETS = [
@@ -104,7 +105,7 @@ def test_general_and_travelling_waves_agree(sheet):
     for name in ("displacement", "velocity", "strain"):
         a, b = getattr(one, name)(x, y, t), getattr(two, name)(x, y, t)
         np.testing.assert_allclose(a, b, atol=1e-11 * abs(a).max())
-    a, b = (f.motion(t.ravel(), (3, 4), 2, False) for f in (one, two))
+    a, b = (f.motion(t.ravel(), CellGrid.uniform(f.sheet, 3, 4, half=False), 2) for f in (one, two))
     for name in ("position", "area", "velocity", "dilation", "growth"):
         np.testing.assert_allclose(getattr(a, name), getattr(b, name), atol=1e-11)
 
@@ -299,7 +300,7 @@ def test_motion_holds_the_values_at_its_points():
     ):
         field = ritz_field(Sheet(), wave, degree=13)
         times = np.array([0.0, 0.3, 0.4])
-        motion = field.motion(times, (2, 3), 3, False)
+        motion = field.motion(times, CellGrid.uniform(field.sheet, 2, 3, half=False), 3)
         x, y = motion.position
         for i, t in enumerate(times):
             np.testing.assert_allclose(motion.velocity[:, i], field.velocity(x, y, t), atol=1e-12)
