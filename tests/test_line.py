@@ -31,7 +31,7 @@ def test_closed_form_is_right_to_two_ulp():
     with mp.workdps(reference_line.DIGITS):
         exact = [mp.mpf(a) * reference_line.kepler_sine(a) for a in alpha]
         worst = max(map(ulps, line_speed(alpha), exact))
-    assert worst <= 2  # measured: 1.45 over 50 000 alphas
+    assert worst <= 2  # measured: 1.57 over 50 000 alphas
 
 
 def test_tiny_alpha_neither_underflows_nor_overflows():
@@ -103,7 +103,7 @@ def test_viscous_is_half_of_dry_to_leading_order_and_the_same_way():
 
 
 @pytest.mark.parametrize("alpha", [1e-8, 0.3, 0.999999])
-@pytest.mark.parametrize("width", [1e-4, 0.013499, 0.013501, 0.3, 5.0])
+@pytest.mark.parametrize("width", [1e-3, 0.013499, 0.013501, 1.0])
 def test_tanh_law_against_adaptive_quadrature(alpha, width):
     exact = float(alpha * reference_line.tanh_level(alpha, width))
     # Few roundings of well-conditioned sums: measured 1e-15.

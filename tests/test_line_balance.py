@@ -19,10 +19,10 @@ def sampled(profile, count=1, period=1.0, points=64):
 WAVES = {
     "skewed": TravellingWave([0.0, 0.3], [1.0, 0.1], -2, 3.0),
     "two harmonics": TravellingWave([0.2, 0.0, -0.4], [0.7, 0.5, 0.0], 3, 0.5, mean=0.2),
-    "pulse": sampled(lambda p: np.exp(-(((p - 3) / 0.8) ** 2) / 2)),
-    "narrow train": sampled(lambda p: np.exp((np.cos(p - 1) - 1) / 0.35**2), 2),
-    "near-square": sampled(lambda p: np.tanh(6 * np.sin(p) + 0.5)),
-    "saw-tooth": sampled(lambda p: np.sin(p + 0.8 * np.sin(p)), -1),
+    "pulse": sampled(lambda p: np.exp(-(((p - 3) / 0.8) ** 2) / 2), points=32),
+    "narrow train": sampled(lambda p: np.exp((np.cos(p - 1) - 1) / 0.35**2), 2, points=40),
+    "near-square": sampled(lambda p: np.tanh(6 * np.sin(p) + 0.5), points=48),
+    "saw-tooth": sampled(lambda p: np.sin(p + 0.8 * np.sin(p)), -1, points=32),
     "ripple": TravellingWave(np.eye(12)[11] * 0.1, np.eye(12)[0] + np.eye(12)[6] * 0.1),
     "turning median": TravellingWave([0.0, 0.5], [1.0, 0.0]),
 }
@@ -110,7 +110,7 @@ def test_tanh_tends_to_dry_friction(name):
     wave = WAVES[name]
     unit = abs(0.3 / wave.count / wave.period)
     dry = line_balance(wave, 0.3).mean
-    for width in (1e-5, 1e-12, 1e-18):
+    for width in (1e-5, 1e-14):
         blunt = line_balance(wave, 0.3, friction="tanh", slip_speed=width * unit)
         # First order in v0 in general: the density of the values is not even about the median.
         assert abs(blunt.mean - dry) <= unit * width + blunt.error + line_balance(wave, 0.3).error
@@ -226,8 +226,8 @@ def test_general_wave_minimises_the_dissipation():
 def test_error_of_a_general_wave_is_honest(friction):
     wave = FieldWave(standing_pulse, 1.0)
     slip_speed = 0.05 if friction == "tanh" else None
-    fine = line_balance(wave, 0.4, friction=friction, slip_speed=slip_speed, rtol=3e-5)
-    for rtol in (1e-1, 1e-2, 1e-3):
+    fine = line_balance(wave, 0.4, friction=friction, slip_speed=slip_speed, rtol=3e-4)
+    for rtol in (1e-1, 1e-2, 3e-3):
         rough = line_balance(wave, 0.4, friction=friction, slip_speed=slip_speed, rtol=rtol)
         assert rough.converged
         assert abs(rough.mean - fine.mean) <= rough.error + fine.error
