@@ -1,0 +1,1 @@
+"""Scripts that make the figures; run as modules, `python -m figures.fig3`."""

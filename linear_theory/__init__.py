@@ -4,9 +4,15 @@ from linear_theory.airy import AirySeries, airy_series
 from linear_theory.crawl import crawl_speed, field_speed, friction_field
 from linear_theory.errors import NotConvergedError
 from linear_theory.field_wave import FieldWave
-from linear_theory.line import line_speed, line_speed_tanh, line_speed_viscous
-from linear_theory.line_balance import line_balance
-from linear_theory.line_series import LAPLACE_LIMIT, line_series, line_speed_series
+from linear_theory.line import (
+    LAPLACE_LIMIT,
+    line_balance,
+    line_series,
+    line_speed,
+    line_speed_series,
+    line_speed_tanh,
+    line_speed_viscous,
+)
 from linear_theory.ritz import RitzField, ritz_field
 from linear_theory.sheet import Sheet
 from linear_theory.speed import CrawlSpeed

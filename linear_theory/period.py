@@ -136,9 +136,7 @@ class Crawl:
         rate = load_rate(self.load, motion.dilation, motion.growth)
         check_load(motion, rate, self.alpha)
         law = self.law.scaled(abs(self.alpha))
-        return Balance(
-            motion, rate, self.alpha, law, self.resolution.halvings, self.resolution.tolerance
-        )
+        return Balance(motion, rate, self.alpha, law, r.halvings, r.tolerance)
 
 
 def average(crawl: Crawl, rtol: float, atol: float) -> Period:

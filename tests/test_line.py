@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from linear_theory import SineWave
 from linear_theory.line import line_speed, line_speed_tanh, line_speed_viscous
-from linear_theory.line_series import LAPLACE_LIMIT, line_series, line_speed_series
+from linear_theory.line.series import LAPLACE_LIMIT, line_series, line_speed_series
 from tests import reference_line
 
 ALPHAS = (0.01, 0.2, 0.5, 0.8, 0.99)

@@ -4,10 +4,11 @@ import numpy as np
 import pytest
 import sympy as sp
 
-from linear_theory import Sheet, SineWave, TravellingWave, hooke, ritz
+from linear_theory import Sheet, SineWave, TravellingWave, hooke
 from linear_theory.errors import NotConvergedError
 from linear_theory.field_wave import FieldWave
 from linear_theory.motion import CellGrid
+from linear_theory.ritz import field as ritz
 from linear_theory.ritz import ritz_field
 
 SHEETS = [

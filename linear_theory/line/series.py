@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from linear_theory import validation
-from linear_theory.line import FORMS, line_speed_viscous
+from linear_theory.line.closed_form import FORMS, line_speed_viscous
 
 if TYPE_CHECKING:
     from sympy import Rational

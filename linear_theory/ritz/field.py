@@ -14,11 +14,13 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from linear_theory import legendre, ritz_error, validation
+from linear_theory import validation
 from linear_theory.errors import NotConvergedError
 from linear_theory.field import LinearField, Wave
 from linear_theory.load_cases import Harmonics, LoadCases, load_cases
-from linear_theory.ritz_solver import RitzSolver, matrix_size
+from linear_theory.ritz import error as ritz_error
+from linear_theory.ritz import legendre
+from linear_theory.ritz.solver import RitzSolver, matrix_size
 from linear_theory.sheet import Sheet
 from linear_theory.waves import TravellingWave
 

@@ -7,9 +7,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from linear_theory import airy_loads
-from linear_theory.airy_system import Pair
-from linear_theory.airy_terms import pair_displacement, pair_stress
+from linear_theory.airy import loads
+from linear_theory.airy.system import Pair
+from linear_theory.airy.terms import pair_displacement, pair_stress
 from linear_theory.sheet import Sheet
 
 Array = NDArray[np.float64]
@@ -48,7 +48,7 @@ class Cases:
 
     def growths(self, y: Array) -> Array:
         """c of the cases, (2K + 1, *y.shape)."""
-        waves = airy_loads.growth(self.sheet, self.orders, y)
+        waves = loads.growth(self.sheet, self.orders, y)
         return np.concatenate([waves, np.ones((1, *y.shape))])
 
     def mean_squares(self, amplitudes: Array) -> Array:
@@ -74,14 +74,14 @@ class Cases:
     def _quarter_displacements(self, x: Array, y: Array, grid: bool) -> Array:
         terms = [pair_displacement(pair, self.sheet, x, y, grid) for pair in (self.even, self.odd)]
         x = x[:, None] if grid else x
-        held = airy_loads.held_displacement(self.sheet, self.orders, x, y, without_line=self.tail)
+        held = loads.held_displacement(self.sheet, self.orders, x, y, without_line=self.tail)
         uniform = np.stack(np.broadcast_arrays(x, y))
         return np.concatenate([held + np.concatenate(terms), uniform[None]])
 
     def _quarter_stresses(self, x: Array, y: Array, grid: bool) -> Array:
         terms = [pair_stress(pair, self.sheet, x, y, grid) for pair in (self.even, self.odd)]
         stress = np.concatenate([*terms, np.zeros_like(terms[0][:1])])
-        held = airy_loads.held_stress(self.sheet, self.orders, y, without_line=self.tail)
+        held = loads.held_stress(self.sheet, self.orders, y, without_line=self.tail)
         stress[:-1, 0] += held[:, None] if grid else held
         return stress
 

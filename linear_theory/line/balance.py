@@ -7,8 +7,8 @@ import numpy as np
 from linear_theory import validation
 from linear_theory.field import Wave
 from linear_theory.friction import LOADS, FrictionLaw
-from linear_theory.line_samples import sampled_balance
-from linear_theory.line_travelling import travelling_balance
+from linear_theory.line.samples import sampled_balance
+from linear_theory.line.travelling import travelling_balance
 from linear_theory.speed import CrawlSpeed
 from linear_theory.waves import TravellingWave
 

@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import cho_solve_banded, cholesky_banded
 
-from linear_theory import legendre
-from linear_theory.legendre import Diagonals
+from linear_theory.ritz import legendre
+from linear_theory.ritz.legendre import Diagonals
 from linear_theory.sheet import Sheet
 
 Array = NDArray[np.float64]

@@ -28,7 +28,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import spence
 
-from linear_theory.airy_system import Family, Pair
+from linear_theory.airy.system import Family, Pair
 from linear_theory.sheet import Sheet
 
 Array = NDArray[np.float64]

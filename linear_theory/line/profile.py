@@ -18,7 +18,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from linear_theory.roots import EPS, bracketed_newton
+from linear_theory.line.roots import EPS, bracketed_newton
 from linear_theory.waves import TravellingWave
 
 Array = NDArray[np.float64]

@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from linear_theory.airy_system import Pair, coupling, tail_couplings
+from linear_theory.airy.system import Pair, coupling, tail_couplings
 
 Array = NDArray[np.float64]
 

@@ -19,8 +19,8 @@ from numpy.typing import NDArray
 from linear_theory import validation
 from linear_theory.field import Wave
 from linear_theory.friction import FrictionLaw
-from linear_theory.line_result import REST_PART, REST_SPEED, Balance
-from linear_theory.roots import EPS, bracketed_newton
+from linear_theory.line.result import REST_PART, REST_SPEED, Balance
+from linear_theory.line.roots import EPS, bracketed_newton
 
 Array = NDArray[np.float64]
 

@@ -9,10 +9,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from linear_theory import airy_loads, airy_system, hooke, validation
-from linear_theory.airy_cases import Cases
-from linear_theory.airy_error import missing_mean_square
-from linear_theory.airy_system import Family, Pair
+from linear_theory import hooke, validation
+from linear_theory.airy import loads, system
+from linear_theory.airy.cases import Cases
+from linear_theory.airy.error import missing_mean_square
+from linear_theory.airy.system import Family, Pair
 from linear_theory.errors import NotConvergedError
 from linear_theory.field import LinearField, combine
 from linear_theory.sheet import Sheet
@@ -120,7 +121,7 @@ class AirySeries(LinearField):
         start = time.perf_counter()
         self.sheet, self.wave, self.modes, self.tail = sheet, wave, modes, tail
         self._printed = printed
-        even = self._solve(1, airy_loads.even_load)
+        even = self._solve(1, loads.even_load)
         odd = self._solve(-1, self._odd_load)
         self._cases = Cases(sheet, wave.orders, tail, even, odd)
         self.seconds = time.perf_counter() - start
@@ -131,8 +132,8 @@ class AirySeries(LinearField):
         cases = self._cases
         b, d = cases.odd.amplitudes
         if self.tail:  # the paper expands the whole sine: put the stress-free line back
-            line = self._solve(-1, lambda across, _: airy_loads.line_load(across))
-            slopes = airy_loads.end_slopes(cases.orders)
+            line = self._solve(-1, lambda across, _: loads.line_load(across))
+            slopes = loads.end_slopes(cases.orders)
             b, d = b + line.amplitudes[0] * slopes, d + line.amplitudes[1] * slopes
         a, c = cases.even.amplitudes
         families = *cases.even.families, *cases.odd.families
@@ -154,7 +155,7 @@ class AirySeries(LinearField):
         even, odd = self._error_phases()
         even_load, odd_load = (
             load(pair.families[1].extended(), cases.orders)
-            for pair, load in ((cases.even, airy_loads.even_load), (cases.odd, self._odd_load))
+            for pair, load in ((cases.even, loads.even_load), (cases.odd, self._odd_load))
         )
         missing = missing_mean_square(cases.even, even_load, even)
         missing += missing_mean_square(cases.odd, odd_load, odd)
@@ -172,12 +173,12 @@ class AirySeries(LinearField):
         return np.array([[1.0, 0.0]]), np.array([[0.0, 1.0]])
 
     def _solve(self, parity: int, load: Callable[[Family, NDArray[np.int64]], Array]) -> Pair:
-        families = airy_system.families(self.sheet, self.modes, parity)
+        families = system.families(self.sheet, self.modes, parity)
         right = load(families[1], self.wave.orders)
-        return airy_system.solve(families, right, self.tail, self._printed)
+        return system.solve(families, right, self.tail, self._printed)
 
     def _odd_load(self, across: Family, orders: NDArray[np.int64]) -> Array:
-        return airy_loads.odd_load(across, orders, without_line=self.tail)
+        return loads.odd_load(across, orders, without_line=self.tail)
 
     def _amplitudes(self, t: Array) -> Array:
         return np.concatenate([*self.wave.factors(t), np.full((1, *t.shape), self.wave.mean)])

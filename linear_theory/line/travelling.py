@@ -22,9 +22,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linear_theory.friction import FrictionLaw
-from linear_theory.line_profile import Profile, polynomial
-from linear_theory.line_result import REST_PART, REST_SPEED, Balance
-from linear_theory.roots import EPS, bracketed_newton
+from linear_theory.line.profile import Profile, polynomial
+from linear_theory.line.result import REST_PART, REST_SPEED, Balance
+from linear_theory.line.roots import EPS, bracketed_newton
 from linear_theory.waves import TravellingWave
 
 Array = NDArray[np.float64]

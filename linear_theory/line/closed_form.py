@@ -23,7 +23,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from linear_theory import validation
-from linear_theory.roots import bracketed_newton
+from linear_theory.line.roots import bracketed_newton
 
 Array = NDArray[np.float64]
 

@@ -10,7 +10,7 @@ the sine itself, which is not a member of that basis, like s^-2.
 import numpy as np
 from numpy.typing import NDArray
 
-from linear_theory.airy_system import Family
+from linear_theory.airy.system import Family
 from linear_theory.sheet import Sheet
 
 Array = NDArray[np.float64]

@@ -22,8 +22,8 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from linear_theory.airy.special import inverse_quartic_sum, one_minus_x_over_sinh, x_over_sinh
 from linear_theory.sheet import Sheet
-from linear_theory.special import inverse_quartic_sum, one_minus_x_over_sinh, x_over_sinh
 
 Array = NDArray[np.float64]
 
