@@ -27,7 +27,7 @@ from linear_theory.newton import damped_newton, guarded_newton
 Array = NDArray[np.float64]
 
 Integrand = Callable[[Array, Integers], Array]
-Roughness = Callable[[Array, Integers], tuple[NDArray[np.bool_], Integers]]
+Velocities = Callable[[Array, Integers], list[Array]]
 Residual = Callable[..., tuple[Array, Array]]
 
 _COARSE_HALVINGS = 8
@@ -134,10 +134,10 @@ class Balance:
                 [ratio * d for d in dots] + self._hessian(values, dots, ratio, slope)
             )
 
-        def roughness(values: Array, owners: Integers) -> tuple[NDArray[np.bool_], Integers]:
-            return self._roughness(self._moved(values, q[owners]))
+        def motion(values: Array, owners: Integers) -> list[Array]:
+            return [self._moved(values, q[owners])]
 
-        return self._integrate(times, integrand, roughness, halvings)
+        return self._integrate(times, integrand, motion, halvings)
 
     def _remainder(
         self, leading: Array, q: Array, times: Integers, halvings: int
@@ -160,20 +160,25 @@ class Balance:
             hessian = self._hessian(values, dots, weight * ratio, weight * slope)
             return values[2] * np.stack([self._dot(i, force, values) for i in self._modes] + hessian)
 
-        def roughness(values: Array, owners: Integers) -> tuple[NDArray[np.bool_], Integers]:
-            rough, axis = self._roughness(self._moved(values, first[owners]))
-            again, axis_again = self._roughness(self._moved(values, first[owners] + alpha * q[owners]))
-            return rough | again, np.where(rough, axis, axis_again)
+        def motion(values: Array, owners: Integers) -> list[Array]:
+            before = first[owners]
+            return [self._moved(values, before), self._moved(values, before + alpha * q[owners])]
 
-        return self._integrate(times, integrand, roughness, halvings)
+        return self._integrate(times, integrand, motion, halvings)
 
     def _integrate(
-        self, times: Integers, integrand: Integrand, roughness: Roughness, halvings: int
+        self, times: Integers, integrand: Integrand, motion: Velocities, halvings: int
     ) -> tuple[Array, Array]:
-        """Gradients (times, J) and Hessians (times, J, J)."""
+        """Gradients (times, J) and Hessians (times, J, J); motion: the velocities that matter."""
         values = self._values[:, times]
         channels, count, cells, n, _ = values.shape
         owners = np.repeat(np.arange(count), cells)
+        sample = np.array([0, n // 2, n - 1])
+
+        def roughness(values: Array, owners: Integers) -> tuple[NDArray[np.bool_], Integers]:
+            velocities = motion(values[:, :, sample[:, None], sample], owners)
+            return self._roughness(np.stack(velocities))
+
         flat = values.reshape(channels, count * cells, n, n)
         cells_now = graded(flat, owners, roughness, halvings)
         sums = cells_now.integrals(integrand(cells_now.values, cells_now.owners))
@@ -210,15 +215,19 @@ class Balance:
         return -values[5] if 0 in (i, j) else values[4]
 
     def _roughness(self, w: Array) -> tuple[NDArray[np.bool_], Integers]:
-        """Cells on which w/|w| may turn, and the axis along which w varies more."""
-        mean = w.mean(axis=(-2, -1), keepdims=True)
-        spread = ((w - mean) ** 2).sum(0).max(axis=(-2, -1))
-        size = (mean**2).sum(0)[..., 0, 0]
+        """Cells on which w/|w| may turn for one of several w, and the axis along which it varies more.
+
+        w: (velocities, 2, cells, 3, 3), at corners, middles of edges and centre.
+        """
+        centre = w[..., 1:2, 1:2]
+        spread = ((w - centre) ** 2).sum(1).max(axis=(-2, -1))
+        size = (centre**2).sum(1)[..., 0, 0]
         # tanh(r/s)/r is smooth up to r = i pi s/2
         rough = size + (np.pi / 2 * self._law.width) ** 2 < _MARGIN**2 * spread
-        first = ((w[..., -1, :] - w[..., 0, :]) ** 2).sum(0).max(-1)
-        second = ((w[..., :, -1] - w[..., :, 0]) ** 2).sum(0).max(-1)
-        return rough, np.where(first > second, 0, 1)
+        across = ((w[..., 2, 1] - w[..., 0, 1]) ** 2).sum(1)
+        along = ((w[..., 1, 2] - w[..., 1, 0]) ** 2).sum(1)
+        which = rough.argmax(0), np.arange(w.shape[2])
+        return rough.any(0), np.where(across[which] > along[which], 0, 1)
 
     def _full(self, q: NDArray[np.floating]) -> Array:
         """(times, 3): V_x, V_y, Omega."""

@@ -30,6 +30,7 @@ def guarded_newton(function: Problem, start: Array, low: Array, high: Array, xto
     active = np.arange(start.size)
     for evaluation in range(_MOST_EVALUATIONS):
         value, slope = function(x[active], active)
+        _require_finite(value, x)
         rising = value > 0
         high[active[rising]] = x[active[rising]]
         low[active[~rising]] = x[active[~rising]]
@@ -51,26 +52,33 @@ def guarded_newton(function: Problem, start: Array, low: Array, high: Array, xto
 def damped_newton(function: Problem, start: Array, xtol: float) -> Array:
     """Zeros of N gradients of convex functions of J variables, (N, J).
 
-    function(x, which): gradients (n, J) and Hessians (n, J, J). A step that does not make the gradient
-    smaller is halved. Raises NotConvergedError, with the last iterates.
+    function(x, which): gradients (n, J) and Hessians (n, J, J). Along a Newton step the derivative of a
+    convex function rises through zero: a step that ends far behind the zero is halved, also where the
+    gradient saturates and says nothing by its size. Raises NotConvergedError, with the last iterates.
     """
     x, step = start.copy(), np.zeros_like(start)
-    before = np.full(start.shape[0], np.inf)
+    fall = np.full(start.shape[0], np.inf)  # minus the derivative along the step at its start
     active = np.arange(start.shape[0])
     for _ in range(_MOST_EVALUATIONS):
         gradient, hessian = function(x[active], active)
-        size = np.linalg.norm(gradient, axis=1)
-        worse = size >= before[active]
-        back, ahead = active[worse], active[~worse]
+        _require_finite(gradient, x)
+        behind = (gradient * step[active]).sum(1) > 0.5 * fall[active]
+        back, ahead = active[behind], active[~behind]
         step[back] /= 2
+        fall[back] /= 2
         x[back] -= step[back]
         if ahead.size:
-            slope = hessian[~worse]
+            slope = hessian[~behind]
             floor = 1e-14 * np.trace(slope, axis1=1, axis2=2)[:, None, None] * np.eye(start.shape[1])
-            step[ahead] = np.linalg.solve(slope + floor, -gradient[~worse][:, :, None])[:, :, 0]
-            before[ahead] = size[~worse]
+            step[ahead] = np.linalg.solve(slope + floor, -gradient[~behind][:, :, None])[:, :, 0]
+            fall[ahead] = -(gradient[~behind] * step[ahead]).sum(1)
             x[ahead] += step[ahead]
         active = active[abs(step[active]).max(1) > xtol]
         if not active.size:
             return x
     raise NotConvergedError(f"{active.size} of {len(x)} balances not found to {xtol:g}", x)
+
+
+def _require_finite(value: Array, x: Array) -> None:
+    if not np.all(np.isfinite(value)):
+        raise NotConvergedError("a function is not finite", x)

@@ -61,7 +61,7 @@ def first_resolution(rtol: float) -> Resolution:
     """
     digits = -math.log10(rtol)
     order = min(max(math.ceil(2.5 + 0.8 * digits), 5), 14)
-    return Resolution(4.0, order, max(math.ceil(5.3 * digits - 5), 2), 0.02 * rtol)
+    return Resolution(4.0, order, max(math.ceil(5.3 * digits - 7), 2), 0.02 * rtol)
 
 
 def shortest_waves(wave: Wave) -> int:
@@ -180,8 +180,8 @@ def _first_grid(crawl: Crawl) -> TimeGrid:
     """A period, or the half of one that tells the rest where V(t_0 - t) = V(t)."""
     period, reversal = crawl.field.wave.period, crawl.reversal_time
     if reversal is None:
-        return first_grid(0.0, period, 4)
-    return first_grid(reversal / 2, reversal / 2 + period / 2, 2)
+        return first_grid(0.0, period, 5)
+    return first_grid(reversal / 2, reversal / 2 + period / 2, 3)
 
 
 def _joined(motion: RigidMotion, more: RigidMotion, added: NDArray[np.bool_]) -> RigidMotion:

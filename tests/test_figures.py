@@ -1,0 +1,160 @@
+"""Figures 3 and 7: what they compute, that the files hold what is drawn, the same bytes every time."""
+
+import csv
+import json
+
+import numpy as np
+import pytest
+
+from figures import fig3, fig7
+from linear_theory import Sheet, SineWave, airy_series, line_speed, ritz_field
+
+COARSE = {
+    "THEORY_POINTS": 5,
+    "FEM_ALPHAS": (0.13, fig3.ALPHA_SHOWN),
+    "GRID": (21, 41),
+    "FEM_SIZE": 0.25,
+}
+
+
+def small_fig3() -> fig3.Fig3Data:
+    """Figure 3 at few couplings, on coarse triangles."""
+    with pytest.MonkeyPatch.context() as patch:
+        for name, value in COARSE.items():
+            patch.setattr(fig3, name, value)
+        return fig3.compute(rtol=1e-3)
+
+
+@pytest.fixture(scope="module")
+def speeds():
+    return small_fig3()
+
+
+@pytest.fixture(scope="module")
+def amplitudes():
+    return fig7.compute(rtol=1e-7)
+
+
+def series_of(data: fig3.Fig3Data, label: str) -> fig3.Series:
+    return next(series for series in data.series if series.label == label)
+
+
+def rows_of(path):
+    with path.open(newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def at_alpha_shown(series: fig3.Series) -> tuple[float, float]:
+    place = np.flatnonzero(series.alpha == fig3.ALPHA_SHOWN)[0]
+    return series.speed[place], series.error[place]
+
+
+def test_series_and_elements_give_one_speed_within_their_claims(speeds):
+    (airy, airy_error), (fem, fem_error) = (
+        at_alpha_shown(series_of(speeds, label)) for label in ("2D, theory", "2D, linear FEM")
+    )
+    assert abs(airy - fem) <= airy_error + fem_error
+    assert airy_error + fem_error < 0.02 * airy
+
+
+def test_speeds_have_the_signs_and_the_limits_of_the_theory(speeds):
+    line, printed = (series_of(speeds, label) for label in ("1D, theory", "1D, printed"))
+    np.testing.assert_array_equal(line.speed, line_speed(line.alpha))
+    assert np.all(line.speed[1:] > 0)
+    assert np.all(printed.speed[1:] < 0)
+    assert speeds.coefficients[1][0] == pytest.approx(1, abs=1e-9)
+    assert speeds.coefficients[2][0] == pytest.approx(1.91, abs=0.01)  # below 2, of a narrow strip
+    assert max(s.alpha.max() for s in speeds.series) < speeds.largest_alpha
+
+
+def test_largest_alpha_is_where_the_area_of_another_solution_vanishes(speeds):
+    sheet, wave = Sheet(), SineWave()
+    field = ritz_field(sheet, wave, rtol=1e-5)
+    y = np.linspace(-sheet.length / 2, sheet.length / 2, 201)
+    times = np.linspace(0, wave.period, 48, endpoint=False)
+    dilation = field.strain(sheet.width / 2, y[:, None], times)[:2].sum(0)
+    assert speeds.largest_alpha == pytest.approx(-1 / dilation.min(), rel=1e-3)
+
+
+def test_friction_of_both_solutions_points_the_same_way(speeds):
+    top, bottom = speeds.snapshots
+    size = np.hypot(*top.force)
+    assert np.hypot(*(top.force - bottom.force)).max() < 0.02 * size.max()
+    np.testing.assert_allclose(top.force[0], -top.force[0, ::-1], atol=1e-6)  # mirror images in x
+    assert size.max() > 1.2 > 0.8 > size.min() > 0  # more weight where the sheet has grown
+
+
+def test_figure_3_writes_what_it_shows(speeds, tmp_path):
+    paths = fig3.write(speeds, tmp_path, ["png"])
+    assert sorted(p.name for p in paths) == [
+        "fig3.json", "fig3.png", "fig3_friction.csv", "fig3_speed.csv",
+    ]  # fmt: skip
+    shown = json.loads((tmp_path / "fig3.json").read_text())["speeds_at_alpha_shown"]
+    rows = rows_of(tmp_path / "fig3_speed.csv")
+    assert len(rows) == sum(series.alpha.size for series in speeds.series)
+    axes = fig3.draw(speeds).axes[-1]
+    assert set(axes.get_legend_handles_labels()[1]) == {s.label for s in speeds.series} == set(shown)
+    symbols = next(c for c in axes.containers if c.get_label() == "2D, linear FEM")
+    written = [(float(r["alpha"]), float(r["speed"])) for r in rows if r["series"] == "2D, linear FEM"]
+    np.testing.assert_allclose(symbols.lines[0].get_xydata(), written, rtol=1e-8)
+    for series in speeds.series:
+        assert shown[series.label]["speed"] == pytest.approx(at_alpha_shown(series)[0], rel=1e-8)
+    arrows = rows_of(tmp_path / "fig3_friction.csv")
+    assert len(arrows) == 2 * np.prod(fig3.ARROWS)
+
+
+def test_figure_7_draws_numbers_that_differ_as_they_should(amplitudes):
+    for family in amplitudes.amplitudes:
+        plain, printed, converged = family.plain, family.printed, family.converged
+        assert abs(plain / converged - 1)[:3].max() < 0.02  # plain: right at first, then too small
+        assert np.all(abs(plain[10:]) < abs(converged[10:]))
+        assert abs(printed / plain - 1).max() > 0.5
+        np.testing.assert_allclose(converged[-3:], family.tail[-3:], rtol=0.02)
+
+
+def test_tail_constants_are_those_of_many_modes(amplitudes):
+    many = airy_series(Sheet(), SineWave(), modes=400)
+    for name, constant in amplitudes.constants.items():
+        assert fig7.tail_constant(many, name) == pytest.approx(constant, rel=1e-4)
+
+
+def test_figure_7_writes_what_it_shows(amplitudes, tmp_path):
+    fig7.write(amplitudes, tmp_path, ["png"])
+    shown = json.loads((tmp_path / "fig7.json").read_text())
+    rows = rows_of(tmp_path / "fig7.csv")
+    assert len(rows) == fig7.MODES * len(fig7.FAMILIES)
+    for axes, family in zip(fig7.draw(amplitudes).axes, amplitudes.amplitudes, strict=True):
+        name = family.family.name
+        columns = ("tail_law", *fig7.LOOKS)  # in the order of drawing
+        for line, column in zip(axes.lines, columns, strict=True):
+            signed = np.array(shown["families"][name][column])
+            np.testing.assert_allclose(line.get_ydata(), abs(signed), rtol=1e-8)
+        for column in columns:
+            written = [float(row[column]) for row in rows if row["family"] == name]
+            np.testing.assert_allclose(written, shown["families"][name][column], rtol=1e-8)
+
+
+def test_same_input_same_bytes(speeds, amplitudes, tmp_path):
+    for once, again, module, formats in (
+        (speeds, small_fig3(), fig3, ["png"]),
+        (amplitudes, fig7.compute(rtol=1e-7), fig7, ["png", "pdf"]),
+    ):
+        first = module.write(once, tmp_path / "first", formats)
+        second = module.write(again, tmp_path / "second", formats)
+        for one, two in zip(first, second, strict=True):
+            assert one.read_bytes() == two.read_bytes(), one.name
+
+
+@pytest.mark.parametrize("module", [fig3, fig7])
+def test_unknown_options_are_refused(module, capsys):
+    for arguments in (["--formats", "jpeg"], ["--rtol", "fast"]):
+        with pytest.raises(SystemExit):
+            module.main(arguments)
+    assert "invalid choice: 'jpeg'" in capsys.readouterr().err
+
+
+def test_fig7_from_the_command_line(tmp_path, capsys):
+    fig7.main(["--out", str(tmp_path), "--rtol", "1e-6", "--formats", "png"])
+    assert capsys.readouterr().out.split() == [
+        str(tmp_path / name) for name in ("fig7.png", "fig7.csv", "fig7.json")
+    ]
