@@ -7,7 +7,6 @@ travelling sine is the one or the other at two of its phases. Drawn are the pape
 its equations as printed, and the converged amplitudes, whose tails are summed.
 """
 
-import argparse
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -105,7 +104,7 @@ def compute(rtol: float = RTOL) -> Fig7Data:
         converged = airy_series(sheet, wave, modes=MODES)
     plain = airy_series(sheet, wave, modes=MODES, tail=False)
     printed = airy_series(sheet, wave, modes=MODES, form="printed")
-    constants = {name: tail_constant(converged, name) for name in ("K", "K'")}
+    constants = tail_constants(converged)
     amplitudes = []
     for family in FAMILIES:
         found = {
@@ -118,15 +117,11 @@ def compute(rtol: float = RTOL) -> Fig7Data:
     return Fig7Data(tuple(amplitudes), constants, converged.modes, errors)
 
 
-def tail_constant(field: AirySeries, constant: str) -> float:
-    """K or K', from the last amplitudes of the two families that share it.
-
-    The leading deviations of the two from the law are of opposite sign and cancel in the mean.
-    """
-    pair = [family for family in FAMILIES if family.constant == constant]
-    found = [family.amplitudes(field) for family in pair]
-    laws = [family.unit_tail(a.size) for family, a in zip(pair, found, strict=True)]
-    return float(np.mean([a[-1] / law[-1] for a, law in zip(found, laws, strict=True)]))
+def tail_constants(field: AirySeries) -> dict[str, float]:
+    """K and K' for the unit even and the unit odd load."""
+    quarter = field.wave.period / 4  # c = sin(2 pi y/L) at t = 0 and -cos(2 pi y/L) a quarter later
+    even, odd = float(field.tail_constants(quarter)[0]), float(field.tail_constants(0.0)[1])
+    return {"K": -even, "K'": odd}
 
 
 LOOKS: dict[str, dict[str, Any]] = {
@@ -237,13 +232,7 @@ def write(data: Fig7Data, out: Path | None, formats: Sequence[str]) -> list[Path
 
 def main(arguments: Sequence[str] | None = None) -> None:
     """Compute, draw and write figure 7."""
-    parser = argparse.ArgumentParser(prog="figures.fig7", description=main.__doc__)
-    parser.add_argument("--out", type=Path, help="folder of the files (figures/out)")
-    parser.add_argument(
-        "--rtol", type=float, default=RTOL, help="error of the displacement (%(default)g)"
-    )
-    parser.add_argument("--formats", nargs="+", choices=list(style.METADATA), default=["png", "pdf"])
-    options = parser.parse_args(arguments)
+    options = style.options("figures.fig7", main.__doc__, RTOL, "error of the displacement", arguments)
     for path in write(compute(options.rtol), options.out, options.formats):
         print(path)
 

@@ -10,6 +10,9 @@ Figures are made without pyplot: nothing is global but the style, nothing needs 
 display is needed.
 """
 
+import argparse
+import logging
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -91,6 +94,8 @@ def use() -> None:
     mpl.rcdefaults()
     mpl.rcParams.update(STYLE)
     mpl.use("agg")
+    # PDFs without a date make fontTools warn of an old one
+    logging.getLogger("fontTools").setLevel(logging.ERROR)
 
 
 def figure(width: float = COLUMN_CM, height: float = 6.0) -> Figure:
@@ -119,3 +124,14 @@ def save(
         with replacing(path) as part:
             fig.savefig(part, format=name, metadata=METADATA[name])
     return paths
+
+
+def options(
+    program: str, description: str | None, rtol: float, meaning: str, arguments: Sequence[str] | None
+) -> argparse.Namespace:
+    """The command line that all figures share: --out, --rtol (default and meaning given), --formats."""
+    parser = argparse.ArgumentParser(prog=program, description=description)
+    parser.add_argument("--out", type=Path, help="folder of the files (figures/out)")
+    parser.add_argument("--rtol", type=float, default=rtol, help=f"{meaning} (%(default)g)")
+    parser.add_argument("--formats", nargs="+", choices=list(METADATA), default=["png", "pdf"])
+    return parser.parse_args(arguments)

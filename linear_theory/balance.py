@@ -80,10 +80,15 @@ class Balance:
         if halvings > 2 * _COARSE_HALVINGS:
             self._stages.insert(0, (_COARSE_HALVINGS, 1e-2))
 
-    def solve(self) -> RigidMotion:
-        """Balance friction at all times. Raises NotConvergedError if an iteration stalls."""
-        leading = self._zero(self._leading, np.zeros((1, 1)), 1.0)
-        remainder = self._zero(partial(self._remainder, leading), leading, self._alpha)
+    def solve(self, guess: RigidMotion | None = None) -> RigidMotion:
+        """Balance friction at all times, from a guess if there is one.
+
+        Raises NotConvergedError if an iteration stalls.
+        """
+        modes = list(self._modes)
+        starts = (None, None) if guess is None else (guess.leading[:, modes], guess.remainder[:, modes])
+        leading = self._zero(self._leading, np.zeros((1, 1)), 1.0, starts[0])
+        remainder = self._zero(partial(self._remainder, leading), leading, self._alpha, starts[1])
         velocity = self._moved(self._values, leading + self._alpha * remainder)
         speed = _norm(velocity)
         rest = np.mean(speed < _REST * self._scale, axis=(1, 2, 3))
@@ -103,12 +108,12 @@ class Balance:
         ]
         return RigidMotion(self._full(steps[0]), self._full(steps[1]), np.zeros(times.size), 0.0)
 
-    def _zero(self, residual: Residual, offset: Array, unit: float) -> Array:
-        """q (times, unknowns) of residual 0, first roughly with few halvings, then as asked."""
-        q = np.zeros((self._values.shape[1], len(self._modes)))
+    def _zero(self, residual: Residual, offset: Array, unit: float, start: Array | None) -> Array:
+        """q (times, unknowns) of residual 0; without a start, first roughly with few halvings."""
+        q = np.zeros((self._values.shape[1], len(self._modes))) if start is None else start
         low, high = self._bracket()
         ends = np.sort([(low - offset) / unit, (high - offset) / unit], axis=0)[:, :, 0]
-        for halvings, tolerance in self._stages:
+        for halvings, tolerance in self._stages if start is None else self._stages[-1:]:
             xtol = tolerance * self._scale
             if len(self._modes) == 1:
                 q = _single(residual, halvings, q, ends, xtol)

@@ -18,23 +18,28 @@ Integers = NDArray[np.int64]
 
 
 class Rule(NamedTuple):
-    """Gauss points and weights of one direction, and interpolation to the two halves, (n, n) each."""
+    """Gauss points and weights of one direction, and interpolation of n values from there.
+
+    halves: to the Gauss points of the two halves, (n, n) each; with_ends: to -1, the points and 1,
+    (n + 2, n).
+    """
 
     points: Array
     weights: Array
     halves: tuple[Array, Array]
+    with_ends: Array
 
 
 @lru_cache
 def gauss(order: int) -> Rule:
     """The rule with `order` points."""
     points, weights = np.polynomial.legendre.leggauss(order)
-    vandermonde = np.linalg.inv(np.polynomial.legendre.legvander(points, order - 1))
-    halves = [
-        np.polynomial.legendre.legvander((points + shift) / 2, order - 1) @ vandermonde
-        for shift in (-1, 1)
-    ]
-    return Rule(points, weights, (halves[0], halves[1]))
+    inverse = np.linalg.inv(np.polynomial.legendre.legvander(points, order - 1))
+    first, second, with_ends = (
+        np.polynomial.legendre.legvander(places, order - 1) @ inverse
+        for places in ((points - 1) / 2, (points + 1) / 2, np.concatenate([[-1], points, [1]]))
+    )
+    return Rule(points, weights, (first, second), with_ends)
 
 
 class Graded(NamedTuple):

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linear_theory import validation
+from linear_theory.cells import gauss
 from linear_theory.motion import Motion
 
 Array = NDArray[np.float64]
@@ -93,13 +94,15 @@ def load_rate(load: str, dilation: Array, growth: Array) -> Array:
 
 
 def check_load(motion: Motion, rate: Array, alpha: float) -> None:
-    """Raise ValueError where the load 1 + alpha e is not positive, and say where."""
-    lowest = 1 + alpha * rate
+    """Raise ValueError where the load 1 + alpha e is not positive, edges included, and say where."""
+    to_edges = gauss(rate.shape[-1]).with_ends
+    everywhere = to_edges @ rate @ to_edges.T
+    lowest = 1 + alpha * everywhere
     if lowest.min() > 0:
         return
     _, cell, i, j = np.unravel_index(lowest.argmin(), lowest.shape)
-    x, y = motion.position[:, cell, i, j]
-    limit = -1 / rate.min() if alpha > 0 else -1 / rate.max()
+    x, y = (to_edges @ motion.position[:, cell] @ to_edges.T)[:, i, j]
+    limit = -1 / everywhere.min() if alpha > 0 else -1 / everywhere.max()
     raise ValueError(
         f"alpha = {alpha:g}: the area element 1 + alpha tr(strain) would be {lowest.min():.3g} at "
         f"x = {x:.3g}, y = {y:.3g}; must be {'<' if alpha > 0 else '>'} {limit:.4g}"

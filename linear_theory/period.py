@@ -88,10 +88,13 @@ class Crawl:
         wave = self.field.wave
         return isinstance(wave, TravellingWave) and wave.is_half_period_antisymmetric
 
-    def balance(self, times: Array) -> RigidMotion:
-        """Rigid motion at the given times, in lots."""
+    def balance(self, times: Array, known: "Known | None" = None) -> RigidMotion:
+        """Rigid motion at the given times, in lots; known: times before and after to start from."""
         lot = max(_LOT // self._motion(times[:1]).area.size, 1)
-        lots = [self._balance(times[i : i + lot]).solve() for i in range(0, times.size, lot)]
+        lots = []
+        for i in range(0, times.size, lot):
+            some = times[i : i + lot]
+            lots.append(self._balance(some).solve(known and known.between(some)))
         leading, remainder, rest, fastest = zip(*lots, strict=True)
         return RigidMotion(
             np.concatenate(leading), np.concatenate(remainder), np.concatenate(rest), max(fastest)
@@ -139,6 +142,21 @@ class Crawl:
         return Balance(motion, rate, self.alpha, law, r.halvings, r.tolerance)
 
 
+class Known(NamedTuple):
+    """The motion at some ascending times."""
+
+    times: Array
+    motion: RigidMotion
+
+    def between(self, times: Array) -> RigidMotion:
+        """Linear interpolation of q."""
+        leading, remainder = (
+            np.stack([np.interp(times, self.times, column) for column in q.T], axis=1)
+            for q in (self.motion.leading, self.motion.remainder)
+        )
+        return RigidMotion(leading, remainder, np.zeros(times.size), 0.0)
+
+
 def average(crawl: Crawl, rtol: float, atol: float) -> Period:
     """Rigid motion through a period at as many times and as finely as the tolerance needs."""
     grid = _first_grid(crawl)
@@ -149,7 +167,8 @@ def average(crawl: Crawl, rtol: float, atol: float) -> Period:
         if time_error <= tolerance or grid.times.size > _MOST_TIMES:
             break
         grid, added = grid.refined(crawl.counted(motion), tolerance)
-        motion = _joined(motion, crawl.balance(grid.times[added]), added)
+        known = Known(grid.times[~added], motion)
+        motion = _joined(motion, crawl.balance(grid.times[added], known), added)
     leading = 0.0 if crawl.starts_at_second_order else grid.mean(motion.leading[:, 1])[0]
     rigid = crawl.alpha * (motion.leading + crawl.alpha * motion.remainder).T
     return Period(

@@ -50,6 +50,19 @@ def test_stress_equals_a_literal_sum_of_eq_15():
         assert field.stress(x, y, EVEN)[0] == pytest.approx(exact, abs=1e-13)
 
 
+def test_tail_constants_are_the_law_of_the_last_amplitudes():
+    field = airy_series(PAPER, SINE, rtol=1e-9)
+    even, odd = -field.tail_constants(EVEN)[0], field.tail_constants(ODD)[1]
+    a, c = -field.amplitudes(EVEN).A, -field.amplitudes(EVEN).C
+    b, d = field.amplitudes(ODD).B, field.amplitudes(ODD).D
+    # the next term of the amplitudes is m^-2.74: 60^-1.74 of the first
+    assert a[59] * 60 == pytest.approx(even, rel=1e-3)
+    assert -c[59] * 60 == pytest.approx(even, rel=2e-3)
+    assert b[59] * 60 == pytest.approx(odd, rel=1e-2)
+    assert -d[60] * 121 / 2 == pytest.approx(odd, rel=1e-2)
+    assert airy_series(PAPER, SINE, modes=9, tail=False).tail_constants(0.1) == (0.0, 0.0)
+
+
 def test_amplitudes_with_tails_are_those_of_very_many_modes():
     few = airy_series(PAPER, SINE, modes=40).amplitudes(0.1)
     many = airy_series(PAPER, SINE, modes=1000, tail=False).amplitudes(0.1)

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from linear_theory.airy import loads
 from linear_theory.airy.system import Pair
 from linear_theory.airy.terms import pair_displacement, pair_stress
+from linear_theory.cells import gauss
 from linear_theory.sheet import Sheet
 
 Array = NDArray[np.float64]
@@ -52,13 +53,13 @@ class Cases:
         return np.concatenate([waves, np.ones((1, *y.shape))])
 
     def mean_squares(self, amplitudes: Array) -> Array:
-        """Mean over the sheet of |u|^2 of combinations, amplitudes (2K + 1, N) -> (N,); to about 1 %.
+        """Mean over the sheet of |u|^2 of combinations, amplitudes (2K + 1, N) -> (N,); to a few %.
 
         By Gauss quadrature over a quarter, tails left out. Cosines and sines are orthogonal over the
         sheet, though not over its quarter.
         """
-        x, weights_x = np.polynomial.legendre.leggauss(5)
-        y, weights_y = np.polynomial.legendre.leggauss(8 + 2 * int(self.orders[-1]))
+        x, weights_x = gauss(4)[:2]
+        y, weights_y = gauss(5 + 2 * int(self.orders[-1]))[:2]
         without = replace(self, even=self.even.without_tail(), odd=self.odd.without_tail())
         u = without._quarter_displacements(
             (x + 1) * self.sheet.width / 4, (y + 1) * self.sheet.length / 4, grid=True
