@@ -10,8 +10,7 @@ README = Path(__file__).parents[1] / "README.md"
 
 def test_example_prints_what_is_printed():
     text = README.read_text()
-    (code,) = re.findall(r"```python\n(.*?)```", text, re.DOTALL)
-    (expected,) = re.findall(r"```\n((?!```).*?)```", text.split("```python")[1], re.DOTALL)[:1]
+    ((code, expected),) = re.findall(r"```python\n(.*?)```\n\n```\n(.*?)```", text, re.DOTALL)
     output = io.StringIO()
     with contextlib.redirect_stdout(output):
         exec(compile(code, str(README), "exec"), {})
