@@ -37,6 +37,14 @@ def positive(name: str, value: object) -> float:
     return number
 
 
+def poisson(value: object) -> float:
+    """A Poisson ratio: in (-1, 1/2]."""
+    number = real("poisson", value)
+    if not -1 < number <= 0.5:
+        raise ValueError(f"poisson = {number:g}: must be in (-1, 0.5]")
+    return number
+
+
 def integer(name: str, value: object, minimum: int | None = None) -> int:
     """`value` as an integer, at least `minimum`; 2.0 is refused, numpy integers are not."""
     try:

@@ -25,10 +25,7 @@ class Material:
     def __post_init__(self) -> None:
         for name in ("thickness", "young"):
             object.__setattr__(self, name, validation.positive(name, getattr(self, name)))
-        poisson = validation.real("poisson", self.poisson)
-        if not -1 < poisson <= 0.5:
-            raise ValueError(f"poisson = {poisson:g}: must be in (-1, 0.5]")
-        object.__setattr__(self, "poisson", poisson)
+        object.__setattr__(self, "poisson", validation.poisson(self.poisson))
 
     @property
     def stretching(self) -> float:
