@@ -88,7 +88,10 @@ class Balance:
         modes = list(self._modes)
         starts = (None, None) if guess is None else (guess.leading[:, modes], guess.remainder[:, modes])
         leading = self._zero(self._leading, np.zeros((1, 1)), 1.0, starts[0])
-        remainder = self._zero(partial(self._remainder, leading), leading, self._alpha, starts[1])
+        remainder = np.zeros_like(leading)
+        if np.any(self._values[3]):  # without e nothing remains
+            residual = partial(self._remainder, leading)
+            remainder = self._zero(residual, leading, self._alpha, starts[1])
         velocity = self._moved(self._values, leading + self._alpha * remainder)
         speed = _norm(velocity)
         rest = np.mean(speed < _REST * self._scale, axis=(1, 2, 3))

@@ -22,7 +22,8 @@ class Motion:
     """Values per unit alpha at the Gauss points of all cells; c cells, n = order, T times.
 
     position: (2, c, n, n), reference coordinates x, y.
-    area: (c, n, n), Jacobian of the map from [-1, 1]^2 (quadrature weights not included).
+    area: (c, n, n), Jacobian of the map from [-1, 1]^2 (quadrature weights not included); (T, c, n, n)
+    where it is the load, for motions whose load is known and not expanded in alpha.
     velocity: (2, T, c, n, n), length per time, in the frame of the mean motion.
     dilation: (T, c, n, n), trace of the strain.
     growth: (T, c, n, n), the wave c.

@@ -118,6 +118,17 @@ class Discretisation:
             raise ValueError(f"xi = {place}: must be in the parameter domain of the mesh") from None
         return self._region(found[:1], place[:, None, None], np.ones((1, 1)))
 
+    def points(self, xi: ArrayLike) -> Region:
+        """Points of parameters xi (2, n), each with weight 1. Raises ValueError outside the mesh."""
+        places = validation.real_array("xi", xi)
+        if places.ndim != 2 or len(places) != 2:
+            raise ValueError(f"xi has shape {places.shape}: must be (2, n)")
+        try:
+            found = self.mesh.element_finder()(*places)
+        except ValueError:
+            raise ValueError("xi: all must be in the parameter domain of the mesh") from None
+        return self._region(found, places[:, :, None], np.ones((places.shape[1], 1)))
+
     def facets(self, where: Where) -> NDArray[np.int64]:
         """Indices of the boundary edges whose midpoints satisfy `where`. ValueError if none does."""
         facets = self.mesh.facets_satisfying(where, boundaries_only=True)
@@ -137,6 +148,20 @@ class Discretisation:
             for name, numbers in kind.items():
                 found.setdefault(name, []).append(numbers)
         return {name: np.concatenate(numbers) for name, numbers in found.items()}
+
+    def dofs_values(self) -> NDArray[np.int64]:
+        """Scalar degrees of freedom that are 1 in a displacement of 1 everywhere; the others are 0.
+
+        Values at nodes of Lagrange elements; at vertices where the others are derivatives (BFS,
+        Argyris) or bubbles (ElementQuadP).
+        """
+        ones = np.zeros(self.scalars)
+        ones[self._dofs.nodal_dofs[0]] = 1
+        local = ones[self.interior.dofs]
+        sums = np.einsum("epk,ek->ep", self.interior.shapes((0,))[:, :, 0], local)
+        if not np.allclose(sums, 1, atol=1e-8):
+            ones[:] = 1
+        return np.flatnonzero(ones)
 
     def dofs_at(self, xi: ArrayLike) -> dict[str, NDArray[np.int64]]:
         """Scalar degrees of freedom of the vertex nearest to xi, by name."""

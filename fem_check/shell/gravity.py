@@ -23,39 +23,54 @@ def check_area(area: str, step: Step | None) -> None:
 
 @dataclass(frozen=True)
 class Gravity:
-    """The force -weight e_z per area.
+    """The force -weight e_z per area, on level ground or on an incline.
 
     weight: the rho g of the paper (2.5e-4 E), a force per area > 0. area: "grown", "current" or
-    "material", see `AREAS`. In a planar scene it does no work and is only the load that friction is
-    proportional to.
+    "material", see `AREAS`. incline: angle in radians by which the ground rises towards +y; the axes
+    stay those of the ground, and the weight points along (0, -sin, -cos). In a planar scene on level
+    ground it does no work and is only the load that friction is proportional to. Raises ValueError
+    for a weight <= 0 and for an incline that is not within a right angle.
     """
 
     weight: float
     area: str = "grown"
+    incline: float = 0.0
     entries: Entries = (0,)
 
     def __post_init__(self) -> None:
         validation.positive("weight", self.weight)
         validation.choice("area", self.area, AREAS)
+        if abs(validation.real("incline", self.incline)) >= np.pi / 2:
+            raise ValueError(f"incline = {self.incline:g}: must be in (-pi/2, pi/2)")
 
     @property
     def reads_rest(self) -> bool:
         """Only the grown area belongs to a rest state."""
         return self.area == "grown"
 
+    @property
+    def works_in_plane(self) -> bool:
+        """Whether a motion along the ground gains or costs energy."""
+        return self.incline != 0
+
     def normal_load(self, state: PointState) -> Array:
-        """Weight of each point, (points,): what lies on the ground in a planar scene."""
-        return np.asarray(self.weight * state.area_of(self.area))
+        """Weight of each point across the ground, (points,): its load in a planar scene."""
+        return np.asarray(np.cos(self.incline) * self._weight(state))
 
     def energy(self, state: PointState) -> Array:
         """See Effect."""
-        return np.asarray(self.normal_load(state) * state.position[2])
+        up = self._up(state.components)
+        return np.asarray(self._weight(state) * (up @ state.position))
 
     def gradient(self, state: PointState) -> Array:
         """See Effect."""
-        out = np.zeros((1, 3, state.measure.size))
-        out[0, 2] = self.normal_load(state)
-        return out
+        return np.multiply.outer(self._up(state.components), self._weight(state))[None]
+
+    def _weight(self, state: PointState) -> Array:
+        return np.asarray(self.weight * state.area_of(self.area))
+
+    def _up(self, components: int) -> Array:
+        return np.array([0.0, np.sin(self.incline), np.cos(self.incline)])[:components]
 
     def hessian(self, state: PointState) -> None:
         """Vanishes."""

@@ -62,6 +62,10 @@ class Ground:
             return np.asarray(position[2])
         return np.asarray(position[2] - self.height(position[0], position[1])[0])
 
+    def highest(self, position: Array) -> float:
+        """Largest height of the ground under some positions (components, points)."""
+        return 0.0 if self.height is None else float(self.height(position[0], position[1])[0].max())
+
     def pressure(self, state: PointState) -> Array:
         """Minus the derivative of the potential per area by the gap, (points,)."""
         gap = self.gap(state.position)
@@ -73,7 +77,7 @@ class Ground:
         """Force of the ground on each point, pressure times area, (points,)."""
         load = self.pressure(state) * state.area_of(self.area)
         return np.asarray(
-            load if self.height is None else load * np.sqrt((self._slope(state) ** 2).sum(0))
+            load if self.height is None else load * np.sqrt((self.gap_slope(state) ** 2).sum(0))
         )
 
     def energy(self, state: PointState) -> Array:
@@ -94,7 +98,7 @@ class Ground:
 
     def gradient(self, state: PointState) -> Array:
         """See Effect."""
-        return -(self.pressure(state) * state.area_of(self.area) * self._slope(state))[None]
+        return -(self.pressure(state) * state.area_of(self.area) * self.gap_slope(state))[None]
 
     def hessian(self, state: PointState) -> Array:
         """See Effect."""
@@ -103,7 +107,7 @@ class Ground:
         pressure = self.pressure(state)
         touching = (gap <= 0) if self.form == "printed" else (pressure > 0)
         rate = np.where(touching, drag - 2 * self.stiffness * gap, 0) * area
-        slope = self._slope(state)
+        slope = self.gap_slope(state)
         out = rate * outer(slope, slope)
         if self.height is not None:
             f = self.height(state.position[0], state.position[1])
@@ -111,7 +115,7 @@ class Ground:
                 out[pair] += pressure * area * f[entry]
         return np.asarray(out)[None, None]
 
-    def _slope(self, state: PointState) -> Array:
+    def gap_slope(self, state: PointState) -> Array:
         """Gradient of the gap, (3, points)."""
         slope = np.zeros_like(state.position)
         slope[2] = 1

@@ -196,10 +196,10 @@ def grouped(effects: Sequence[Effect], components: int) -> list[Group]:
     """Effects sorted into groups: one joins a larger one that reads all of its derivatives.
 
     Effects that read the position alone stay together and apart, because adding the position to the
-    five derivatives of a shell would cost them all. In the plane weight does no work.
+    five derivatives of a shell would cost them all. In the plane, on level ground, weight does no work.
     """
     if components == 2:
-        effects = [effect for effect in effects if not isinstance(effect, Gravity)]
+        effects = [e for e in effects if not isinstance(e, Gravity) or e.works_in_plane]
     groups: list[Group] = []
     for effect in sorted(effects, key=lambda e: -len(e.entries)):
         for i, group in enumerate(groups):

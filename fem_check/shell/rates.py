@@ -67,9 +67,16 @@ def backward_euler(x: Array, dt: float) -> Affine:
     return Affine(1 / validation.positive("dt", dt), x)
 
 
-def two_step(x: Array, before: Array, dt: float) -> Affine:
-    """v = (3 x_new - 4 x + x_before)/(2 dt), second order in dt for equal steps (BDF2)."""
-    return Affine(1.5 / validation.positive("dt", dt), (4 * x - before) / 3)
+def two_step(x: Array, before: Array, dt: float, dt_before: float | None = None) -> Affine:
+    """v at the end of a step from three positions, second order in dt (BDF2).
+
+    x, before: positions at its start and dt_before (by default dt) earlier. It is the slope of the
+    parabola through them; for equal steps (3 x_new - 4 x + x_before)/(2 dt).
+    """
+    dt = validation.positive("dt", dt)
+    ratio = 1.0 if dt_before is None else dt / validation.positive("dt_before", dt_before)
+    rate = (1 + 2 * ratio) / ((1 + ratio) * dt)
+    return Affine(rate, ((1 + ratio) ** 2 * x - ratio**2 * before) / (1 + 2 * ratio))
 
 
 def newmark(x: Array, v: Array, a: Array, dt: float) -> tuple[Affine, Affine]:

@@ -89,8 +89,8 @@ def balanced_modes(sheet: Sheet, wave: TravellingWave, cutoff: float) -> tuple[i
 def first_cutoff(sheet: Sheet, wave: TravellingWave, rtol: float, tail: bool) -> float:
     """Cutoff of `balanced_modes` that is likely to meet rtol.
 
-    From the measured errors, up to 0.16 cutoff^-4 (with tails) and 0.2 cutoff^-2 (without) of one wave on a
-    sheet at least twice as long as wide; shorter waves need more in proportion to their number^(2/3).
+    From the measured errors, up to 0.16 cutoff^-4 (with tails) and 0.2 cutoff^-2 (without) of one wave
+    on a sheet at least twice as long as wide; shorter waves need more, like their number^(2/3).
     """
     crowding = 2 * float(wave.orders[-1]) * min(sheet.width, sheet.length) / sheet.length
     needed = (0.16 / rtol) ** (1 / 4) if tail else (0.2 / rtol) ** (1 / 2)

@@ -1,0 +1,236 @@
+"""A cycle of shapes: what a sheet looks like through one period where friction does not deform it.
+
+At every phase the sheet is in static equilibrium with its growth (and its weight on the ground), so
+that a period is a closed series of minimisations, each started from the ones before. In between, and
+for velocities, the unknowns are interpolated by the trigonometric polynomial through the phases.
+"""
+
+import time
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from fem_check.shell.discretisation import Discretisation
+from fem_check.shell.effect import Effect
+from fem_check.shell.equilibrium import ConvergenceError, Equilibrium
+from fem_check.shell.gravity import Gravity
+from fem_check.shell.ground import Ground
+from fem_check.shell.newton import Minimiser
+from fem_check.shell.potential import Potential
+from fem_check.shell.scene import Scene
+from fem_check.shell.statics import follow_mode, ramp
+from fem_check.shell.supports import Supports
+from linear_theory import validation
+
+Array = NDArray[np.float64]
+
+TOLERANCE = 1e-10
+"""Of the static shapes, relative to the size of the sheet: the speed of a sine wave is of order
+alpha^2, and 1e-10 is 3e-7 of that at alpha = 0.02. Newton's last step costs little."""
+
+EXTRAPOLATED = 4
+"""Shapes that the start of the next one is extrapolated from."""
+
+PUSH = 1e-3
+"""Amplitude over the length of the sheet with which a buckled shape is left along its mode."""
+
+MOST_PERIODS = 4
+CLOSED = 1e-7
+"""A cycle is closed when the first shape is found again to this share of the size of the sheet; shapes
+that buckle may need a period to fall into step with the wave."""
+
+
+class NotPeriodicError(ConvergenceError):
+    """The shapes did not repeat after a few periods of the wave."""
+
+
+@dataclass(frozen=True, eq=False)
+class Shapes:
+    """Static shapes of a scene at equidistant phases t = 0, T/N, ... of one period T.
+
+    states: (N, size), displacement unknowns of `discretisation`; iterations: of Newton's method, all
+    together; buckled: phases (of N) at which a buckled state was met and left; seconds: time spent.
+    """
+
+    scene: Scene
+    discretisation: Discretisation
+    states: Array
+    iterations: int
+    buckled: int
+    seconds: float
+
+    @property
+    def times(self) -> Array:
+        """The phases, (N,), in units of the wave's period."""
+        return phases(self.scene.period, len(self.states))
+
+    @property
+    def harmonics(self) -> Array:
+        """Coefficients of 1, cos wt, cos 2wt, ..., sin wt, sin 2wt, ...: (2K + 1, size), K = N/2."""
+        return harmonics(self.states)
+
+    def at(self, times: ArrayLike) -> Array:
+        """Unknowns at any times, (*times.shape, size)."""
+        values, _ = time_factors(times, self.scene.period, len(self.states) // 2)
+        return np.asarray(values @ self.harmonics)
+
+    def thinned(self) -> "Shapes":
+        """The same cycle from every second phase."""
+        return replace(self, states=self.states[::2])
+
+
+def phases(period: float, count: int) -> Array:
+    """Equidistant times of one period, (count,)."""
+    return period / count * np.arange(float(count))
+
+
+def harmonics(values: Array) -> Array:
+    """Coefficients of 1, cos, ..., sin, ... in time of values (N, ...), N even: (N + 1, ...)."""
+    count = len(values)
+    spectrum = np.fft.rfft(values, axis=0) * (2 / count)
+    spectrum[0] /= 2
+    spectrum[-1] /= 2  # the highest cosine has no partner at negative frequency
+    return np.concatenate([spectrum.real, -spectrum.imag[1:]])
+
+
+def time_factors(times: ArrayLike, period: float, highest: int) -> tuple[Array, Array]:
+    """1, cos wt, ..., cos Kwt, sin wt, ..., sin Kwt and their time derivatives.
+
+    Each (*times.shape, 2K + 1), K = highest.
+    """
+    rates = 2 * np.pi / period * np.arange(highest + 1)
+    angle = np.multiply.outer(validation.real_array("times", times), rates)
+    cosine, sine = np.cos(angle), np.sin(angle)
+    values = np.concatenate([cosine, sine[..., 1:]], axis=-1)
+    slopes = np.concatenate([-rates * sine, (rates * cosine)[..., 1:]], axis=-1)
+    return values, slopes
+
+
+def cycle_of_shapes(scene: Scene, count: int = 16, known: Shapes | None = None) -> Shapes:
+    """Static shapes at `count` equidistant phases of one period, growth ramped up at the first.
+
+    count: even, >= 4. known: shapes at half as many phases, which are kept and interpolated for the
+    starts of the new ones. Friction and inertia do not act on a static shape and are left out.
+
+    Raises ValueError for an odd count, ConvergenceError (with its last state) where a shape is not
+    found, NotPeriodicError where shapes of a sheet that buckles do not repeat.
+    """
+    if validation.integer("count", count, 4) % 2:
+        raise ValueError(f"count = {count}: must be even")
+    start = time.perf_counter()
+    solver = _Solver(scene)
+    if known is None:
+        found = _closed(solver, count) if solver.may_buckle else solver.period(count, solver.first())
+    else:
+        found = _between(solver, count, known)
+    return replace(found, seconds=time.perf_counter() - start + (known.seconds if known else 0.0))
+
+
+def _between(solver: "_Solver", count: int, known: Shapes) -> Shapes:
+    """The known shapes and new ones in the middle between them."""
+    if len(known.states) * 2 != count:
+        raise ValueError(f"known: has {len(known.states)} phases, must be half of count = {count}")
+    states = np.empty((count, known.states.shape[1]))
+    states[::2] = known.states
+    times = phases(solver.scene.period, count)[1::2]
+    for i, (t, guess) in enumerate(zip(times, known.at(times), strict=True)):
+        states[2 * i + 1] = solver.shape(t, guess, states[2 * i]).state
+    iterations, buckled = solver.iterations + known.iterations, solver.buckled + known.buckled
+    return Shapes(solver.scene, solver.discretisation, states, iterations, buckled, 0.0)
+
+
+def _closed(solver: "_Solver", count: int) -> Shapes:
+    """Periods, one after another, until a shape is the same as a period before."""
+    state = solver.first()
+    for _ in range(MOST_PERIODS):
+        found = solver.period(count, state)
+        again = solver.shape(0.0, found.states[0], found.states[-1])
+        gap = solver.minimiser.rms(again.state - found.states[0]) / solver.minimiser.length
+        if gap < CLOSED:
+            return found
+        state = again.state
+    raise NotPeriodicError(
+        f"shapes differ by {gap:.2g} of the sheet's size after {MOST_PERIODS} periods", state
+    )
+
+
+class _Solver:
+    """Minimisations of one scene at any time, and a count of what they took."""
+
+    def __init__(self, scene: Scene) -> None:
+        self.scene, self.discretisation = scene, scene.discretisation()
+        self.may_buckle = not scene.planar
+        self.effects = static_effects(scene)
+        motions = "xyz" if scene.find(Ground) is None else "xy"
+        supports = Supports(self.discretisation).anchor(motions=motions)
+        self.minimiser = Minimiser(supports, TOLERANCE, check_stability=self.may_buckle)
+        self.iterations = self.buckled = 0
+
+    def first(self) -> Array:
+        """The shape at t = 0, growth ramped up from the undeformed sheet at its static depth."""
+
+        def problem(share: float) -> Potential:
+            return Potential(self.discretisation, self.effects, self.scene.rest(0.0, share))
+
+        push = PUSH * self.scene.sheet.length if self.may_buckle else 0.0
+        start = static_depth(self.scene)
+        return self._count(ramp(self.minimiser, problem, start, follow=push)).state
+
+    def period(self, count: int, state: Array) -> Shapes:
+        """Shapes at `count` phases from the first one on."""
+        states = [state]
+        for t in phases(self.scene.period, count)[1:]:
+            states.append(self.shape(float(t), extrapolated(states[-EXTRAPOLATED:]), states[-1]).state)
+        return Shapes(
+            self.scene, self.discretisation, np.array(states), self.iterations, self.buckled, 0.0
+        )
+
+    def shape(self, t: float, guess: Array, before: Array) -> Equilibrium:
+        """The shape at time t next to a guess, or to the one before where the guess does not serve."""
+        potential = Potential(self.discretisation, self.effects, self.scene.rest(t))
+        try:
+            result = self.minimiser.minimise(potential, guess)
+        except ConvergenceError:
+            result = self.minimiser.minimise(potential, before)
+        if result.buckled:
+            self.buckled += 1
+            result = follow_mode(self.minimiser, potential, result, PUSH * self.scene.sheet.length)
+        return self._count(result)
+
+    def _count(self, result: Equilibrium) -> Equilibrium:
+        self.iterations += result.iterations
+        return result
+
+
+def static_effects(scene: Scene) -> tuple[Effect, ...]:
+    """Effects that shape the sheet; in the plane weight does no work and is left out too."""
+    effects = scene.static_effects
+    return tuple(e for e in effects if not (scene.planar and isinstance(e, Gravity)))
+
+
+def static_depth(scene: Scene) -> Array:
+    """The undeformed sheet, lowered on a flat ground to where that carries the weight, (size,)."""
+    ground, gravity = scene.find(Ground), scene.find(Gravity)
+    if ground is None:
+        return scene.discretisation().zeros()
+    depth = np.sqrt(gravity.weight / ground.stiffness)
+
+    def jets(x: Array, y: Array) -> Array:
+        out = np.zeros((6, 3, x.size))
+        out[0, 2] = -depth
+        return out
+
+    return scene.discretisation().interpolate(jets)
+
+
+def extrapolated(states: list[Array]) -> Array:
+    """The polynomial through equidistant states, one step on."""
+    count = len(states)
+    signs = np.array([(-1.0) ** (count - 1 - i) for i in range(count)])
+    weights = signs * [_binomial(count, i) for i in range(count)]
+    return np.asarray(weights @ np.array(states))
+
+
+def _binomial(n: int, k: int) -> float:
+    return float(np.prod([(n - j) / (j + 1) for j in range(k)]))

@@ -1,0 +1,185 @@
+"""Friction of a cycle of shapes balanced through a period, and the errors of its mean.
+
+For a sine wave V(t) is of order alpha, and its mean only of order alpha^2, because V half a period
+later is the opposite but for terms of order alpha^2. Therefore V(t) and V(t + T/2) are averaged first
+and the mean is taken over half a period.
+"""
+
+import math
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fem_check.shell.cycle import Shapes
+from fem_check.shell.cycle_motion import CycleMotion, is_mirrored
+from linear_theory.balance import Balance, RigidMotion
+from linear_theory.friction import FrictionLaw
+from linear_theory.time_grid import TimeGrid, first_grid
+from linear_theory.waves import TravellingWave
+
+Array = NDArray[np.float64]
+
+TIMES_PER_PHASE = 8
+"""Most times of the grid for each phase of the cycle: V(t) has kinks where the shapes have none, but
+where more is asked for, the shapes are not resolved either."""
+
+LOT = 24
+"""Times balanced together: bounds the memory."""
+
+STICKING = 0.01
+"""Share of the sheet at rest that counts as sticking."""
+
+TIME_SHARE = 0.3
+"""Share of the tolerance that the quadrature in time may take."""
+
+
+class Period(NamedTuple):
+    """Balanced motion through one period, V in length per time.
+
+    grid: times of one quarter or half of the period; leading: (2, times, 3), V_x, V_y, Omega at the
+    times of the grid and half a period later; mean of V_y and its error, without that of the phases
+    and of the mesh; fastest: largest speed against the ground; sticks: see `CrawlSpeed`.
+    """
+
+    grid: TimeGrid
+    leading: Array
+    mean: float
+    error: float
+    fastest: float
+    sticks: bool
+
+
+@dataclass(frozen=True, eq=False)
+class CycleBalance:
+    """A cycle of shapes, its load and friction, and how finely they are balanced.
+
+    order: Gauss points per cell and direction; halvings: how often a cell is halved towards points at
+    rest; tolerance: of V, relative to the root mean square of the velocities.
+    """
+
+    shapes: Shapes
+    load: str
+    law: FrictionLaw
+    order: int
+    halvings: int
+    tolerance: float
+    mirrored: bool
+
+    @classmethod
+    def of(cls, shapes: Shapes, load: str, law: FrictionLaw, rtol: float) -> "CycleBalance":
+        """Resolved for a relative error rtol of the mean.
+
+        V is alpha times smaller than the velocities: all is found alpha times better than rtol.
+        """
+        digits = -math.log10(rtol * min(abs(shapes.scene.alpha) or 1.0, 1.0))
+        order = min(max(math.ceil(1.5 + 0.9 * digits), 5), 14)
+        halvings = math.ceil(3.4 * digits)  # the last cell has the area 10^-digits of the first
+        return cls(shapes, load, law, order, halvings, 0.02 * 10**-digits, is_mirrored(shapes))
+
+    @property
+    def reversal_time(self) -> float | None:
+        """t_0 with V(t_0 - t) = V(t), where the wave and the sheet have that symmetry.
+
+        Only in the plane, where a shape does not depend on those before.
+        """
+        wave = self.shapes.scene.wave
+        if not isinstance(wave, TravellingWave) or not self.mirrored:
+            return None
+        return wave.reversal_time if is_mirrored(self.shapes, axis=1) else None
+
+    def average(self, rtol: float, atol: float) -> Period:
+        """Mean of V_y over a period at as many times as the tolerance needs."""
+        grid = self._first_grid()
+        found = self.balance(grid.times)
+        while True:
+            values = _paired(found.leading)
+            mean, time_error = grid.mean(values)
+            goal = TIME_SHARE * max(rtol * abs(mean), atol)
+            if time_error <= goal or grid.times.size > TIMES_PER_PHASE * len(self.shapes.states):
+                break
+            grid, added = grid.refined(values, goal)
+            found = _joined(found, self.balance(grid.times[added]), added)
+        error = time_error + self._quadrature_error(grid, found.leading) + 1e-12 * found.fastest
+        sticks = bool(found.rest.max() > STICKING)
+        return Period(grid, found.leading, mean, error, found.fastest, sticks)
+
+    def balance(self, times: Array) -> RigidMotion:
+        """Motion at times and half a period later, leading and remainder (2, times, 3)."""
+        later = self._with_partners(times)
+        lots = [self._balance(later[i : i + LOT]).solve() for i in range(0, later.size, LOT)]
+        leading, remainder, rest, fastest = zip(*lots, strict=True)
+        shape = 2, times.size
+        return RigidMotion(
+            np.concatenate(leading).reshape(*shape, 3),
+            np.concatenate(remainder).reshape(*shape, 3),
+            np.concatenate(rest).reshape(shape),
+            max(fastest),
+        )
+
+    def change(self, grid: TimeGrid, leading: Array) -> float:
+        """Change of the mean by one Newton step from a motion found with other shapes or cells."""
+        times, start = self._with_partners(grid.times), leading.reshape(-1, 3)
+        nothing = np.zeros((LOT, 3))
+        steps = [
+            self._balance(times[i : i + LOT])
+            .correction(start[i : i + LOT], nothing[: times[i : i + LOT].size])
+            .leading
+            for i in range(0, times.size, LOT)
+        ]
+        return grid.mean(_paired(np.concatenate(steps).reshape(leading.shape)))[0]
+
+    def whole_period(self, period: Period) -> tuple[Array, Array]:
+        """Times (T,) of one period in rising order from about 0 on, and V_x, V_y, Omega, (3, T)."""
+        length = self.shapes.scene.period
+        times, rigid = self._with_partners(period.grid.times), period.leading.reshape(-1, 3).T
+        if self.reversal_time is not None:
+            times = np.concatenate([times, self.reversal_time - times])
+            rigid = np.concatenate([rigid, rigid], axis=1)
+        times, first = np.unique(np.round(np.mod(times / length, 1), 12) % 1, return_index=True)
+        return times * length, rigid[:, first]
+
+    def _first_grid(self) -> TimeGrid:
+        """Half a period, or the half of that which tells the rest where V(t_0 - t) = V(t)."""
+        length, reversal = self.shapes.scene.period, self.reversal_time
+        if reversal is None:
+            return first_grid(0.0, length / 2, 4)
+        return first_grid(reversal / 2, reversal / 2 + length / 4, 2)
+
+    def _quadrature_error(self, grid: TimeGrid, leading: Array) -> float:
+        """Largest change of the paired V at three times by one Newton step on finer cells."""
+        some = np.unique((np.array([0.07, 0.41, 0.77]) * grid.times.size).astype(int))
+        finer = replace(self, order=self.order + 2, halvings=self.halvings + 6)
+        start = leading[:, some].reshape(-1, 3)
+        step = finer._balance(self._with_partners(grid.times[some])).correction(start, 0 * start)
+        return float(abs(_paired(step.leading.reshape(2, -1, 3))).max())
+
+    def _with_partners(self, times: Array) -> Array:
+        """Times, then those half a period later."""
+        return np.concatenate([times, times + self.shapes.scene.period / 2])
+
+    @cached_property
+    def _motion(self) -> CycleMotion:
+        return CycleMotion(self.shapes, self.load, self.order, self.mirrored)
+
+    def _balance(self, times: Array) -> Balance:
+        motion = self._motion.at(times)
+        return Balance(motion, motion.dilation, 1.0, self.law, self.halvings, self.tolerance)
+
+
+def _paired(leading: Array) -> Array:
+    """Mean of V_y at a time and half a period later, (times,)."""
+    return np.asarray(leading[:, :, 1].mean(0))
+
+
+def _joined(found: RigidMotion, more: RigidMotion, added: NDArray[np.bool_]) -> RigidMotion:
+    """Both, `more` at the places `added`."""
+    order = np.empty(added.size, int)
+    order[~added] = np.arange(found.rest.shape[1])
+    order[added] = found.rest.shape[1] + np.arange(more.rest.shape[1])
+    leading, remainder, rest = (
+        np.concatenate([a, b], axis=1)[:, order] for a, b in zip(found[:3], more[:3], strict=True)
+    )
+    return RigidMotion(leading, remainder, rest, max(found.fastest, more.fastest))

@@ -1,0 +1,204 @@
+"""The motion of a cycle of shapes on cells with Gauss points, as the friction balance reads it."""
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial import cKDTree
+
+from fem_check.shell.cycle import Shapes, time_factors
+from fem_check.shell.cycle_frame import BodyFrame
+from fem_check.shell.discretisation import Discretisation
+from fem_check.shell.ground import Ground
+from fem_check.shell.growth import metric_factor
+from fem_check.shell.region import Region
+from fem_check.shell.scene import Scene
+from fem_check.triangles import quadrilateral_points
+from linear_theory import validation
+from linear_theory.friction import LOADS
+from linear_theory.motion import Motion
+from linear_theory.waves import TravellingWave
+
+Array = NDArray[np.float64]
+
+
+class UnresolvedError(ArithmeticError):
+    """The shapes are too few: between them the interpolated sheet is inverted or leaves the ground."""
+
+
+ROUNDOFF = 1e-9
+"""Distances of vertices from the line x = 0 that count as none, units of length over the size 1."""
+
+ON_GROUND = "ground"
+"""Load by the reaction of the ground."""
+
+
+def checked_load(scene: Scene, load: str | None) -> str:
+    """The load to balance friction with: by default the ground's reaction, "current" in the plane.
+
+    Raises ValueError for an unknown name and for "ground" where the scene names none.
+    """
+    grounded = scene.find(Ground) is not None
+    if load is None:
+        return ON_GROUND if grounded else "current"
+    if validation.choice("load", load, (*LOADS, ON_GROUND)) == ON_GROUND and not grounded:
+        raise ValueError("load = 'ground': the scene must name the effect Ground")
+    return load
+
+
+def is_mirrored(shapes: Shapes, axis: int = 0) -> bool:
+    """Whether mesh and wave make one half of the sheet move as the mirror image of the other half.
+
+    axis: 0 for mirror symmetry in x, at every time; 1 for symmetry in y with time reversed. That is so
+    in the plane for waves that do not depend on x; a sheet in space may buckle to one side.
+    """
+    scene, mesh = shapes.scene, shapes.discretisation.mesh
+    mirror = np.where(np.arange(2) == axis, -1.0, 1.0)[:, None]
+    return (
+        scene.planar
+        and isinstance(scene.wave, TravellingWave)
+        and all(_same_points(p, mirror * p) for p in (mesh.p, _centres(mesh)))
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class CycleMotion:
+    """Velocities and loads of shapes on the cells of their mesh.
+
+    load: see `checked_load`; order: Gauss points per cell and direction; mirrored: whether the motion
+    is mirror symmetric. A rectangle is one cell, a triangle three.
+    """
+
+    shapes: Shapes
+    load: str
+    order: int
+    mirrored: bool
+
+    def at(self, times: Array) -> Motion:
+        """Motion at times (T,) with velocities in length per time and with `area` the load per cell.
+
+        position: (2, T, cells, n, n), of the deformed sheet. area: (T, cells, n, n), the
+        load as an area: times 1 + alpha e, e = dilation = 0, it is what the balance weighs with.
+        Positions and velocities are seen in the frame of the body, see `BodyFrame`.
+        Raises UnresolvedError where the load is negative somewhere or nothing is loaded.
+        """
+        times = np.asarray(times, float)
+        values, slopes = time_factors(times, self.shapes.scene.period, self._highest)
+        position = np.tensordot(values, self._jets[:, 0], 1).swapaxes(0, 1)
+        velocity = np.tensordot(slopes, self._jets[:, 0, :2], 1).swapaxes(0, 1)
+        load = self._load(times, values, position)
+        _check_load(load, times)
+        place, velocity = self._frame.seen(times, position[:2], velocity)
+        shape = (times.size, -1, self.order, self.order)
+        nothing = np.zeros(load.size).reshape(shape)
+        return Motion(
+            position=place.reshape(2, *shape),
+            area=load.reshape(shape),
+            velocity=velocity.reshape(2, *shape),
+            dilation=nothing,
+            growth=nothing,
+            mirrored=self.mirrored,
+        )
+
+    @cached_property
+    def region(self) -> Region:
+        """The Gauss points; their weights are the Jacobians of the cells, without Gauss weights."""
+        sheet = self.shapes.discretisation
+        elements = np.arange(sheet.mesh.nelements)
+        across = sheet.mesh.p[0, sheet.mesh.t]
+        if self.mirrored and not np.any((across.min(0) < -ROUNDOFF) & (across.max(0) > ROUNDOFF)):
+            elements = elements[across.mean(0) > 0]  # no element crosses x = 0: one half will do
+        points, jacobian = cell_points(sheet, self.order)
+        mapping = sheet.mesh._mapping()
+        density = np.abs(mapping.detDF(points, tind=elements)) * jacobian
+        return Region(
+            sheet.mesh,
+            sheet.element,
+            elements,
+            mapping.F(points, tind=elements),
+            np.array(density),
+            sheet.interior.dofs[elements],
+            sheet.surface,
+            sheet.components,
+        )
+
+    @property
+    def _highest(self) -> int:
+        return len(self.shapes.states) // 2
+
+    @cached_property
+    def _jets(self) -> Array:
+        """Harmonics of x, x_1, x_2 at the points, (2K + 1, 3, components, points)."""
+        entries = (0, 1, 2)
+        jets = np.stack([self.region.displacement(u, entries) for u in self.shapes.harmonics])
+        jets[0] += self.region.reference[list(entries)]
+        return jets
+
+    @cached_property
+    def _frame(self) -> BodyFrame:
+        return BodyFrame.of(self.shapes)
+
+    def _load(self, times: Array, values: Array, position: Array) -> Array:
+        """Load of unit weight per area, times the Jacobian of the cells, (T, points)."""
+        region = self.region
+        if self.load == "material":
+            return np.broadcast_to(region.measure, (times.size, region.size))
+        if self.load == "current":
+            first, second = np.tensordot(values, self._jets[:, 1:], 1).swapaxes(0, 1)
+            return np.asarray(region.weights.ravel() * _area(first, second))
+        if self.load == "grown":
+            return self._grown_area(times)
+        return self._reaction(times, position)
+
+    def _grown_area(self, times: Array) -> Array:
+        scene = self.shapes.scene
+        x, y = self.region.reference[0, :2]
+        growth = np.stack([scene.growth(float(t), x, y) for t in times])
+        return metric_factor(scene.growth_law, scene.alpha, growth) * self.region.measure
+
+    def _reaction(self, times: Array, position: Array) -> Array:
+        """Static pressure of the ground times the area in which it is counted."""
+        ground = self.shapes.scene.find(Ground)
+        if ground.height is not None or ground.area == "current":
+            raise ValueError("effects: the Ground of a cycle must be flat, its area not 'current'")
+        area = self._grown_area(times) if ground.area == "grown" else self.region.measure
+        return np.asarray(ground.stiffness * np.minimum(position[2], 0) ** 2 * area)
+
+
+def _check_load(load: Array, times: Array) -> None:
+    wrong = (load.min(axis=1) < 0) | (load.max(axis=1) <= 0)
+    if wrong.any():
+        raise UnresolvedError(
+            f"the interpolated shape bears no load, or a negative one, at {times[wrong]}"
+        )
+
+
+def cell_points(sheet: Discretisation, order: int) -> tuple[Array, Array]:
+    """Gauss points of the cells of an element in its local coordinates, (2, n), and Jacobians (n,)."""
+    if sheet.mesh.refdom.nnodes == 3:
+        points, jacobian = quadrilateral_points(order)
+        return points.reshape(2, -1), jacobian.ravel()
+    nodes = (np.polynomial.legendre.leggauss(order)[0] + 1) / 2
+    return np.stack(np.meshgrid(nodes, nodes, indexing="ij")).reshape(2, -1), np.full(order**2, 0.25)
+
+
+def _area(first: Array, second: Array) -> Array:
+    """|a_1 x a_2| of vectors (T, components, points)."""
+    if first.shape[1] == 2:
+        return _cross(first.swapaxes(0, 1), second.swapaxes(0, 1))
+    return np.asarray(np.linalg.norm(np.cross(first, second, axis=1), axis=1))
+
+
+def _cross(u: Array, v: Array) -> Array:
+    return np.asarray(u[0] * v[1] - u[1] * v[0])
+
+
+def _centres(mesh: Any) -> Array:
+    return np.asarray(mesh.p[:, mesh.t].mean(1))
+
+
+def _same_points(p: Array, q: Array) -> bool:
+    """Whether two sets of points (2, n) are the same but for their order and roundoff."""
+    return bool(cKDTree(p.T).query(q.T)[0].max() < 1e-9 * np.ptp(p))

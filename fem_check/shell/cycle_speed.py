@@ -1,0 +1,184 @@
+"""The speed of a sheet that friction does not deform: a cycle of shapes and the friction balance.
+
+The balance of linear theory is used as it is, with absolute velocities: at every time the rigid motion
+V, Omega is found for which friction of the given law carries no force and no moment (eq. 11 with the
+velocities and the area element of the nonlinear sheet).
+"""
+
+import math
+import time
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import skfem
+from numpy.typing import NDArray
+
+from fem_check.shell.cycle import Shapes, cycle_of_shapes, static_effects
+from fem_check.shell.cycle_balance import CycleBalance, Period
+from fem_check.shell.cycle_motion import UnresolvedError, checked_load, is_mirrored
+from fem_check.shell.koiter import Membrane
+from fem_check.shell.scene import Scene
+from linear_theory import validation
+from linear_theory.friction import FrictionLaw
+from linear_theory.speed import CrawlSpeed
+from linear_theory.waves import TravellingWave
+
+Array = NDArray[np.float64]
+
+FIRST_PHASES, MOST_PHASES = 16, 128
+
+PHASE_SHARE = 0.2
+"""Share of the tolerance that the interpolation between phases may take."""
+
+MESH_ORDER = 2
+"""Power of the size of the elements with which the error of V falls, at least: at square corners
+u ~ distance**2.74. The difference to a mesh r times coarser is r**2 - 1 times the error or more."""
+
+
+def cycle_speed(
+    scene: Scene,
+    load: str | None = None,
+    friction: str = "coulomb",
+    slip_speed: float | None = None,
+    rtol: float = 1e-3,
+    atol: float | None = None,
+) -> CrawlSpeed:
+    """Mean speed of a sheet so stiff that friction does not change its shape.
+
+    load: "current" (area of the deformed sheet), "grown" (sqrt det abar), "material" (weight conserved)
+    or "ground" (reaction of the ground that the scene names); None means "ground" where the scene has
+    a Ground and "current" otherwise. friction: "coulomb", "tanh" with its slip_speed (length/time), or
+    "viscous"; a Friction among the scene's effects is not used. rtol, atol: the result is converged
+    where error <= max(rtol |mean|, atol), atol = 1e-3 rtol alpha^2 L/T unless given.
+
+    Phases and times are added until they meet the tolerance. The mesh is the scene's; its error is
+    estimated from another mesh (`other_mesh`) and can leave a result unconverged.
+    model_error is 0 for a scene that only stretches in the plane, which is the target: the nonlinear
+    sheet of the stated growth law, area measure and load; NaN for other scenes.
+
+    Raises ValueError for bad input, ConvergenceError where a shape is not found, UnresolvedError where
+    the shapes change too fast for the largest number of phases.
+    """
+    start = time.perf_counter()
+    rtol, law = validation.tolerance(rtol), FrictionLaw(friction, slip_speed)
+    load = checked_load(scene, load)
+    unit = scene.sheet.length / scene.period
+    atol = 1e-3 * rtol * scene.alpha**2 * unit if atol is None else validation.positive("atol", atol)
+    if scene.alpha == 0 and (scene.planar or scene.curvature_coupling == 0):
+        return _at_rest(scene, load, law)
+    balance, period, phase_error = _with_enough_phases(scene, load, law, rtol, atol)
+    error = period.error + phase_error + _mesh_error(balance, period)
+    times, rigid = balance.whole_period(period)
+    return CrawlSpeed(
+        mean=period.mean,
+        error=error,
+        model_error=0.0 if _is_target(scene) else math.nan,
+        converged=error <= max(rtol * abs(period.mean), atol),
+        times=times,
+        velocity=rigid[1],
+        seconds=time.perf_counter() - start,
+        model=_words(scene, load, law),
+        slip_ratio=law.width / period.fastest,
+        first_order=0.0 if _starts_at_second_order(scene) else math.nan,
+        sticks=period.sticks,
+        rigid=None if balance.mirrored else rigid,
+    )
+
+
+def _with_enough_phases(
+    scene: Scene, load: str, law: FrictionLaw, rtol: float, atol: float
+) -> tuple[CycleBalance, Period, float]:
+    """Double the phases until the interpolation between them takes its share of the tolerance."""
+    shapes = cycle_of_shapes(scene, FIRST_PHASES)
+    while True:
+        last = len(shapes.states) >= MOST_PHASES
+        balance = CycleBalance.of(shapes, load, law, rtol)
+        try:
+            period = balance.average(rtol, atol)
+            error = _phase_error(balance, period)
+        except UnresolvedError:
+            if last:
+                raise
+        else:
+            if last or error <= PHASE_SHARE * max(rtol * abs(period.mean), atol):
+                return balance, period, error
+        shapes = cycle_of_shapes(scene, 2 * len(shapes.states), shapes)
+
+
+def _phase_error(balance: CycleBalance, period: Period) -> float:
+    """What the interpolation between phases does to the mean.
+
+    The change by leaving out every second phase, reduced by the ratio of the harmonics beyond the
+    phases, for which twice the highest ones stand, to those that were left out.
+    """
+    change = abs(replace(balance, shapes=balance.shapes.thinned()).change(period.grid, period.leading))
+    speeds = _speeds_of_harmonics(balance.shapes)
+    lost, beyond = np.linalg.norm(speeds[speeds.size // 2 - 1 :]), 2 * speeds[-2:].max()
+    return float(change * min(1.0, beyond / lost)) if lost > 0 else 0.0
+
+
+def _speeds_of_harmonics(shapes: Shapes) -> Array:
+    """Size of the velocity of each harmonic 1 ... K, (K,), any unit."""
+    count = len(shapes.states) // 2
+    size = np.linalg.norm(shapes.harmonics[1:], axis=1)
+    return np.hypot(size[:count], size[count:]) * np.arange(1, count + 1)
+
+
+def _mesh_error(balance: CycleBalance, period: Period) -> float:
+    """What the mesh does to the mean, from the speed on another mesh at the same times."""
+    scene = balance.shapes.scene
+    mesh, gain = other_mesh(balance.shapes.discretisation.mesh)
+    shapes = cycle_of_shapes(replace(scene, cells=None, mesh=mesh), len(balance.shapes.states))
+    other = replace(balance, shapes=shapes, mirrored=is_mirrored(shapes)).balance(period.grid.times)
+    mean, _ = period.grid.mean(other.leading[:, :, 1].mean(0))
+    return abs(mean - period.mean) / gain
+
+
+def other_mesh(mesh: Any) -> tuple[Any, float]:
+    """A mesh to compare with, and the least ratio of the difference to the error.
+
+    Of a grid of rectangles one with half as many lines, which costs a quarter; of any other mesh its
+    refinement, which costs more than the speed itself.
+    """
+    lines = [np.unique(np.round(p, 12)) for p in mesh.p]
+    counts = np.array([line.size - 1 for line in lines])
+    if (
+        mesh.t.shape[0] != 4
+        or mesh.nelements != counts.prod()
+        or mesh.p.shape[1] != (counts + 1).prod()
+    ):
+        return mesh.refined(), 1.0
+    fewer = np.maximum(np.round(counts / 2), 1)
+    grid = [
+        np.interp(np.linspace(0, count, int(few) + 1), np.arange(count + 1), line)
+        for count, few, line in zip(counts, fewer, lines, strict=True)
+    ]
+    # A single cell is too coarse for the difference to say how fast it vanishes.
+    gain = float((counts / fewer).min() ** MESH_ORDER - 1) if fewer.min() > 1 else 1.0
+    return skfem.MeshQuad.init_tensor(*grid), gain
+
+
+def _at_rest(scene: Scene, load: str, law: FrictionLaw) -> CrawlSpeed:
+    """No growth, no motion."""
+    nothing = np.zeros(1)
+    words = _words(scene, load, law)
+    return CrawlSpeed(0.0, 0.0, 0.0, True, nothing, nothing, 0.0, words, math.inf, 0.0)
+
+
+def _is_target(scene: Scene) -> bool:
+    return scene.planar and all(isinstance(effect, Membrane) for effect in static_effects(scene))
+
+
+def _starts_at_second_order(scene: Scene) -> bool:
+    """Whether c(t + T/2) = -c(t), so that the terms of first order have no mean."""
+    wave = scene.wave
+    return isinstance(wave, TravellingWave) and wave.is_half_period_antisymmetric
+
+
+def _words(scene: Scene, load: str, law: FrictionLaw) -> str:
+    where = "in the plane" if scene.planar else "in space"
+    return (
+        f"nonlinear sheet {where}, growth law {scene.growth_law}, energy per {scene.area} area, "
+        f"static shapes not affected by friction; {load} load, {law.name} friction"
+    )

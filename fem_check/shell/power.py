@@ -1,0 +1,150 @@
+"""Where the work of growth goes: elastic and other energies, friction, damping, kinetic energy.
+
+Growth does work on the sheet by changing its rest state. Over a step from (x0, r0) to (x1, r1), r the
+rest state, the potential energy U of the sheet, its weight and the ground changes by
+
+    U(x1, r1) - U(x0, r0) = growth + motion,
+    growth = [U(x1, r1) - U(x1, r0) + U(x0, r1) - U(x0, r0)]/2
+
+exactly, growth being the trapezoidal rule for the integral of dU/dr dr: no derivative by the rest state
+is needed. Forces that dissipate count with the mean of both ends times the way. What is left of the sum
+is of second order in the step.
+"""
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fem_check.shell.effect import Effect
+from fem_check.shell.friction import Friction
+from fem_check.shell.gravity import Gravity
+from fem_check.shell.ground import Ground
+from fem_check.shell.inertia import Inertia
+from fem_check.shell.koiter import Bending, Membrane
+from fem_check.shell.loads import DeadLoad
+from fem_check.shell.point_state import PointState
+from fem_check.shell.rates import Step
+from fem_check.shell.rest_state import RestState
+from fem_check.shell.scene import Scene
+
+Array = NDArray[np.float64]
+
+
+class Works(NamedTuple):
+    """Energies in force times length; per step, or summed up to some times (arrays).
+
+    growth: work of growth on the sheet. elastic, weight, ground, kinetic: increase of the energies
+    (weight: with dead loads). friction, damping: what is dissipated. The balance is
+    growth = elastic + weight + ground + kinetic + friction + damping + residual.
+    """
+
+    growth: Array
+    elastic: Array
+    weight: Array
+    ground: Array
+    kinetic: Array
+    friction: Array
+    damping: Array
+
+    @property
+    def residual(self) -> Array:
+        """What the balance lacks: the error of the sums over steps."""
+        return np.asarray(self.growth - sum(self[1:]))
+
+
+_SLOTS: tuple[tuple[type, ...], ...] = ((Membrane, Bending), (Gravity, DeadLoad), (Ground,))
+"""Effects whose energies are the entries elastic, weight and ground."""
+
+
+@dataclass(frozen=True, eq=False)
+class Moment:
+    """The sheet at the end of a step as the balance needs it.
+
+    velocity (size,): of the unknowns, for the kinetic energy; None without inertia. drag,
+    sliding (points,) and (components, points): forces of damping and of friction.
+    """
+
+    state: Array
+    rest: RestState
+    area: Array | None
+    position: Array
+    sliding: Array | None
+    drag: Array | None
+    velocity: Array | None
+
+
+class Ledger:
+    """Balances the energy of a scene step by step."""
+
+    def __init__(self, scene: Scene) -> None:
+        self.scene, self.region = scene, scene.discretisation().interior
+        flat = scene.components == 2
+        idle = [e for e in scene.effects if flat and isinstance(e, Gravity) and not e.works_in_plane]
+        self.stored: list[tuple[int, Effect]] = [
+            (slot, e)
+            for slot, kinds in enumerate(_SLOTS)
+            for e in scene.effects
+            if isinstance(e, kinds) and e not in idle
+        ]
+        self.entries = tuple(sorted({k for _, e in self.stored for k in e.entries}))
+        self.inertia: Inertia | None = scene.find(Inertia)
+        ground = scene.find(Ground)
+        self.damped: Ground | None = ground if ground is not None and ground.damping else None
+
+    def moment(self, u: Array, rest: RestState, step: Step, velocity: Array | None) -> Moment:
+        """Forces and positions at the end of a step (before the first: with a step at rest)."""
+        state = PointState(self.region, u, (0,), rest, step)
+        friction: Friction | None = self.scene.find(Friction)
+        force = None if friction is None else friction.force(state)
+        speed = velocity if self.inertia is not None else None
+        return Moment(u, rest, step.area, state.position, force, self._drag(u, state), speed)
+
+    def works(self, before: Moment, after: Moment) -> Works:
+        """Of the step between two moments."""
+        area = None
+        if before.area is not None and after.area is not None:
+            # Weight per current area has no potential; over a step its mean area counts.
+            area = (before.area + after.area) / 2
+        old, new = before.rest, after.rest
+        first, last = self._energies(before.state, old, area), self._energies(after.state, new, area)
+        late, early = self._energies(after.state, old, area), self._energies(before.state, new, area)
+        change = last - first
+        growth = ((last - late) + (early - first)).sum() / 2
+        way = after.position - before.position
+        friction = _loss(before.sliding, after.sliding, way)
+        damping = _loss(before.drag, after.drag, way)
+        kinetic = self._kinetic(after) - self._kinetic(before)
+        values = (growth, *change, kinetic, friction, damping)
+        return Works(*(np.asarray(value) for value in values))
+
+    def _energies(self, u: Array, rest: RestState, area: Array | None) -> Array:
+        """Elastic energy, energy of the weight, of the ground."""
+        state = PointState(self.region, u, self.entries, rest, Step(area=area))
+        out = np.zeros(3)
+        for slot, effect in self.stored:
+            out[slot] += effect.energy(state).sum()
+        return out
+
+    def _kinetic(self, moment: Moment) -> float:
+        if self.inertia is None or moment.velocity is None:
+            return 0.0
+        velocity = self.region.displacement(moment.velocity, (0,))[0]
+        mass = self.inertia.density * self.inertia.material.thickness * self.region.measure
+        return float(mass @ (velocity**2).sum(0)) / 2
+
+    def _drag(self, u: Array, state: PointState) -> Array | None:
+        """Force of contact damping alone, (3, points)."""
+        if self.damped is None:
+            return None
+        assert state.step is not None
+        still = PointState(self.region, u, (0,), state.rest, Step(area=state.step.area))
+        return np.asarray((self.damped.gradient(still) - self.damped.gradient(state))[0])
+
+
+def _loss(before: Array | None, after: Array | None, way: Array) -> float:
+    """Minus the work of a force along a way."""
+    if before is None or after is None:
+        return 0.0
+    return -float(((before + after) * way).sum()) / 2

@@ -1,0 +1,59 @@
+"""What is kept of every accepted step."""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fem_check.shell.power import Works
+from fem_check.shell.sliding import Sliding
+
+Array = NDArray[np.float64]
+
+COLUMNS = (
+    "time",
+    *("centre_x", "centre_y", "centre_z"),
+    *Works._fields,
+    *("fastest", "linear", "step_x", "step_y", "slip_x", "slip_y"),
+    *("iterations", "repeats", "buckled"),
+)
+"""time and centre at the end of the step; what the step adds to each of `power.Works`;
+`sliding.Sliding` at its end; Newton iterations, minimisations, whether negative curvature was met."""
+
+
+@dataclass
+class Record:
+    """Rows of COLUMNS, one per accepted step and one for the start, and some of the states.
+
+    times, states: kept states and when. rejected: steps that were repeated, for their error or because
+    no minimum was found.
+    """
+
+    rows: list[Array] = field(default_factory=list)
+    times: list[float] = field(default_factory=list)
+    states: list[Array] = field(default_factory=list)
+    rejected: int = 0
+
+    def add(
+        self,
+        time: float,
+        centre: Array,
+        works: Works,
+        slide: Sliding,
+        counts: tuple[int, int, bool] = (0, 0, False),
+    ) -> None:
+        """One more row; centre (components,)."""
+        place = np.zeros(3)
+        place[: centre.size] = centre
+        numbers = [slide.fastest, slide.linear, *slide.step, *slide.slip, *counts]
+        self.rows.append(np.array([time, *place, *(float(w) for w in works), *numbers]))
+
+    def keep(self, time: float, state: Array) -> None:
+        """One more state."""
+        self.times.append(time)
+        self.states.append(state)
+
+    @property
+    def table(self) -> dict[str, Array]:
+        """Columns by name, each (steps + 1,)."""
+        return dict(zip(COLUMNS, np.array(self.rows).T, strict=True))

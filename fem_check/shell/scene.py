@@ -1,0 +1,224 @@
+"""What is simulated: a sheet, its wave, the couplings of growth and the effects that act on it.
+
+What a scene does not name is neither built nor evaluated. Where no effect needs the third component
+the scene is planar: two displacement components on continuous elements and first derivatives only.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+import skfem
+from numpy.typing import ArrayLike, NDArray
+
+from fem_check.shell.discretisation import Discretisation
+from fem_check.shell.effect import Effect
+from fem_check.shell.friction import Friction, load_bearer
+from fem_check.shell.gravity import Gravity
+from fem_check.shell.ground import Ground
+from fem_check.shell.growth import GROWTH_LAWS, metric_factor
+from fem_check.shell.inertia import Inertia
+from fem_check.shell.koiter import Bending, Membrane
+from fem_check.shell.loads import DeadLoad
+from fem_check.shell.potential import Potential
+from fem_check.shell.rates import Step
+from fem_check.shell.rest_state import CURVATURE_FORMS, MEASURES, RestState, grown_state
+from fem_check.shell.shape_functions import is_global
+from linear_theory import validation
+from linear_theory.field import Wave
+from linear_theory.sheet import Sheet
+from linear_theory.waves import TravellingWave
+
+Array = NDArray[np.float64]
+
+PLANAR_CELLS, SHELL_CELLS = 2, 6
+"""Elements across the width by default, of degree 5 in the plane and of BFS in space; along the
+sheet as many as make them about square, and at least twice as many to a wavelength. With 2 x 4 the
+distances between points of the 2 : 1 sheet at alpha = 0.25 are right to 7e-5 of the length."""
+
+PLANAR_DEGREE = 5
+
+
+@dataclass(frozen=True, eq=False)
+class Scene:
+    """A sheet driven by a wave of growth, under the effects that are named.
+
+    sheet: rectangle, thickness and Poisson ratio. wave: c(x, y, t) with its period. alpha: growth of
+    lengths per c; curvature_coupling: beta of eq. 4, 1/length. effects: Membrane(material) in any
+    case, and of Bending, Gravity, Ground, Friction, Inertia, DeadLoad those that are wanted, each once.
+    growth_law, curvature, area: as law, curvature and area of `rest_state.grown_state`.
+    cells: elements across and along. mesh: instead of cells, a scikit-fem mesh of another outline in
+    the coordinates of the sheet. element: of scikit-fem; by default degree 4 in the plane, BFS on
+    rectangles and Argyris on triangles in space.
+
+    Raises ValueError, naming the argument, for values out of range, for effects that contradict each
+    other or the sheet, and for effects that miss what they need (friction without load).
+    """
+
+    sheet: Sheet
+    wave: Wave
+    alpha: float
+    curvature_coupling: float = 0.0
+    effects: Sequence[Effect] = ()
+    growth_law: str = "exp"
+    curvature: str = "grown"
+    area: str = "grown"
+    cells: tuple[int, int] | None = None
+    mesh: Any = None
+    element: Any = None
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "effects", tuple(self.effects))
+        for name in ("alpha", "curvature_coupling"):
+            object.__setattr__(self, name, validation.real(name, getattr(self, name)))
+        validation.choice("growth_law", self.growth_law, GROWTH_LAWS)
+        validation.choice("curvature", self.curvature, CURVATURE_FORMS)
+        validation.choice("area", self.area, MEASURES)
+        metric_factor(self.growth_law, self.alpha, self._extremes())
+        self._check_cells()
+        check_effects(self.effects, self.components, self.sheet)
+
+    @property
+    def planar(self) -> bool:
+        """Whether no effect needs the third component."""
+        return not any(needs_space(effect) for effect in self.effects)
+
+    @property
+    def components(self) -> int:
+        """2 in the plane, 3 in space."""
+        return 2 if self.planar else 3
+
+    @property
+    def period(self) -> float:
+        """Of the wave."""
+        return float(self.wave.period)
+
+    def find(self, kind: type) -> Any:
+        """The effect of that class, None where the scene does not name it."""
+        return next((effect for effect in self.effects if isinstance(effect, kind)), None)
+
+    def discretisation(self) -> Discretisation:
+        """Mesh, element and unknowns; made when first asked for and kept."""
+        return self._discretisation
+
+    @cached_property
+    def _discretisation(self) -> Discretisation:
+        mesh = self._rectangle() if self.mesh is None else self.mesh
+        element = self._default_element(mesh) if self.element is None else self.element
+        degree = self._quadrature(mesh, element)
+        return Discretisation(mesh, element, components=self.components, degree=degree)
+
+    def growth(self, t: float, x: ArrayLike, y: ArrayLike) -> Array:
+        """c at points of the undeformed sheet."""
+        return np.asarray(self.wave.value(x, y, t, self.sheet.length))
+
+    def rest(self, t: float, amplitude: float = 1.0) -> RestState:
+        """Rest state at time t at the interior points, of growth `amplitude` times the wave."""
+        region = self.discretisation().interior
+        x, y = region.parameters.reshape(2, -1)
+        return grown_state(
+            region,
+            amplitude * self.growth(t, x, y),
+            self.alpha,
+            self.curvature_coupling,
+            law=self.growth_law,
+            curvature=self.curvature,
+            area=self.area,
+        )
+
+    def potential(
+        self,
+        rest: RestState,
+        step: Step | None = None,
+        effects: Sequence[Effect] | None = None,
+    ) -> Potential:
+        """The sum of the effects (or of some of them) with that rest state and step."""
+        chosen = self.effects if effects is None else effects
+        return Potential(self.discretisation(), chosen, rest, step)
+
+    @property
+    def static_effects(self) -> tuple[Effect, ...]:
+        """Those that have a meaning without a velocity: all but friction and inertia."""
+        return tuple(e for e in self.effects if not isinstance(e, Friction | Inertia))
+
+    def _rectangle(self) -> Any:
+        across, along = self.cells or default_cells(self.sheet, self.wave, self.planar)
+        x, y = self.sheet.width / 2, self.sheet.length / 2
+        grid = np.linspace(-x, x, across + 1), np.linspace(-y, y, along + 1)
+        return skfem.MeshQuad.init_tensor(*grid)
+
+    def _default_element(self, mesh: Any) -> Any:
+        quadrilaterals = mesh.t.shape[0] == 4
+        if self.planar:
+            return skfem.ElementQuadP(PLANAR_DEGREE) if quadrilaterals else skfem.ElementTriP4()
+        return skfem.ElementQuadBFS() if quadrilaterals else skfem.ElementTriArgyris()
+
+    def _quadrature(self, mesh: Any, element: Any) -> int | None:
+        """p + 1 points along each side of a Lagrange square; otherwise the default."""
+        if mesh.t.shape[0] != 4 or is_global(element):
+            return None
+        return 2 * round(float(np.sqrt(element.maxdeg))) + 1
+
+    def _check_cells(self) -> None:
+        if self.cells is None:
+            return
+        if self.mesh is not None:
+            raise ValueError(f"cells = {self.cells!r}: must be None where a mesh is given")
+        if np.shape(self.cells) != (2,):
+            raise ValueError(f"cells = {self.cells!r}: must be two integers, across and along")
+        for count in self.cells:
+            validation.integer("cells", count, 1)
+
+    def _extremes(self) -> Array:
+        """c on a grid of places and times, to find growth that no rest state can have."""
+        x, y = np.array([-0.5, 0, 0.5]) * self.sheet.width, np.linspace(-0.5, 0.5, 33)
+        t = np.linspace(0, 1, 17) * self.period
+        y = y * self.sheet.length
+        return np.stack([self.growth(s, x[:, None], y[None]) for s in t])
+
+
+def needs_space(effect: Effect) -> bool:
+    """Whether the effect has no meaning with two components."""
+    if isinstance(effect, DeadLoad):
+        return len(effect.force) == 3
+    return isinstance(effect, Bending | Ground)
+
+
+def default_cells(sheet: Sheet, wave: Wave, planar: bool) -> tuple[int, int]:
+    """Elements across and along: about square, and several to a wavelength."""
+    across = PLANAR_CELLS if planar else SHELL_CELLS
+    waves = int(wave.orders[-1]) if isinstance(wave, TravellingWave) else 1
+    per_wave = 2 * across
+    along = max(round(across * sheet.length / sheet.width), per_wave * waves)
+    return across, along
+
+
+def check_effects(effects: Sequence[Effect], components: int, sheet: Sheet) -> None:
+    """Raise ValueError where effects miss what they need, contradict each other or the sheet."""
+    kinds = [type(effect) for effect in effects]
+    names = ", ".join(kind.__name__ for kind in kinds) or "none"
+    for kind in kinds:
+        if kinds.count(kind) > 1:
+            raise ValueError(f"effects: {kind.__name__} is named twice, must be named once")
+    if Membrane not in kinds:
+        raise ValueError(f"effects = {names}: must name Membrane, without which nothing has a shape")
+    if Friction in kinds:
+        load_bearer(components, effects)
+    if Ground in kinds and Gravity not in kinds:
+        raise ValueError(f"effects = {names}: Ground must come with Gravity, else nothing lies on it")
+    if components == 3 and Gravity in kinds and Ground not in kinds:
+        raise ValueError(f"effects = {names}: Gravity must come with Ground, else the sheet falls")
+    _check_materials(effects, sheet)
+
+
+def _check_materials(effects: Sequence[Effect], sheet: Sheet) -> None:
+    materials = [effect.material for effect in effects if hasattr(effect, "material")]
+    for material in materials:
+        if material != materials[0]:
+            raise ValueError(f"effects: materials {materials[0]} and {material} must be the same")
+        for name in ("thickness", "poisson"):
+            mine, theirs = getattr(material, name), getattr(sheet, name)
+            if not np.isclose(mine, theirs, rtol=1e-12):
+                raise ValueError(f"effects: material has {name} = {mine:g}, the sheet has {theirs:g}")

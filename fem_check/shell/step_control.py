@@ -1,0 +1,152 @@
+"""The past of a time integration, what it predicts, and the size of the next step."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fem_check.shell.rates import Affine, newmark, two_step
+from linear_theory import validation
+
+Array = NDArray[np.float64]
+
+GROWTH = 1.6
+"""Largest ratio of neighbouring steps; the two-step rule is stable up to 1 + sqrt 2."""
+
+SAFETY = 0.9
+
+DEADBAND = 1.15
+"""Steps that could grow by less stay as they are, so that a kept factor goes on to serve."""
+
+NEWMARK_ERROR = 1 / 12
+"""|beta - 1/6|: error of Newmark's rule in x is this times dt^2 (a_new - a), for beta = 1/4."""
+
+
+@dataclass(frozen=True, eq=False)
+class History:
+    """States at the last three times, the latest first, of a sheet that was at rest before the start.
+
+    times (3,); states (3, size): unknowns. velocity, acceleration (size,): of the unknowns at the
+    latest time, None without inertia.
+    """
+
+    times: Array
+    states: Array
+    velocity: Array | None = None
+    acceleration: Array | None = None
+
+    @classmethod
+    def at_rest(cls, state: Array, dt: float, start: float = 0.0) -> "History":
+        """A sheet that has not moved during the steps of length dt before the start."""
+        times = np.asarray(start - dt * np.arange(3), float)
+        return cls(times, np.tile(state, (3, 1)))
+
+    @property
+    def time(self) -> float:
+        """The latest time."""
+        return float(self.times[0])
+
+    @property
+    def state(self) -> Array:
+        """The latest state, (size,)."""
+        return np.asarray(self.states[0])
+
+    def prediction(self, dt: float) -> Array:
+        """State after dt: the parabola through the past, or Newmark's with constant acceleration."""
+        if self.velocity is not None and self.acceleration is not None:
+            return np.asarray(self.state + dt * self.velocity + dt**2 / 2 * self.acceleration)
+        return extrapolated(self.times, self.states, self.time + dt)
+
+    def rules(self, dt: float) -> tuple[Affine, Affine | None]:
+        """Velocity and (with inertia) acceleration of the unknowns at the end of a step."""
+        if self.velocity is not None and self.acceleration is not None:
+            return newmark(self.state, self.velocity, self.acceleration, dt)
+        return two_step(self.state, self.states[1], dt, self.times[0] - self.times[1]), None
+
+    def velocity_error(self, state: Array, dt: float) -> Array:
+        """Estimated error of the velocity (size,) at the end of a step that led to `state`.
+
+        Two-step rule: v = x' + x''' dt (dt + d)/6, d the step before; the third derivative comes from
+        the distance to the prediction. Newmark's rule: error of the position over the step.
+        """
+        _, acceleration = self.rules(dt)
+        if acceleration is not None and self.acceleration is not None:
+            return NEWMARK_ERROR * dt * (acceleration(state) - self.acceleration)
+        # x - prediction = x'''/6 dt (dt + d) (dt + d + d'), d' the step before d.
+        return (state - self.prediction(dt)) / (self.time + dt - self.times[2])
+
+    def advanced(self, state: Array, dt: float) -> "History":
+        """The history one step later."""
+        velocity, acceleration = self.rules(dt)
+        after = replace(
+            self,
+            times=np.array([self.time + dt, *self.times[:2]]),
+            states=np.stack([state, *self.states[:2]]),
+        )
+        if acceleration is None:
+            return after
+        return replace(after, velocity=velocity(state), acceleration=acceleration(state))
+
+
+def extrapolated(times: Array, states: Array, target: float) -> Array:
+    """The polynomial through states (n, size) at times (n,), at another time."""
+    weights = [
+        np.prod([(target - o) / (t - o) for j, o in enumerate(times) if j != i])
+        for i, t in enumerate(times)
+    ]
+    return np.asarray(weights @ states)
+
+
+@dataclass
+class StepSize:
+    """Length of the next step: given, or such that the velocity is right to `rtol`.
+
+    dt: proposed next, in (smallest, largest]. rtol: error of the velocity over the largest velocity
+    so far (`scale`), both as root mean square over the sheet; None: the step is given and only
+    shortened where a minimisation fails.
+    """
+
+    dt: float
+    smallest: float
+    largest: float
+    rtol: float | None = None
+    scale: float = 0.0
+
+    def within(self, remaining: float) -> float:
+        """The next step, such that equal steps end at the end of what remains."""
+        count = int(np.ceil(remaining / self.dt * (1 - 1e-9)))
+        return remaining / max(count, 1)
+
+    def judge(self, dt: float, error: float, speed: float) -> bool:
+        """Whether a step of length dt is accepted; proposes the next (or the next attempt)."""
+        self.scale = max(self.scale, speed)
+        if self.rtol is None:
+            self.dt = min(self.largest, GROWTH * dt)
+            return True
+        share = error / (self.rtol * self.scale) if self.scale > 0 else 0.0
+        factor = float(np.clip(SAFETY / np.sqrt(max(share, 1e-12)), 0.3, GROWTH))
+        accepted = share <= 1 or dt <= (1 + 1e-9) * self.smallest
+        if not accepted or not 1 <= factor < DEADBAND:
+            self.dt = float(np.clip(factor * dt, self.smallest, self.largest))
+        return accepted
+
+    def halve(self, dt: float) -> bool:
+        """After a failure; False if the step cannot be shorter."""
+        self.dt = max(dt / 2, self.smallest)
+        return dt > (1 + 1e-9) * self.smallest
+
+
+def step_size(period: float, rtol: float | None, steps: int | None) -> StepSize:
+    """Step of period/steps, or one that adapts to rtol and starts with an eighth of what a sine needs.
+
+    Raises ValueError for values out of range and if both are given.
+    """
+    if steps is not None:
+        if rtol is not None:
+            raise ValueError(f"steps = {steps!r}: must be None where rtol = {rtol!r} is given")
+        dt = period / validation.integer("steps", steps, 4)
+        return StepSize(dt, dt / 1024, dt)
+    rtol = validation.tolerance(1e-2 if rtol is None else rtol)
+    # The slope of a sine of this period is right to (2 pi dt/period)^2/3.
+    natural = period * np.sqrt(3 * rtol) / (2 * np.pi)
+    return StepSize(natural / 8, natural / 1024, period / 12, rtol)

@@ -1,0 +1,196 @@
+"""One implicit time step of a scene as a minimisation over the positions at its end.
+
+    elastic(x) + ground(x) + weight(x) + dt integral mu N v0 log cosh(|v|/v0) + (damping) + (inertia)
+
+with v = rate (x - base) of the two-step rule (second order), or of Newmark's where the scene has
+inertia. The load N, areas and normals of the ground are those of the predicted state, and then of the
+state that was found, until they no longer change.
+"""
+
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fem_check.shell.equilibrium import ConvergenceError, Equilibrium
+from fem_check.shell.friction import Friction, load_bearer
+from fem_check.shell.gravity import Gravity
+from fem_check.shell.ground import Ground
+from fem_check.shell.inertia import Inertia
+from fem_check.shell.newton import Factorised, Minimiser
+from fem_check.shell.point_state import PointState
+from fem_check.shell.potential import Potential
+from fem_check.shell.rates import Affine, Step
+from fem_check.shell.rest_state import RestState
+from fem_check.shell.scene import Scene
+from fem_check.shell.statics import follow_mode
+from fem_check.shell.step_control import History
+from fem_check.shell.supports import Supports
+
+Array = NDArray[np.float64]
+
+LOAD_TOLERANCE = 1e-3
+"""Relative change of the load, summed over the sheet, that is left between two minimisations of a step:
+it moves V by far less than itself, because V does not change when all loads change alike."""
+
+MOST_REPEATS = 12
+"""Minimisations of one step until the load no longer changes; beyond them the step is too long."""
+
+PUSH = 0.01
+"""Root mean square of the push that leaves a saddle, in thicknesses."""
+
+
+@dataclass(frozen=True, eq=False)
+class StepResult:
+    """The end of a step: unknowns, what was held fixed, its rest state and the cost.
+
+    buckled: whether negative curvature was met, on the way or at a saddle that was then left.
+    """
+
+    state: Array
+    time: float
+    rest: RestState
+    step: Step
+    iterations: int
+    repeats: int
+    buckled: bool
+
+
+@dataclass(eq=False)
+class WatchedMinimiser(Minimiser):
+    """Counts the Hessians that were not positive definite (`shifts`)."""
+
+    shifts: int = field(init=False, default=0)
+
+    def factorised(self, potential: Potential, u: Array, shift: float) -> Factorised:
+        """See Minimiser."""
+        found = super().factorised(potential, u, shift)
+        self.shifts += found.shift > 0
+        return found
+
+
+class Stepper:
+    """Makes steps of a scene; keeps the symbolic work and the factor between them.
+
+    Growth is multiplied by a smooth function of time that rises from 0 to 1 over `ramp`. shortest: step
+    for which the minimisations are to be accurate.
+    Raises ValueError for a scene that has neither friction nor inertia.
+    """
+
+    def __init__(self, scene: Scene, ramp: float, shortest: float) -> None:
+        if scene.find(Friction) is None and scene.find(Inertia) is None:
+            raise ValueError(
+                "effects: must name Friction or Inertia to be stepped in time; of a sheet whose shape "
+                "they do not change, fem_check.shell.cycle.cycle_speed gives the speed"
+            )
+        self.scene, self.ramp = scene, ramp
+        self.region = scene.discretisation().interior
+        self.minimiser = self._minimiser(shortest)
+        self.kinds = {e.area for e in scene.effects if isinstance(e, Gravity | Ground)}
+        friction = scene.find(Friction)
+        self.bearer = None if friction is None else load_bearer(scene.components, scene.effects)
+
+    def _minimiser(self, shortest: float) -> WatchedMinimiser:
+        """Corrections are to move the sheet at much less than the slip speed within a step."""
+        friction, tolerance = self.scene.find(Friction), 1e-8
+        if friction is not None:
+            size = np.sqrt(self.region.measure.sum())
+            tolerance = min(tolerance, max(1e-3 * friction.slip_speed * shortest / size, 1e-12))
+        supports = Supports(self.scene.discretisation())
+        return WatchedMinimiser(supports, tolerance, keep_factor=True, check_stability=False)
+
+    @property
+    def shape_changes_load(self) -> bool:
+        """Whether load, area or normals depend on where the sheet is."""
+        return "current" in self.kinds or isinstance(self.bearer, Ground)
+
+    def amplitude(self, t: float) -> float:
+        """Share of the growth at time t: rises with two continuous derivatives."""
+        return amplitude(t, self.ramp)
+
+    def rest(self, t: float) -> RestState:
+        """Rest state at time t, counted from the start of the ramp."""
+        return self.scene.rest(t, self.amplitude(t))
+
+    def forget(self) -> None:
+        """Drop the kept factor, as at every snapshot, so that a resumed run does the same."""
+        self.minimiser.kept = None
+
+    def attempt(
+        self, history: History, dt: float, patience: int = 1, check: bool = False
+    ) -> StepResult:
+        """One step of length dt, within `patience` times the usual iterations.
+
+        check: look for negative curvature at its end even where no Hessian on the way had any.
+
+        Raises ConvergenceError if no minimum is found.
+        """
+        t, shifts = history.time + dt, self.minimiser.shifts
+        self.minimiser.check_stability = check
+        rest = self.rest(t)
+        velocity, acceleration = history.rules(dt)
+        moving = Step(
+            self.at_points(velocity), None if acceleration is None else self.at_points(acceleration)
+        )
+        guess = self._start(history, dt)
+        step, count = self.held(moving, guess, rest), 0
+        for repeat in range(1, MOST_REPEATS + 1):
+            result = self._minimum(self.scene.potential(rest, step), guess, patience)
+            count, guess = count + result.iterations, result.state
+            after = self.held(moving, guess, rest)
+            if not self.shape_changes_load or change(step, after) <= LOAD_TOLERANCE:
+                buckled = self.minimiser.shifts > shifts
+                return StepResult(guess, t, rest, step, count, repeat, buckled)
+            step = after
+        raise ConvergenceError(f"the load still changes after {MOST_REPEATS} repetitions", guess)
+
+    def _start(self, history: History, dt: float) -> Array:
+        """The predicted state, or the last one where that is turned inside out."""
+        orientation, guess = self.minimiser.orientation, history.prediction(dt)
+        before, after = orientation.directors(history.state), orientation.directors(guess)
+        return guess if orientation.keeps(before, after) else history.state
+
+    def _minimum(self, potential: Potential, guess: Array, patience: int) -> Equilibrium:
+        result = self.minimiser.minimise(potential, guess, patience)
+        if not result.buckled:
+            return result
+        return follow_mode(self.minimiser, potential, result, PUSH * self.scene.sheet.thickness)
+
+    def at_points(self, rule: Affine) -> Affine:
+        """A rule for the unknowns as one for the positions of the points."""
+        base = self.region.displacement(rule.base, (0,))[0]
+        return Affine(rule.rate, base + self.region.reference[0])
+
+    def held(self, moving: Step, u: Array, rest: RestState) -> Step:
+        """What a step holds fixed, for the sheet at u: rules with area, load and normals."""
+        area = self.area(u) if "current" in self.kinds else None
+        step = replace(moving, area=area)
+        if self.bearer is None:
+            return step
+        state = PointState(self.region, u, (0,), rest, step)
+        step = replace(step, load=self.bearer.normal_load(state))
+        if isinstance(self.bearer, Ground) and self.bearer.height is not None:
+            slope = self.bearer.gap_slope(state)
+            step = replace(step, normal=slope / np.sqrt((slope**2).sum(0)))
+        return step
+
+    def area(self, u: Array) -> Array:
+        """Quadrature weight times current area, (points,)."""
+        return PointState(self.region, u, (1, 2)).area
+
+
+def amplitude(t: float, ramp: float) -> float:
+    """0 at t = 0 and before, 1 from t = ramp on, with two continuous derivatives."""
+    s = min(max(t, 0.0) / ramp, 1.0) if ramp > 0 else 1.0
+    return s**3 * (10 - 15 * s + 6 * s**2)
+
+
+def change(before: Step, after: Step) -> float:
+    """Largest relative change of what two steps hold fixed, summed over the points."""
+    pairs = [(before.load, after.load), (before.area, after.area), (before.normal, after.normal)]
+    changes = [
+        float(np.abs(new - old).sum() / max(np.abs(new).sum(), 1e-300))
+        for old, new in pairs
+        if old is not None and new is not None
+    ]
+    return max(changes, default=0.0)

@@ -1,0 +1,199 @@
+"""The result of a simulation: how the sheet moved, where its energy went, how fast it crawls."""
+
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from fem_check.shell.friction import Friction
+from fem_check.shell.power import Works
+from fem_check.shell.scene import Scene
+from fem_check.shell.sliding import COMPARED
+from fem_check.shell.step_control import extrapolated
+from fem_check.shell.stepper import amplitude
+from linear_theory import validation
+from linear_theory.speed import CrawlSpeed
+
+Array = NDArray[np.float64]
+
+NEIGHBOURS = 4
+"""Kept states that a shape between them is interpolated from."""
+
+MARGIN, UNCERTAIN = 1.25, 0.1
+"""The step's error is this multiple of its estimate, which leaves out higher orders, and this share of
+its mean size, which counts where the mean over the period is 0 by chance."""
+
+DRY = 0.3
+"""Slip ratio up to which the distance to dry friction is estimated."""
+
+
+class SpeedErrors(NamedTuple):
+    """Estimated errors of the mean speed, absolute, length per time.
+
+    step: of the time integration. spread: difference between the last two periods, NaN if there is one.
+    mesh: difference to the coarser mesh that was asked for, else NaN. slip_speed: distance to dry
+    friction, twice the change when the slip speed is halved (it falls at least in proportion), NaN
+    where the slip ratio is above 0.3 and friction far from dry; not part of the error of the speed at
+    the slip speed that is simulated.
+    """
+
+    step: float
+    spread: float
+    mesh: float
+    slip_speed: float
+
+
+@dataclass(frozen=True, eq=False)
+class Trajectory:
+    """A simulated motion.
+
+    start: when the first counted period begins, after the ramp of growth. table: columns of
+    `record.COLUMNS`. stored_times (n,), states (n, size): kept states. rejected: repeated steps.
+    resumed_at: time of the snapshot that the run went on from, NaN if none. mesh_error: see
+    `SpeedErrors`. seconds: spent, in this process.
+    """
+
+    scene: Scene
+    start: float
+    table: dict[str, Array] = field(repr=False)
+    stored_times: Array = field(repr=False)
+    states: Array = field(repr=False)
+    rejected: int
+    seconds: float
+    resumed_at: float = np.nan
+    rtol: float | None = None
+    mesh_error: float = np.nan
+
+    @property
+    def times(self) -> Array:
+        """Ends of the steps, (n,), from 0, the start of the ramp."""
+        return self.table["time"]
+
+    @property
+    def centre(self) -> Array:
+        """Centre of mass, (components, n)."""
+        rows = [self.table[f"centre_{axis}"] for axis in "xyz"[: self.scene.components]]
+        return np.stack(rows)
+
+    @property
+    def power(self) -> Works:
+        """Works and energies since the start, each (n,), force times length."""
+        return Works(*(np.cumsum(self.table[name]) for name in Works._fields))
+
+    @property
+    def buckled(self) -> NDArray[np.bool_]:
+        """Ends of steps on whose way the energy was found to fall in some direction, (n,): buckling."""
+        return self.table["buckled"] > 0
+
+    @property
+    def iterations(self) -> int:
+        """Newton iterations of all accepted steps."""
+        return int(self.table["iterations"].sum())
+
+    @property
+    def slip_ratio(self) -> float:
+        """Slip speed over the largest speed along the ground in the last period (F4).
+
+        NaN without friction.
+        """
+        friction: Friction | None = self.scene.find(Friction)
+        if friction is None:
+            return np.nan
+        fastest = float(self.table["fastest"][self._last(1)].max())
+        return friction.slip_speed / fastest if fastest > 0 else np.inf
+
+    @property
+    def linear_share(self) -> float:
+        """Share of the load, mean over the last period, that moves slower than the slip speed."""
+        return self._mean("linear")
+
+    def amplitude(self, t: float) -> float:
+        """Share of the growth at time t: below 1 during the ramp."""
+        return amplitude(t, self.start)
+
+    def shape(self, t: float) -> Array:
+        """Unknowns (size,) at time t, by a cubic through kept states. ValueError outside of them."""
+        t = validation.real("t", t)
+        first, last = self.stored_times[[0, -1]]
+        if not first <= t <= last:
+            raise ValueError(f"t = {t:g}: must be in [{first:g}, {last:g}], where states were kept")
+        exact = np.flatnonzero(self.stored_times == t)
+        if exact.size:
+            return np.asarray(self.states[exact[0]])
+        count = min(NEIGHBOURS, self.stored_times.size)
+        place = int(np.searchsorted(self.stored_times, t)) - count // 2
+        begin = int(np.clip(place, 0, self.stored_times.size - count))
+        near = slice(begin, begin + count)
+        return extrapolated(self.stored_times[near], self.states[near], t)
+
+    def positions(self, t: float, points: ArrayLike | None = None) -> Array:
+        """Positions (components, n) at time t of points (2, n) of the sheet; by default the vertices.
+
+        Raises ValueError outside the sheet and the kept times.
+        """
+        discretisation, u = self.scene.discretisation(), self.shape(t)
+        mesh = discretisation.mesh
+        region = discretisation.points(mesh.p if points is None else points)
+        return np.asarray(region.position(u, (0,))[0])
+
+    @cached_property
+    def period_speeds(self) -> Array:
+        """Mean velocity along y over each counted period, (periods,)."""
+        marks = [self.centre[1, self._at(k)] for k in range(self.periods + 1)]
+        return np.diff(marks) / self.scene.period
+
+    @property
+    def periods(self) -> int:
+        """Counted periods, after the ramp."""
+        return round((self.times[-1] - self.start) / self.scene.period)
+
+    @property
+    def errors(self) -> SpeedErrors:
+        """Estimated errors of the mean speed of the last period."""
+        speeds = self.period_speeds
+        spread = abs(speeds[-1] - speeds[-2]) if speeds.size > 1 else np.nan
+        step = MARGIN * abs(self._mean("step_y")) + UNCERTAIN * self._mean("step_y", size=True)
+        dry = self.slip_ratio <= DRY
+        slip = abs(self._mean("slip_y")) / (1 - COMPARED) if dry else np.nan
+        return SpeedErrors(step, float(spread), self.mesh_error, slip)
+
+    @cached_property
+    def speed(self) -> CrawlSpeed:
+        """Mean velocity of the last period.
+
+        error: of step, mesh (where asked for) and spread between periods together; model_error:
+        distance to dry friction, see `SpeedErrors`.
+        """
+        last, errors = self._last(1), self.errors
+        mean = float(self.period_speeds[-1])
+        error = float(np.nansum([errors.step, errors.spread, errors.mesh]))
+        times = self.times[last]
+        velocity = np.gradient(self.centre[1], self.times)[last]
+        return CrawlSpeed(
+            mean=mean,
+            error=error,
+            model_error=errors.slip_speed,
+            converged=self.rtol is not None and error <= self.rtol * abs(mean),
+            times=times,
+            velocity=velocity,
+            seconds=self.seconds,
+            model=f"Koiter shell stepped in time, {self.scene.growth_law} growth",
+            slip_ratio=self.slip_ratio,
+        )
+
+    def _at(self, period: int) -> int:
+        """Row at the end of so many counted periods."""
+        return int(np.abs(self.times - self.start - period * self.scene.period).argmin())
+
+    def _last(self, periods: int) -> slice:
+        """Rows of the last periods without the one at their start."""
+        return slice(self._at(self.periods - periods) + 1, self.times.size)
+
+    def _mean(self, name: str, size: bool = False) -> float:
+        """Mean over the last period in time of a column (or of its absolute value)."""
+        last = self._last(1)
+        steps = np.diff(self.times)[last.start - 1 :]
+        values = self.table[name][last]
+        return float((np.abs(values) if size else values) @ steps / steps.sum())
