@@ -7,6 +7,7 @@ from linear_theory.field_wave import FieldWave
 from linear_theory.line import (
     LAPLACE_LIMIT,
     line_balance,
+    line_cycle_speed,
     line_series,
     line_speed,
     line_speed_series,
@@ -33,6 +34,7 @@ __all__ = [
     "field_speed",
     "friction_field",
     "line_balance",
+    "line_cycle_speed",
     "line_series",
     "line_speed",
     "line_speed_series",

@@ -8,12 +8,22 @@ from fem_check.shell.effect import Effect
 from fem_check.shell.equilibrium import ConvergenceError
 from fem_check.shell.friction import Friction
 from fem_check.shell.gravity import Gravity
+from fem_check.shell.ground import Ground
 from fem_check.shell.inertia import Inertia
-from fem_check.shell.koiter import Membrane
+from fem_check.shell.koiter import Bending, Membrane
 from fem_check.shell.scene import Scene
 from fem_check.shell.simulation import simulate
 from linear_theory import SineWave
-from tests.shell_scenes import MATERIAL, PAPER, WEAK, lying, planar, pulsating
+from tests.shell_scenes import (
+    MATERIAL,
+    PAPER,
+    STIFFNESS,
+    WEAK,
+    WEIGHT,
+    lying,
+    planar,
+    pulsating,
+)
 
 MU, SLIP, DENSITY = 0.5, 1e-3, 2.0
 
@@ -143,3 +153,40 @@ def test_a_mirrored_wave_crawls_the_other_way_on_the_ground() -> None:
     # 1e-3 of the slip speed of 0.1, and what the repeated loads leave (1e-3 of what they balance)
     np.testing.assert_allclose(there.period_speeds, -back.period_speeds, atol=1e-4)
     assert abs(there.speed.mean) > 1e-3
+
+
+class Slope:
+    """The ground z = rise y."""
+
+    def __init__(self, rise: float) -> None:
+        self.rise = rise
+
+    def __call__(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+        zero = np.zeros_like(x)
+        return np.stack([self.rise * y, zero, zero + self.rise, zero, zero, zero])
+
+
+def test_a_sheet_creeps_down_a_slope_of_the_ground() -> None:
+    """Ground given by its height, vertical weight: the same creep, along the slope."""
+    rise = 0.5 * MU
+    effects = (
+        Membrane(MATERIAL),
+        Bending(MATERIAL),
+        Gravity(WEIGHT),
+        Ground(STIFFNESS, height=Slope(rise)),
+        Friction(MU, SLIP),
+    )
+    scene = Scene(PAPER, SineWave(), 0.0, effects=effects, cells=(1, 2))
+    trajectory = simulate(scene, steps=20, periods=2)
+    theta = np.arctan(rise)
+    # the normal load carries cos theta of the weight along a sheet that sank by about 0.02
+    expected = -SLIP * np.arctanh(0.5) * np.cos(theta)
+    assert trajectory.speed.mean == pytest.approx(expected, rel=1e-3)
+    way = trajectory.centre[:, -1] - trajectory.centre[:, -20]
+    assert way[2] / way[1] == pytest.approx(rise, rel=1e-3)
+
+
+def test_an_incline_is_less_than_a_right_angle() -> None:
+    for incline in (np.pi / 2, -2.0):
+        with pytest.raises(ValueError, match=r"incline = .*must be in \(-pi/2, pi/2\)"):
+            Gravity(1.0, incline=incline)

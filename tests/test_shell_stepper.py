@@ -24,7 +24,7 @@ from fem_check.shell.scene import Scene
 from fem_check.shell.simulation import Progress, simulate
 from fem_check.shell.step_control import History, StepSize
 from fem_check.shell.trajectory import Trajectory
-from linear_theory import Sheet, SineWave
+from linear_theory import Sheet, SineWave, TravellingWave
 from tests.shell_scenes import MATERIAL, PAPER, STIFFNESS, WEIGHT, lying, planar
 
 ALPHA = 0.25
@@ -102,6 +102,32 @@ def test_the_error_of_the_step_is_honest(refined: dict[int, Trajectory]) -> None
     for trajectory in refined.values():
         true = abs(trajectory.speed.mean - limit(refined))
         assert true <= trajectory.speed.error <= 3 * true
+
+
+PULSE = TravellingWave(np.array([0.5, 0.3]), np.array([0.2, 0.1]))
+
+
+@pytest.mark.parametrize(
+    "scene",
+    [
+        planar(0.4),
+        planar(0.05, slip=0.05),
+        planar(0.1, PULSE),
+        planar(0.25, weight=WEIGHT, slip=0.01),
+        lying(slip=0.1),
+        lying(slip=0.01),
+    ],
+    ids=["large", "viscous", "pulse", "soft", "bending viscous", "bending dry"],
+)
+def test_stated_errors_hold_in_many_scenes(scene: Scene) -> None:
+    """Of the step and of the spread together, against the extrapolation from 48 and 96 steps."""
+    runs = {n: simulate(scene, steps=n) for n in (24, 48, 96)}
+    reference = (4 * runs[96].speed.mean - runs[48].speed.mean) / 3
+    adaptive = simulate(scene, rtol=3e-2)
+    for trajectory in (runs[24], runs[48], adaptive):
+        # the reference itself is right to a tenth of what the coarsest run is wrong by
+        assert abs(trajectory.speed.mean - reference) <= 1.1 * trajectory.speed.error
+    assert adaptive.speed.error < 0.05 * abs(reference)
 
 
 @pytest.mark.parametrize("rtol", [3e-2, 1e-2, 2e-3])

@@ -62,10 +62,6 @@ class Ground:
             return np.asarray(position[2])
         return np.asarray(position[2] - self.height(position[0], position[1])[0])
 
-    def highest(self, position: Array) -> float:
-        """Largest height of the ground under some positions (components, points)."""
-        return 0.0 if self.height is None else float(self.height(position[0], position[1])[0].max())
-
     def pressure(self, state: PointState) -> Array:
         """Minus the derivative of the potential per area by the gap, (points,)."""
         gap = self.gap(state.position)

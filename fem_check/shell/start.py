@@ -34,9 +34,7 @@ def resting_state(stepper: Stepper) -> Array:
         return discretisation.zeros()
     rest = stepper.rest(0.0)
     weight = next(e.weight for e in scene.effects if hasattr(e, "weight"))
-    highest = ground.highest(stepper.region.reference[0])
-    depth = np.sqrt(weight / ground.stiffness)
-    state = translation(discretisation, (0.0, 0.0, highest - depth))
+    state = sunk(discretisation, ground, float(np.sqrt(weight / ground.stiffness)))
     minimiser = Minimiser(Supports(discretisation).anchor(motions="xy"))
     for _ in range(3):  # a weight per current area is that of the state before
         step = Step(area=stepper.area(state)) if "current" in stepper.kinds else None
@@ -45,6 +43,22 @@ def resting_state(stepper: Stepper) -> Array:
         if step is None:
             break
     return state
+
+
+def sunk(discretisation: Discretisation, ground: Ground, depth: float) -> Array:
+    """Unknowns (size,) of a flat sheet that was laid on the ground and pressed in by `depth`."""
+    state = translation(discretisation, (0.0, 0.0, -depth))
+    if ground.height is None:
+        return state
+    height = ground.height
+
+    def jets(x: Array, y: Array) -> Array:
+        out = np.zeros((6, 3, x.size))
+        # The ground's derivatives come as x, y, xx, yy, xy, as those of a surface do.
+        out[:, 2] = height(x, y)
+        return out
+
+    return state + discretisation.interpolate(jets)
 
 
 def first_history(stepper: Stepper, dt: float, velocity: ArrayLike | None) -> History:

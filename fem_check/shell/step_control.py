@@ -18,6 +18,10 @@ SAFETY = 0.9
 DEADBAND = 1.15
 """Steps that could grow by less stay as they are, so that a kept factor goes on to serve."""
 
+SHORTEST = 32
+"""Share of the step that a sine wave needs below which steps are not shortened for their error: a sheet
+that snaps over jumps however short they are, and shorter steps make damping stiff."""
+
 NEWMARK_ERROR = 1 / 12
 """|beta - 1/6|: error of Newmark's rule in x is this times dt^2 (a_new - a), for beta = 1/4."""
 
@@ -149,4 +153,4 @@ def step_size(period: float, rtol: float | None, steps: int | None) -> StepSize:
     rtol = validation.tolerance(1e-2 if rtol is None else rtol)
     # The slope of a sine of this period is right to (2 pi dt/period)^2/3.
     natural = period * np.sqrt(3 * rtol) / (2 * np.pi)
-    return StepSize(natural / 8, natural / 1024, period / 12, rtol)
+    return StepSize(natural / 8, natural / SHORTEST, period / 12, rtol)

@@ -81,7 +81,7 @@ class Stepper:
         if scene.find(Friction) is None and scene.find(Inertia) is None:
             raise ValueError(
                 "effects: must name Friction or Inertia to be stepped in time; of a sheet whose shape "
-                "they do not change, fem_check.shell.cycle.cycle_speed gives the speed"
+                "they do not change, fem_check.shell.cycle_speed gives the speed"
             )
         self.scene, self.ramp = scene, ramp
         self.region = scene.discretisation().interior

@@ -33,7 +33,7 @@ class SpeedErrors(NamedTuple):
     """Estimated errors of the mean speed, absolute, length per time.
 
     step: of the time integration. spread: difference between the last two periods, NaN if there is one.
-    mesh: difference to the coarser mesh that was asked for, else NaN. slip_speed: distance to dry
+    mesh: from a run on a coarser mesh where it was asked for, else NaN. slip_speed: distance to dry
     friction, twice the change when the slip speed is halved (it falls at least in proportion), NaN
     where the slip ratio is above 0.3 and friction far from dry; not part of the error of the speed at
     the slip speed that is simulated.
