@@ -2,10 +2,10 @@
 
 from fem_check.outline import Outline
 from fem_check.plane_stress import PlaneStressField, plane_stress_field
-from fem_check.shell.cycle_speed import cycle_speed
+from fem_check.shell.cycle.speed import cycle_speed
 from fem_check.shell.scene import Scene
-from fem_check.shell.simulation import simulate
-from fem_check.shell.trajectory import Trajectory
+from fem_check.shell.stepping.simulation import simulate
+from fem_check.shell.stepping.trajectory import Trajectory
 
 __all__ = [
     "Outline",

@@ -19,8 +19,8 @@ from pathlib import Path
 import numpy as np
 import skfem
 
-from fem_check.shell.cycle_speed import cycle_speed
-from fem_check.shell.koiter import Membrane
+from fem_check.shell.cycle.speed import cycle_speed
+from fem_check.shell.effects.koiter import Membrane
 from fem_check.shell.material import Material
 from fem_check.shell.scene import Scene
 from figures import output
@@ -42,11 +42,11 @@ ALPHAS = (0.02, 0.05, 0.1, 0.15, 0.2, 0.25, 0.325, 0.4)
 SLIPS = {"coulomb": 0.0, "dry": 0.01, "mixed": 1.0, "viscous": 100.0}
 """Slip speed v0 over alpha L/T by the name of the regime."""
 
-ROUNDOFF = 1e-15
-"""Absolute error of the speed of the bar, in L/T."""
-
 DIGITS = 6
 """Significant digits written: more than the error leaves, fewer than roundoff changes."""
+
+ROUNDING = 0.5 * 10.0 ** (1 - DIGITS)
+"""Relative error by rounding to DIGITS, all the error of the bar."""
 
 
 @dataclass(frozen=True)
@@ -78,7 +78,7 @@ def compute(alphas: Sequence[float] = ALPHAS, rtol: float = RTOL) -> list[Speed]
                 progress.advance()
     for alpha in alphas:
         speed = float(line_cycle_speed(alpha, "exp"))
-        speeds.append(Speed("bar", "coulomb", alpha, speed, ROUNDOFF, 0.0))
+        speeds.append(Speed("bar", "coulomb", alpha, speed, ROUNDING * abs(speed), 0.0))
     return speeds
 
 

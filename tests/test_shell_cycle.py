@@ -8,15 +8,15 @@ import skfem
 from numpy.typing import NDArray
 from scipy.special import i0
 
-from fem_check.shell.cycle import cycle_of_shapes
-from fem_check.shell.cycle_motion import CycleMotion, UnresolvedError
-from fem_check.shell.cycle_speed import cycle_speed
-from fem_check.shell.equilibrium import ConvergenceError
-from fem_check.shell.gravity import Gravity
-from fem_check.shell.ground import Ground
-from fem_check.shell.koiter import Bending, Membrane
+from fem_check.shell.cycle.motion import CycleMotion, UnresolvedError
+from fem_check.shell.cycle.shapes import cycle_of_shapes
+from fem_check.shell.cycle.speed import cycle_speed
+from fem_check.shell.effects.gravity import Gravity
+from fem_check.shell.effects.ground import Ground
+from fem_check.shell.effects.koiter import Bending, Membrane
 from fem_check.shell.material import Material
 from fem_check.shell.scene import Scene
+from fem_check.shell.statics.equilibrium import ConvergenceError
 from linear_theory import (
     FieldWave,
     Sheet,

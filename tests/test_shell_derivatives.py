@@ -8,18 +8,18 @@ import skfem
 from numpy.typing import NDArray
 
 from fem_check.shell.discretisation import Discretisation
-from fem_check.shell.effect import Effect
-from fem_check.shell.friction import Friction
-from fem_check.shell.gravity import Gravity
-from fem_check.shell.ground import Ground
-from fem_check.shell.inertia import Inertia
-from fem_check.shell.koiter import Bending, Membrane
-from fem_check.shell.loads import DeadLoad, EdgeMoment
+from fem_check.shell.effects.effect import Effect
+from fem_check.shell.effects.friction import Friction
+from fem_check.shell.effects.gravity import Gravity
+from fem_check.shell.effects.ground import Ground
+from fem_check.shell.effects.inertia import Inertia
+from fem_check.shell.effects.koiter import Bending, Membrane
+from fem_check.shell.effects.loads import DeadLoad, EdgeMoment
 from fem_check.shell.material import Material
 from fem_check.shell.potential import Load, Potential
 from fem_check.shell.rates import Affine, Step
 from fem_check.shell.rest_state import grown_state, tensor_state
-from fem_check.shell.sparsity import Sparsity
+from fem_check.shell.statics.sparsity import Sparsity
 from fem_check.shell.surface import AnnulusSector, Cylinder, Flat, SpherePart, Surface, Trapezoid
 
 Array = NDArray[np.float64]

@@ -4,15 +4,15 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from fem_check.shell.effect import Effect
-from fem_check.shell.equilibrium import ConvergenceError
-from fem_check.shell.friction import Friction
-from fem_check.shell.gravity import Gravity
-from fem_check.shell.ground import Ground
-from fem_check.shell.inertia import Inertia
-from fem_check.shell.koiter import Bending, Membrane
+from fem_check.shell.effects.effect import Effect
+from fem_check.shell.effects.friction import Friction
+from fem_check.shell.effects.gravity import Gravity
+from fem_check.shell.effects.ground import Ground
+from fem_check.shell.effects.inertia import Inertia
+from fem_check.shell.effects.koiter import Bending, Membrane
 from fem_check.shell.scene import Scene
-from fem_check.shell.simulation import simulate
+from fem_check.shell.statics.equilibrium import ConvergenceError
+from fem_check.shell.stepping.simulation import simulate
 from linear_theory import SineWave
 from tests.shell_scenes import (
     MATERIAL,

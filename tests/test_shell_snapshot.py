@@ -9,11 +9,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from fem_check.shell.paraview import write_paraview
 from fem_check.shell.scene import Scene
-from fem_check.shell.simulation import simulate
-from fem_check.shell.snapshot import SnapshotError, load_snapshot, save_snapshot
-from fem_check.shell.trajectory import Trajectory
+from fem_check.shell.stepping.paraview import write_paraview
+from fem_check.shell.stepping.simulation import simulate
+from fem_check.shell.stepping.snapshot import SnapshotError, load_snapshot, save_snapshot
+from fem_check.shell.stepping.trajectory import Trajectory
 from tests.shell_scenes import lying, planar
 
 OPTIONS = {"periods": 1, "steps": 24, "snapshot_every": 5}
@@ -64,7 +64,7 @@ def test_with_ground_damping_and_adaptive_steps(tmp_path: Path, load: str) -> No
 
 CHILD = """
 import sys
-from fem_check.shell.simulation import simulate
+from fem_check.shell.stepping.simulation import simulate
 from tests.shell_scenes import planar
 
 def report(progress):

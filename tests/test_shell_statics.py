@@ -7,17 +7,18 @@ import pytest
 import skfem
 from numpy.typing import NDArray
 
-from fem_check.shell import newton, region
+from fem_check.shell import region
 from fem_check.shell.discretisation import Discretisation
-from fem_check.shell.equilibrium import ConvergenceError
-from fem_check.shell.koiter import Membrane
-from fem_check.shell.loads import DeadLoad
+from fem_check.shell.effects.koiter import Membrane
+from fem_check.shell.effects.loads import DeadLoad
 from fem_check.shell.material import Material
-from fem_check.shell.newton import Minimiser
-from fem_check.shell.orientation import Orientation
 from fem_check.shell.potential import Load, Potential
 from fem_check.shell.rest_state import grown_state, tensor_state
-from fem_check.shell.statics import follow_mode, ramp
+from fem_check.shell.statics import newton
+from fem_check.shell.statics.equilibrium import ConvergenceError
+from fem_check.shell.statics.newton import Minimiser
+from fem_check.shell.statics.orientation import Orientation
+from fem_check.shell.statics.ramp import follow_mode, ramp
 from fem_check.shell.supports import Supports
 from linear_theory import SineWave
 from tests.shell_cases import at, displacement, end_shear, koiter, shell

@@ -7,23 +7,24 @@ import numpy as np
 import pytest
 import skfem
 
-from fem_check.shell import koiter, mesh_checks, region
-from fem_check.shell.cycle_speed import cycle_speed
-from fem_check.shell.equilibrium import ConvergenceError
-from fem_check.shell.friction import Friction
-from fem_check.shell.gravity import Gravity
-from fem_check.shell.ground import Ground
-from fem_check.shell.inertia import Inertia
-from fem_check.shell.koiter import Bending, Membrane
-from fem_check.shell.loads import DeadLoad
+from fem_check.shell import mesh_checks, region
+from fem_check.shell.cycle.speed import cycle_speed
+from fem_check.shell.effects import koiter
+from fem_check.shell.effects.friction import Friction
+from fem_check.shell.effects.gravity import Gravity
+from fem_check.shell.effects.ground import Ground
+from fem_check.shell.effects.inertia import Inertia
+from fem_check.shell.effects.koiter import Bending, Membrane
+from fem_check.shell.effects.loads import DeadLoad
 from fem_check.shell.material import Material
-from fem_check.shell.newton import Minimiser
 from fem_check.shell.point_state import PointState
 from fem_check.shell.rates import two_step
 from fem_check.shell.scene import Scene
-from fem_check.shell.simulation import Progress, simulate
-from fem_check.shell.step_control import History, StepSize
-from fem_check.shell.trajectory import Trajectory
+from fem_check.shell.statics.equilibrium import ConvergenceError
+from fem_check.shell.statics.newton import Minimiser
+from fem_check.shell.stepping.simulation import Progress, simulate
+from fem_check.shell.stepping.step_control import History, StepSize
+from fem_check.shell.stepping.trajectory import Trajectory
 from linear_theory import Sheet, SineWave, TravellingWave
 from tests.shell_scenes import MATERIAL, PAPER, STIFFNESS, WEIGHT, lying, planar
 

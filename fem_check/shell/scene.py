@@ -14,14 +14,14 @@ import skfem
 from numpy.typing import ArrayLike, NDArray
 
 from fem_check.shell.discretisation import Discretisation
-from fem_check.shell.effect import Effect
-from fem_check.shell.friction import Friction, load_bearer
-from fem_check.shell.gravity import Gravity
-from fem_check.shell.ground import Ground
+from fem_check.shell.effects.effect import Effect
+from fem_check.shell.effects.friction import Friction, load_bearer
+from fem_check.shell.effects.gravity import Gravity
+from fem_check.shell.effects.ground import Ground
+from fem_check.shell.effects.inertia import Inertia
+from fem_check.shell.effects.koiter import Bending, Membrane
+from fem_check.shell.effects.loads import DeadLoad
 from fem_check.shell.growth import GROWTH_LAWS, metric_factor
-from fem_check.shell.inertia import Inertia
-from fem_check.shell.koiter import Bending, Membrane
-from fem_check.shell.loads import DeadLoad
 from fem_check.shell.potential import Potential
 from fem_check.shell.rates import Step
 from fem_check.shell.rest_state import CURVATURE_FORMS, MEASURES, RestState, grown_state

@@ -7,8 +7,8 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from fem_check.shell.effect import Effect, outer
-from fem_check.shell.gravity import check_area
+from fem_check.shell.effects.effect import Effect, outer
+from fem_check.shell.effects.gravity import check_area
 from fem_check.shell.point_state import AREAS, PointState
 from fem_check.shell.rates import Step
 from fem_check.shell.region import Entries

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from fem_check.shell.effect import Effect, identity, outer
-from fem_check.shell.gravity import Gravity
-from fem_check.shell.ground import Ground
+from fem_check.shell.effects.effect import Effect, identity, outer
+from fem_check.shell.effects.gravity import Gravity
+from fem_check.shell.effects.ground import Ground
 from fem_check.shell.point_state import PointState, dot
 from fem_check.shell.rates import Step
 from fem_check.shell.region import Entries

@@ -8,10 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
-from fem_check.shell.cycle import Shapes, time_factors
-from fem_check.shell.cycle_frame import BodyFrame
+from fem_check.shell.cycle.frame import BodyFrame
+from fem_check.shell.cycle.shapes import Shapes, time_factors
 from fem_check.shell.discretisation import Discretisation
-from fem_check.shell.ground import Ground
+from fem_check.shell.effects.ground import Ground
 from fem_check.shell.growth import metric_factor
 from fem_check.shell.region import Region
 from fem_check.shell.scene import Scene

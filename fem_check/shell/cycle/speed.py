@@ -14,10 +14,10 @@ import numpy as np
 import skfem
 from numpy.typing import NDArray
 
-from fem_check.shell.cycle import Shapes, cycle_of_shapes, static_effects
-from fem_check.shell.cycle_balance import CycleBalance, Period
-from fem_check.shell.cycle_motion import UnresolvedError, checked_load, is_mirrored
-from fem_check.shell.koiter import Membrane
+from fem_check.shell.cycle.balance import CycleBalance, Period
+from fem_check.shell.cycle.motion import UnresolvedError, checked_load, is_mirrored
+from fem_check.shell.cycle.shapes import Shapes, cycle_of_shapes, static_effects
+from fem_check.shell.effects.koiter import Membrane
 from fem_check.shell.scene import Scene
 from linear_theory import validation
 from linear_theory.friction import FrictionLaw

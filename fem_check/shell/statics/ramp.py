@@ -12,9 +12,9 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from fem_check.shell.equilibrium import ConvergenceError, Equilibrium
-from fem_check.shell.newton import Minimiser
 from fem_check.shell.potential import Potential
+from fem_check.shell.statics.equilibrium import ConvergenceError, Equilibrium
+from fem_check.shell.statics.newton import Minimiser
 from linear_theory import validation
 
 Array = NDArray[np.float64]

@@ -5,8 +5,8 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from fem_check.shell.power import Works
-from fem_check.shell.sliding import Sliding
+from fem_check.shell.stepping.power import Works
+from fem_check.shell.stepping.sliding import Sliding
 
 Array = NDArray[np.float64]
 

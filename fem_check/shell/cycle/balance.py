@@ -13,8 +13,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from fem_check.shell.cycle import Shapes
-from fem_check.shell.cycle_motion import CycleMotion, is_mirrored
+from fem_check.shell.cycle.motion import CycleMotion, is_mirrored
+from fem_check.shell.cycle.shapes import Shapes
 from linear_theory.balance import Balance, RigidMotion
 from linear_theory.friction import FrictionLaw
 from linear_theory.time_grid import TimeGrid, first_grid

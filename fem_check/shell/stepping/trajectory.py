@@ -7,12 +7,12 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from fem_check.shell.friction import Friction
-from fem_check.shell.power import Works
+from fem_check.shell.effects.friction import Friction
 from fem_check.shell.scene import Scene
-from fem_check.shell.sliding import COMPARED
-from fem_check.shell.step_control import extrapolated
-from fem_check.shell.stepper import amplitude
+from fem_check.shell.stepping.power import Works
+from fem_check.shell.stepping.sliding import COMPARED
+from fem_check.shell.stepping.step_control import extrapolated
+from fem_check.shell.stepping.stepper import amplitude
 from linear_theory import validation
 from linear_theory.speed import CrawlSpeed
 

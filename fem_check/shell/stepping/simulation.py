@@ -10,19 +10,19 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from fem_check.shell.equilibrium import ConvergenceError
-from fem_check.shell.friction import Friction
+from fem_check.shell.effects.friction import Friction
 from fem_check.shell.point_state import PointState
-from fem_check.shell.power import Ledger, Moment, Works
 from fem_check.shell.rates import Affine, Step
-from fem_check.shell.record import Record
 from fem_check.shell.scene import Scene, default_cells
-from fem_check.shell.sliding import Sliding, sliding
-from fem_check.shell.snapshot import fingerprint, load_snapshot, save_snapshot
-from fem_check.shell.start import first_history
-from fem_check.shell.step_control import History, step_size
-from fem_check.shell.stepper import Stepper, StepResult
-from fem_check.shell.trajectory import Trajectory
+from fem_check.shell.statics.equilibrium import ConvergenceError
+from fem_check.shell.stepping.power import Ledger, Moment, Works
+from fem_check.shell.stepping.record import Record
+from fem_check.shell.stepping.sliding import Sliding, sliding
+from fem_check.shell.stepping.snapshot import fingerprint, load_snapshot, save_snapshot
+from fem_check.shell.stepping.start import first_history
+from fem_check.shell.stepping.step_control import History, step_size
+from fem_check.shell.stepping.stepper import Stepper, StepResult
+from fem_check.shell.stepping.trajectory import Trajectory
 from linear_theory import validation
 
 Array = NDArray[np.float64]

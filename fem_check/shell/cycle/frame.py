@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from fem_check.shell.cycle import Shapes, time_factors
+from fem_check.shell.cycle.shapes import Shapes, time_factors
 
 Array = NDArray[np.float64]
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from fem_check.shell.effect import Effect, identity
+from fem_check.shell.effects.effect import Effect, identity
 from fem_check.shell.material import Material
 from fem_check.shell.point_state import PointState
 from fem_check.shell.rates import Affine, Step

@@ -12,19 +12,19 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from fem_check.shell.equilibrium import ConvergenceError, Equilibrium
-from fem_check.shell.friction import Friction, load_bearer
-from fem_check.shell.gravity import Gravity
-from fem_check.shell.ground import Ground
-from fem_check.shell.inertia import Inertia
-from fem_check.shell.newton import Factorised, Minimiser
+from fem_check.shell.effects.friction import Friction, load_bearer
+from fem_check.shell.effects.gravity import Gravity
+from fem_check.shell.effects.ground import Ground
+from fem_check.shell.effects.inertia import Inertia
 from fem_check.shell.point_state import PointState
 from fem_check.shell.potential import Potential
 from fem_check.shell.rates import Affine, Step
 from fem_check.shell.rest_state import RestState
 from fem_check.shell.scene import Scene
-from fem_check.shell.statics import follow_mode
-from fem_check.shell.step_control import History
+from fem_check.shell.statics.equilibrium import ConvergenceError, Equilibrium
+from fem_check.shell.statics.newton import Factorised, Minimiser
+from fem_check.shell.statics.ramp import follow_mode
+from fem_check.shell.stepping.step_control import History
 from fem_check.shell.supports import Supports
 
 Array = NDArray[np.float64]
@@ -81,7 +81,7 @@ class Stepper:
         if scene.find(Friction) is None and scene.find(Inertia) is None:
             raise ValueError(
                 "effects: must name Friction or Inertia to be stepped in time; of a sheet whose shape "
-                "they do not change, fem_check.shell.cycle_speed gives the speed"
+                "they do not change, fem_check.cycle_speed gives the speed"
             )
         self.scene, self.ramp = scene, ramp
         self.region = scene.discretisation().interior

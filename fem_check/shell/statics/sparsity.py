@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from scipy.sparse.csgraph import reverse_cuthill_mckee
 
 from fem_check.shell.discretisation import Discretisation
-from fem_check.shell.effect import PAIRS
+from fem_check.shell.effects.effect import PAIRS
 from fem_check.shell.potential import Blocks
 from fem_check.shell.region import Region
 

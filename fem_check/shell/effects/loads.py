@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from fem_check.shell.effect import Effect, NoConditions, outer
+from fem_check.shell.effects.effect import Effect, NoConditions, outer
 from fem_check.shell.point_state import PointState
 from fem_check.shell.rates import Step
 from fem_check.shell.region import Entries

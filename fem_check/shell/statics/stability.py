@@ -4,8 +4,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse.linalg import LinearOperator, eigsh
 
-from fem_check.shell.linear_solver import Factor
-from fem_check.shell.sparsity import Sparsity
+from fem_check.shell.statics.linear_solver import Factor
+from fem_check.shell.statics.sparsity import Sparsity
 
 Array = NDArray[np.float64]
 

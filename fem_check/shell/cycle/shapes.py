@@ -12,14 +12,14 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from fem_check.shell.discretisation import Discretisation
-from fem_check.shell.effect import Effect
-from fem_check.shell.equilibrium import ConvergenceError, Equilibrium
-from fem_check.shell.gravity import Gravity
-from fem_check.shell.ground import Ground
-from fem_check.shell.newton import Minimiser
+from fem_check.shell.effects.effect import Effect
+from fem_check.shell.effects.gravity import Gravity
+from fem_check.shell.effects.ground import Ground
 from fem_check.shell.potential import Potential
 from fem_check.shell.scene import Scene
-from fem_check.shell.statics import follow_mode, ramp
+from fem_check.shell.statics.equilibrium import ConvergenceError, Equilibrium
+from fem_check.shell.statics.newton import Minimiser
+from fem_check.shell.statics.ramp import follow_mode, ramp
 from fem_check.shell.supports import Supports
 from linear_theory import validation
 

@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from fem_check.shell.friction import Friction, sech_squared, tanh_ratio
+from fem_check.shell.effects.friction import Friction, sech_squared, tanh_ratio
 from fem_check.shell.point_state import PointState, dot
 
 Array = NDArray[np.float64]

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fem_check.shell.trajectory import Trajectory
+from fem_check.shell.stepping.trajectory import Trajectory
 from linear_theory import validation
 
 Array = NDArray[np.float64]

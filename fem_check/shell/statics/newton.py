@@ -6,12 +6,12 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from fem_check.shell.equilibrium import ConvergenceError, Equilibrium
-from fem_check.shell.linear_solver import Factor, factorise
-from fem_check.shell.orientation import Orientation
 from fem_check.shell.potential import Potential
-from fem_check.shell.sparsity import Sparsity
-from fem_check.shell.stability import NEUTRAL, lowest_mode
+from fem_check.shell.statics.equilibrium import ConvergenceError, Equilibrium
+from fem_check.shell.statics.linear_solver import Factor, factorise
+from fem_check.shell.statics.orientation import Orientation
+from fem_check.shell.statics.sparsity import Sparsity
+from fem_check.shell.statics.stability import NEUTRAL, lowest_mode
 from fem_check.shell.supports import Supports
 from linear_theory import validation
 

@@ -17,13 +17,13 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from fem_check.shell.effect import Effect
-from fem_check.shell.friction import Friction
-from fem_check.shell.gravity import Gravity
-from fem_check.shell.ground import Ground
-from fem_check.shell.inertia import Inertia
-from fem_check.shell.koiter import Bending, Membrane
-from fem_check.shell.loads import DeadLoad
+from fem_check.shell.effects.effect import Effect
+from fem_check.shell.effects.friction import Friction
+from fem_check.shell.effects.gravity import Gravity
+from fem_check.shell.effects.ground import Ground
+from fem_check.shell.effects.inertia import Inertia
+from fem_check.shell.effects.koiter import Bending, Membrane
+from fem_check.shell.effects.loads import DeadLoad
 from fem_check.shell.point_state import PointState
 from fem_check.shell.rates import Step
 from fem_check.shell.rest_state import RestState

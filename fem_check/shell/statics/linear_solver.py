@@ -12,7 +12,7 @@ import scipy.sparse.linalg as spla
 from numpy.typing import NDArray
 from scipy.linalg import lapack
 
-from fem_check.shell.sparsity import Sparsity
+from fem_check.shell.statics.sparsity import Sparsity
 
 Array = NDArray[np.float64]
 

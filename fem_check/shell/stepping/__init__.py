@@ -1,0 +1,1 @@
+"""Scenes in time: one minimisation per step, error control, balance of power, restart."""
