@@ -16,15 +16,15 @@ import skfem
 from numpy.typing import NDArray
 
 from fem_check.shell.discretisation import Discretisation
-from fem_check.shell.effect import Effect
-from fem_check.shell.equilibrium import Equilibrium
-from fem_check.shell.koiter import Bending, Membrane
-from fem_check.shell.loads import DeadLoad, EdgeMoment
+from fem_check.shell.effects.effect import Effect
+from fem_check.shell.effects.koiter import Bending, Membrane
+from fem_check.shell.effects.loads import DeadLoad, EdgeMoment
 from fem_check.shell.material import Material
-from fem_check.shell.newton import Minimiser
 from fem_check.shell.potential import Load, Potential
 from fem_check.shell.rest_state import grown_state
-from fem_check.shell.statics import ramp
+from fem_check.shell.statics.equilibrium import Equilibrium
+from fem_check.shell.statics.newton import Minimiser
+from fem_check.shell.statics.ramp import ramp
 from fem_check.shell.supports import Supports
 from fem_check.shell.surface import AnnulusSector, Cylinder, Flat, Surface
 

@@ -2,11 +2,11 @@
 
 import numpy as np
 
-from fem_check.shell.effect import Effect
-from fem_check.shell.friction import Friction
-from fem_check.shell.gravity import Gravity
-from fem_check.shell.ground import Ground
-from fem_check.shell.koiter import Bending, Membrane
+from fem_check.shell.effects.effect import Effect
+from fem_check.shell.effects.friction import Friction
+from fem_check.shell.effects.gravity import Gravity
+from fem_check.shell.effects.ground import Ground
+from fem_check.shell.effects.koiter import Bending, Membrane
 from fem_check.shell.material import Material
 from fem_check.shell.scene import Scene
 from linear_theory import FieldWave, Sheet, SineWave
