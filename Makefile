@@ -1,6 +1,7 @@
 # Every target does its own set-up; a fresh machine needs only make and Python >= 3.11.
 #
 #   make figures   figures 3 and 7 (options: OUT=folder RTOL=1e-6)
+#   make nonlinear the table of speeds that figure 3 reads, figures/data/nonlinear.csv: half a minute
 #   make test      lint, types, tests
 #   make bench     measured times and ratios
 #   make lock      rewrite requirements.lock after a change of dependencies
@@ -29,13 +30,16 @@ export MKL_NUM_THREADS := 1
 
 FIGURE_OPTIONS = $(if $(OUT),--out "$(OUT)") $(if $(RTOL),--rtol $(RTOL))
 
-.PHONY: figures test bench lock clean distclean
+.PHONY: figures nonlinear test bench lock clean distclean
 .DEFAULT_GOAL := figures
 .DELETE_ON_ERROR:
 
 figures: $(STAMP)
 	$(RUN) -m figures.fig3 $(FIGURE_OPTIONS)
 	$(RUN) -m figures.fig7 $(FIGURE_OPTIONS)
+
+nonlinear: $(STAMP)
+	$(RUN) -m figures.nonlinear
 
 test: $(STAMP)
 	$(RUN) -m ruff check .

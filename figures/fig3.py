@@ -1,10 +1,18 @@
-"""Figure 3: friction under a crawling sheet at one instant, and its mean speed in 1D and 2D.
+"""Figure 3: friction under a crawling sheet at one instant, and its mean speed by all the models.
 
     python -m figures.fig3 [--out FOLDER] [--rtol 1e-4] [--formats png pdf]
 
 Panel A: friction by the Airy series (top) and by linear finite elements (bottom). Panel B: mean
-speed against the growth coupling, lines from theory, symbols from simulation, signs as they come
-out. In 2D the load is 'current', weight per current area as in eq. 11; friction is dry (Coulomb).
+speed against the growth coupling under dry (Coulomb) friction, signs as they come out: lines from
+theory, open symbols from linear finite elements, filled ones from the nonlinear planar sheet and from
+the bar at finite strain. Panel C: speed over alpha^2 at the slip speeds v0 = 0.01, 1 and 100 alpha L/T
+of friction tanh(v/v0), dry, mixed and viscous: lines from linear theory, symbols from the nonlinear
+sheet. The speed is of second order, beyond what small strains determine: a nonlinear sheet need not
+share the limit of linear theory at small alpha, and does so only in viscous crawling.
+
+In 2D the load is 'current', weight per current area as in eq. 11. Error bars are the estimated
+numerical errors, less than the size of a symbol. Nonlinear speeds are read from the table that
+`make nonlinear` writes, figures/data/nonlinear.csv.
 """
 
 import math
@@ -14,19 +22,16 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from figures import output, style
+from figures import nonlinear, output, style
 from figures.fig3_data import ALPHA_SHOWN, ARROWS, RTOL, Fig3Data, compute
 from figures.fig3_draw import draw
+from figures.fig3_speed import REGIMES, Series
 
 Array = NDArray[np.float64]
 
 
 def numbers_shown(data: Fig3Data) -> dict[str, object]:
     """What the JSON beside the figure holds."""
-    shown = {}
-    for series in data.series:
-        at = np.flatnonzero(series.alpha == ALPHA_SHOWN)[0]
-        shown[series.label] = {"speed": series.speed[at], "error": series.error[at]}
     coefficients = {
         f"{dimension}D": {"value": value, "error": error}
         for dimension, (value, error) in data.coefficients.items()
@@ -35,23 +40,52 @@ def numbers_shown(data: Fig3Data) -> dict[str, object]:
     difference = np.hypot(*(top.force - bottom.force))
     return {
         "alpha_shown": ALPHA_SHOWN,
-        "speeds_at_alpha_shown": shown,
+        "speeds_at_alpha_shown": {series.label: at_alpha_shown(series) for series in data.series},
         "speed_over_alpha_squared_as_alpha_to_0": coefficients,
+        "slip_regimes": slip_numbers(data),
         "largest_alpha": data.largest_alpha,
         "largest_difference_of_friction": difference.max(),
     }
 
 
-def write(data: Fig3Data, out: Path | None, formats: Sequence[str]) -> list[Path]:
-    """Figure, data (CSV) and numbers (JSON) in the folder `out`; returns their paths."""
+def slip_numbers(data: Fig3Data) -> dict[str, dict[str, object]]:
+    """Panel C by regime and model: at ALPHA_SHOWN, and V/alpha^2 at the smallest alpha there is."""
+    found: dict[str, dict[str, object]] = {
+        name: {"slip_speed_over_alpha": nonlinear.SLIPS[name]} for name in REGIMES
+    }
+    for series in data.slips:
+        smallest = series.alpha[0]
+        model = "linear theory" if series.kind == "theory" else "nonlinear sheet"
+        found[series.friction][model] = {
+            "at_alpha_shown": at_alpha_shown(series),
+            "smallest_alpha": smallest,
+            "speed_over_alpha_squared_at_smallest_alpha": {
+                "value": series.speed[0] / smallest**2,
+                "error": series.error[0] / smallest**2,
+            },
+        }
+    return found
+
+
+def at_alpha_shown(series: Series) -> dict[str, float]:
+    """Speed and error of a series at ALPHA_SHOWN."""
+    at = np.flatnonzero(series.alpha == ALPHA_SHOWN)[0]
+    return {"speed": float(series.speed[at]), "error": float(series.error[at])}
+
+
+def speed_columns(data: Fig3Data) -> dict[str, ArrayLike]:
+    """Panels B and C, one row for each point."""
     rows = [
-        (series.label, series.kind, *numbers)
-        for series in data.series
+        (series.label, series.kind, series.friction, *numbers)
+        for series in (*data.series, *data.slips)
         for numbers in zip(series.alpha, series.speed, series.error, strict=True)
     ]
-    speeds = dict(
-        zip(("series", "kind", "alpha", "speed", "error"), zip(*rows, strict=True), strict=True)
-    )
+    names = ("series", "kind", "friction", "alpha", "speed", "error")
+    return dict(zip(names, zip(*rows, strict=True), strict=True))
+
+
+def write(data: Fig3Data, out: Path | None, formats: Sequence[str]) -> list[Path]:
+    """Figure, data (CSV) and numbers (JSON) in the folder `out`; returns their paths."""
     arrows: dict[str, ArrayLike] = {
         "source": np.repeat([shot.label for shot in data.snapshots], math.prod(ARROWS))
     }
@@ -60,7 +94,7 @@ def write(data: Fig3Data, out: Path | None, formats: Sequence[str]) -> list[Path
             arrows[name + axis] = np.ravel([getattr(shot, vectors)[i] for shot in data.snapshots])
     return [
         *style.save(draw(data), "fig3", out, tuple(formats)),
-        output.write_csv(style.output_path("fig3_speed.csv", out), speeds),
+        output.write_csv(style.output_path("fig3_speed.csv", out), speed_columns(data)),
         output.write_csv(style.output_path("fig3_friction.csv", out), arrows),
         output.write_json(style.output_path("fig3.json", out), numbers_shown(data)),
     ]

@@ -1,14 +1,24 @@
 """What figure 3 shows: friction at one instant by two solvers, and speeds against the coupling."""
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from fem_check.plane_stress import PlaneStressField, plane_stress_field
-from figures import output
-from linear_theory import Sheet, SineWave, airy_series, field_speed, friction_field, line_speed
+from figures import nonlinear, output
+from figures.fig3_speed import (
+    REGIMES,
+    SMALL_ALPHA,
+    Series,
+    law_speeds,
+    leading_coefficients,
+    line_speeds,
+    nonlinear_speeds,
+    sheet_speeds,
+    slip_speeds,
+)
+from linear_theory import Sheet, SineWave, airy_series, friction_field
 from linear_theory.field import LinearField
 
 Array = NDArray[np.float64]
@@ -32,14 +42,14 @@ PHASE_SHOWN = 0.0
 
 FEM_ALPHAS = (0.04, 0.11, 0.18, ALPHA_SHOWN, 0.32, 0.39)
 
-SMALL_ALPHA = 1e-6
-"""V/alpha^2 differs from its limit by alpha^2 relative."""
-
 LEADING_FACTOR = 0.01
 """Share of rtol for the coefficient of alpha^2, and for the deformation, which costs little."""
 
-THEORY_POINTS, LINE_POINTS = 13, 201
-"""Couplings of the curves in 2D and 1D."""
+THEORY_POINTS, SLIP_POINTS = 13, 7
+"""Couplings of the curves of panels B and C, besides ALPHA_SHOWN."""
+
+LINE_POINTS = 201
+"""Points of a drawn line."""
 
 CLEARANCE = 0.96
 """Share of the largest alpha with positive load that the curves reach."""
@@ -67,30 +77,17 @@ class Snapshot:
 
 
 @dataclass(frozen=True)
-class Series:
-    """Mean speeds against alpha, each (n,), in L/T; error: estimated numerical error of speed.
-
-    kind: "theory", "law" (leading power of alpha), "printed" or "simulation"; dimension: 1 or 2.
-    """
-
-    label: str
-    kind: str
-    dimension: int
-    alpha: Array
-    speed: Array
-    error: Array
-
-
-@dataclass(frozen=True)
 class Fig3Data:
     """What the figure shows.
 
+    series: panel B, dry friction; slips: panel C, theory and sheet in turn, in the order of REGIMES;
     coefficients: V/alpha^2 as alpha -> 0 and its error, in L/T, by dimension; largest_alpha: at which
     the load is no longer positive somewhere.
     """
 
     snapshots: tuple[Snapshot, Snapshot]
     series: tuple[Series, ...]
+    slips: tuple[Series, ...]
     coefficients: dict[int, tuple[float, float]]
     largest_alpha: float
 
@@ -98,71 +95,44 @@ class Fig3Data:
 def compute(rtol: float = RTOL) -> Fig3Data:
     """Friction and speeds for the paper's sheet and wave; rtol: of the speeds from theory."""
     sheet, wave = Sheet(), SineWave()
+    table = nonlinear.read()
     theory = airy_series(sheet, wave, rtol=LEADING_FACTOR * rtol)
     elements = plane_stress_field(sheet, wave, size=FEM_SIZE)
     limit = largest_alpha(theory)
-    alphas = np.union1d(np.linspace(0, CLEARANCE * limit, THEORY_POINTS), [ALPHA_SHOWN])
-    with output.Progress("figure 3", alphas.size + 1 + FEM_COST * len(FEM_ALPHAS)) as progress:
-        leading = leading_coefficient(theory, LEADING_FACTOR * rtol)
+    alphas = couplings(0, limit, THEORY_POINTS)
+    few = couplings(SMALL_ALPHA, limit, SLIP_POINTS)  # at 0 V/alpha^2 would be 0/0
+    work = alphas.size + 1 + len(REGIMES) * few.size + FEM_COST * len(FEM_ALPHAS)
+    with output.Progress("figure 3", work) as progress:
+        coefficients = leading_coefficients(theory, LEADING_FACTOR * rtol)
         progress.advance()
         curve = sheet_speeds("2D, theory", "theory", theory, alphas, rtol, progress.advance)
-        symbols = simulated(elements, FEM_FACTOR * rtol, lambda: progress.advance(FEM_COST))
-    coefficients = {1: (float(line_speed(SMALL_ALPHA)) / SMALL_ALPHA**2, SMALL_ALPHA**2), 2: leading}
+        slips = slip_speeds(table, theory, few, rtol, progress.advance)
+        symbols = element_speeds(elements, FEM_FACTOR * rtol, progress)
     laws = [law_speeds(dimension, c, alphas) for dimension, (c, _) in coefficients.items()]
     return Fig3Data(
         snapshots=(snapshot(theory, "Airy series"), snapshot(elements, "linear FEM")),
-        series=(curve, *line_speeds(alphas), *laws, *symbols),
+        series=(curve, *line_speeds(alphas), *laws, symbols, *nonlinear_speeds(table)),
+        slips=tuple(slips),
         coefficients=coefficients,
         largest_alpha=limit,
     )
 
 
-def simulated(elements: LinearField, rtol: float, advance: Callable[[], None]) -> list[Series]:
-    """All that panel B shows as symbols; further models of the sheet join the list."""
-    alphas = np.array(FEM_ALPHAS)
-    return [sheet_speeds("2D, linear FEM", "simulation", elements, alphas, rtol, advance)]
+def couplings(start: float, limit: float, points: int) -> Array:
+    """From `start` to just below the largest alpha, with ALPHA_SHOWN."""
+    return np.union1d(np.linspace(start, CLEARANCE * limit, points), [ALPHA_SHOWN])
 
 
-def sheet_speeds(
-    label: str,
-    kind: str,
-    field: LinearField,
-    alphas: Array,
-    rtol: float,
-    advance: Callable[[], None],
-) -> Series:
-    """Speeds of the sheet, by the balance of dry friction under the 'current' load."""
-    speeds = []
-    for alpha in alphas.tolist():
-        found = field_speed(field, alpha, load="current", friction="coulomb", rtol=rtol)
-        speeds.append((found.mean, found.error))
-        advance()
-    mean, error = np.array(speeds).T
-    return Series(label, kind, 2, alphas, mean, error)
-
-
-def line_speeds(alphas: Array) -> list[Series]:
-    """The closed form in 1D, right to 2 ulp, and the printed one."""
-    found = []
-    for form, label, kind in (
-        ("corrected", "1D, theory", "theory"),
-        ("printed", "1D, printed", "printed"),
-    ):
-        speed = line_speed(alphas, form=form)
-        found.append(Series(label, kind, 1, alphas, speed, 2 * np.spacing(abs(speed))))
-    return found
-
-
-def leading_coefficient(field: LinearField, rtol: float) -> tuple[float, float]:
-    """V/alpha^2 as alpha -> 0, and its error; under the 'current' load."""
-    found = field_speed(field, SMALL_ALPHA, load="current", friction="coulomb", rtol=rtol)
-    return found.mean / SMALL_ALPHA**2, found.error / SMALL_ALPHA**2
-
-
-def law_speeds(dimension: int, coefficient: float, alphas: Array) -> Series:
-    """The leading term, proportional to alpha^2; drawn as it is, it has no error."""
-    label = f"{dimension}D, α² law"
-    return Series(label, "law", dimension, alphas, coefficient * alphas**2, np.zeros_like(alphas))
+def element_speeds(elements: LinearField, rtol: float, progress: output.Progress) -> Series:
+    """Linear finite elements under dry friction, symbols of panel B."""
+    return sheet_speeds(
+        "2D, linear FEM",
+        "simulation",
+        elements,
+        np.array(FEM_ALPHAS),
+        rtol,
+        lambda: progress.advance(FEM_COST),
+    )
 
 
 def largest_alpha(field: LinearField) -> float:

@@ -1,6 +1,5 @@
-"""The two panels of figure 3."""
+"""The three panels of figure 3."""
 
-import itertools
 from collections.abc import Sequence
 from typing import Any
 
@@ -10,11 +9,13 @@ from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection, QuadMesh
 from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
-from figures import style
-from figures.fig3_data import ALPHA_SHOWN, LINE_POINTS, PHASE_SHOWN, Fig3Data, Series, Snapshot
+from figures import nonlinear, style
+from figures.fig3_data import ALPHA_SHOWN, LINE_POINTS, PHASE_SHOWN, Fig3Data, Snapshot
+from figures.fig3_speed import Series
 
 Array = NDArray[np.float64]
 
@@ -32,25 +33,38 @@ LINE_LOOKS: dict[str, dict[str, Any]] = {
     "law": {"linestyle": ":", "linewidth": 0.8},
 }
 COLOURS = {1: style.COLORS["vermillion"], 2: style.COLORS["blue"]}
-MARKERS = ("o", "s", "^")
-"""Of the simulated series, in their order."""
+SYMBOL_LOOKS: dict[str, dict[str, Any]] = {
+    "2D, linear FEM": {"marker": "o", "markersize": 4.5, "mfc": "white"},
+    "2D, nonlinear sheet": {"marker": "s", "markersize": 3.2},
+    "1D, finite strain": {"marker": "^", "markersize": 3.8},
+}
+REGIME_LOOKS: dict[str, dict[str, Any]] = {
+    "dry": {"marker": "s", "markersize": 3.5, "color": style.COLORS["blue"]},
+    "mixed": {"marker": "D", "markersize": 3.3, "color": style.COLORS["green"]},
+    "viscous": {"marker": "v", "markersize": 4.0, "color": style.COLORS["purple"]},
+}
+"""Of panel C; "s" in blue is the nonlinear sheet under dry friction in B, too."""
+
+LEGEND: dict[str, Any] = {"handlelength": 1.5, "columnspacing": 0.5, "labelspacing": 0.35}
+NOTE: dict[str, Any] = {"textcoords": "offset points", "fontsize": 7}
 
 
 def draw(data: Fig3Data) -> Figure:
-    """Panel A on the left, with y to the right; panel B on the right."""
-    fig = style.figure(width=style.DOUBLE_CM, height=9.4)
-    cells = fig.add_gridspec(1, 2, width_ratios=(1.1, 1))
+    """Panel A on the left, with y to the right; panels B and C on the right."""
+    fig = style.figure(width=style.DOUBLE_CM, height=12.6)
+    cells = fig.add_gridspec(1, 2, width_ratios=(1.08, 1))
     left, right = fig.add_subfigure(cells[0]), fig.add_subfigure(cells[1])
     panels = left.subplots(2, 1, sharex=True, sharey=True)
     for axes, shot in zip(panels, data.snapshots, strict=True):
         colours = _draw_sheet(axes, shot)
     _draw_keys(panels)
-    bar = left.colorbar(colours, ax=panels, shrink=0.4, aspect=18, ticks=[-1, 0, 1])
+    bar = left.colorbar(colours, ax=panels, location="bottom", shrink=0.4, aspect=18, ticks=[-1, 0, 1])
     bar.set_label("growth $c$", labelpad=0)
-    _draw_speeds(right.subplots(), data)
     instant = rf"$\alpha$ = {ALPHA_SHOWN:g}, $t/T$ = {PHASE_SHOWN:g}"
     left.suptitle(rf"$\mathbf{{A}}$   friction on the sheet at {instant}", x=0.01, ha="left")
-    right.suptitle(r"$\mathbf{B}$   mean speed, positive along the wave", x=0.01, ha="left")
+    upper, lower = right.subplots(2, 1, sharex=True)
+    _draw_speeds(upper, data)
+    _draw_regimes(lower, data)
     return fig
 
 
@@ -101,41 +115,61 @@ def _around(values: Array) -> Array:
 def _draw_speeds(axes: Axes, data: Fig3Data) -> None:
     """Lines, symbols and the largest alpha of panel B."""
     for series in data.series:
-        if series.kind != "simulation":
-            _draw_line(axes, series)
-    simulated = [series for series in data.series if series.kind == "simulation"]
-    for series, marker in zip(simulated, itertools.cycle(MARKERS)):
-        axes.errorbar(
-            series.alpha, series.speed, series.error, ls="none", marker=marker, mfc="white",
-            color=COLOURS[series.dimension], label=series.label, zorder=3,
-        )  # fmt: skip
-    axes.axhline(0, color="black", linewidth=0.6)
+        colour = COLOURS[series.dimension]
+        if series.kind == "simulation":
+            look = SYMBOL_LOOKS[series.label]
+            _draw_symbols(axes, series, 0, color=colour, label=series.label, **look)
+        else:
+            look = LINE_LOOKS[series.kind]
+            _draw_line(axes, series, 0, color=colour, label=series.label, **look)
+    axes.plot([0, data.largest_alpha], [0, 0], color="black", linewidth=0.6)
     axes.axvline(data.largest_alpha, color="0.6", linewidth=0.6)
-    note: dict[str, Any] = {"textcoords": "offset points", "fontsize": 7}
-    axes.annotate(
-        "load reaches 0",
-        (data.largest_alpha, 0),
-        (-2, -6),
-        rotation=90,
-        ha="right",
-        va="top",
-        color="0.4",
-        **note,
-    )
-    axes.annotate(
-        "2D: load 'current',\nCoulomb friction",
-        (0, 0.04),
-        (6, 0),
-        xycoords=("data", "axes fraction"),
-        **note,
-    )
-    axes.set(xlim=(0, None), xlabel=r"growth coupling $\alpha$", ylabel="mean speed $V$  ($L/T$)")
-    axes.legend(loc="upper left")
+    end = (data.largest_alpha, 0)
+    axes.annotate("load reaches 0", end, (2, 4), rotation=90, color="0.4", **NOTE)
+    corner: dict[str, Any] = {"xycoords": ("data", "axes fraction"), **NOTE}
+    axes.annotate("2D: load 'current',\nCoulomb friction", (0, 0.04), (6, 0), **corner)
+    axes.set(ylim=(-0.17, 0.49), ylabel="mean speed $V$  ($L/T$)")
+    _draw_legend(axes)
+    _title(axes, "B", "mean speed, positive along the wave")
 
 
-def _draw_line(axes: Axes, series: Series) -> None:
-    """Through the speeds by a cubic spline, level at alpha = 0 where V is of second order."""
+def _draw_legend(axes: Axes) -> None:
+    """2D in the first column, 1D in the second, lines above symbols."""
+    pairs = sorted(zip(*axes.get_legend_handles_labels(), strict=True), key=lambda p: p[1][:2] == "1D")
+    handles, labels = zip(*pairs, strict=True)
+    axes.legend(handles, labels, loc="upper left", ncols=2, **LEGEND)
+
+
+def _draw_regimes(axes: Axes, data: Fig3Data) -> None:
+    """Lines of linear theory and symbols of the nonlinear sheet of panel C."""
+    handles = []
+    for line, symbols in zip(data.slips[::2], data.slips[1::2], strict=True):
+        look = REGIME_LOOKS[line.friction]
+        label = rf"{line.friction}: $v_0$ = {nonlinear.SLIPS[line.friction]:g} $\alpha L/T$"
+        _draw_line(axes, line, 2, color=look["color"], linewidth=1.2)
+        _draw_symbols(axes, symbols, 2, label=symbols.label, **look)
+        handles.append(Line2D([], [], label=label, linewidth=1.2, **look))
+    axes.axvline(data.largest_alpha, color="0.6", linewidth=0.6)
+    axes.set(xlim=(0, None), ylim=(0.85, 2.15))
+    axes.set(xlabel=r"growth coupling $\alpha$", ylabel=r"$V/\alpha^2$  ($L/T$)")
+    axes.legend(handles=handles, loc="upper right", bbox_to_anchor=(0.95, 1.02), **LEGEND)
+    _title(axes, "C", "linear theory (lines), nonlinear sheet (symbols)")
+
+
+def _title(axes: Axes, letter: str, text: str) -> None:
+    axes.set_title(rf"$\mathbf{{{letter}}}$   {text}", loc="left", x=-0.18)
+
+
+def _draw_line(axes: Axes, series: Series, power: int, **look: Any) -> None:
+    """V/alpha^power by a cubic spline, level at alpha = 0 as V is even in alpha and of second order."""
     alphas = np.linspace(series.alpha[0], series.alpha[-1], LINE_POINTS)
-    speeds = CubicSpline(series.alpha, series.speed, bc_type=((1, 0.0), "not-a-knot"))(alphas)
-    look = LINE_LOOKS[series.kind]
-    axes.plot(alphas, speeds, color=COLOURS[series.dimension], label=series.label, **look)
+    values = series.speed / series.alpha**power
+    axes.plot(
+        alphas, CubicSpline(series.alpha, values, bc_type=((1, 0.0), "not-a-knot"))(alphas), **look
+    )
+
+
+def _draw_symbols(axes: Axes, series: Series, power: int, **look: Any) -> None:
+    """V/alpha^power with its error."""
+    unit = series.alpha**power
+    axes.errorbar(series.alpha, series.speed / unit, series.error / unit, ls="none", zorder=3, **look)

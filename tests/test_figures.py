@@ -1,16 +1,18 @@
 """Figures 3 and 7: what they compute, that the files hold what is drawn, the same bytes every time."""
 
 import csv
+import itertools
 import json
 
 import numpy as np
 import pytest
 
-from figures import fig3, fig3_data, fig7
-from linear_theory import Sheet, SineWave, airy_series, line_speed, ritz_field
+from figures import fig3, fig3_data, fig3_speed, fig7, nonlinear
+from linear_theory import Sheet, SineWave, airy_series, field_speed, line_speed, ritz_field
 
 COARSE = {
     "THEORY_POINTS": 5,
+    "SLIP_POINTS": 4,
     "FEM_ALPHAS": (0.13, fig3_data.ALPHA_SHOWN),
     "GRID": (21, 41),
     "FEM_SIZE": 0.25,
@@ -31,12 +33,17 @@ def speeds():
 
 
 @pytest.fixture(scope="module")
+def drawn(speeds):
+    return fig3.draw(speeds)
+
+
+@pytest.fixture(scope="module")
 def amplitudes():
     return fig7.compute(rtol=1e-7)
 
 
-def series_of(data: fig3_data.Fig3Data, label: str) -> fig3_data.Series:
-    return next(series for series in data.series if series.label == label)
+def series_of(data: fig3_data.Fig3Data, label: str) -> fig3_speed.Series:
+    return next(series for series in (*data.series, *data.slips) if series.label == label)
 
 
 def rows_of(path):
@@ -44,7 +51,7 @@ def rows_of(path):
         return list(csv.DictReader(file))
 
 
-def at_alpha_shown(series: fig3_data.Series) -> tuple[float, float]:
+def at_alpha_shown(series: fig3_speed.Series) -> tuple[float, float]:
     place = np.flatnonzero(series.alpha == fig3_data.ALPHA_SHOWN)[0]
     return series.speed[place], series.error[place]
 
@@ -67,6 +74,74 @@ def test_speeds_have_the_signs_and_the_limits_of_the_theory(speeds):
     assert max(s.alpha.max() for s in speeds.series) < speeds.largest_alpha
 
 
+def symbols_of(axes, label: str):
+    """Points and ends of the error bars, (n, 2) and (n, 2, 2), of drawn symbols."""
+    drawn = next(c for c in axes.containers if c.get_label() == label)
+    return drawn.lines[0].get_xydata(), np.array(drawn.lines[2][0].get_segments())
+
+
+@pytest.mark.parametrize(
+    ("panel", "label", "body", "friction", "power"),
+    [
+        (-2, "2D, nonlinear sheet", "sheet", "coulomb", 0),
+        (-2, "1D, finite strain", "bar", "coulomb", 0),
+        *((-1, f"{name}, nonlinear sheet", "sheet", name, 2) for name in fig3_speed.REGIMES),
+    ],
+)
+def test_nonlinear_symbols_and_their_bars_are_those_of_the_table(
+    drawn, panel, label, body, friction, power
+):
+    rows = [r for r in nonlinear.read() if (r.body, r.friction) == (body, friction)]
+    alpha, speed, error = np.array([(r.alpha, r.speed, r.error) for r in rows]).T
+    points, bars = symbols_of(drawn.axes[panel], label)
+    np.testing.assert_array_equal(points[:, 0], alpha)
+    np.testing.assert_allclose(points[:, 1] * alpha**power, speed, rtol=1e-14)
+    half = np.ptp(bars[:, :, 1], axis=1) / 2 * alpha**power
+    np.testing.assert_allclose(half, error, rtol=1e-6, atol=1e-15)
+    assert np.all(error < 1e-3 * speed)
+
+
+def test_the_table_of_nonlinear_speeds_is_what_its_command_makes():
+    alpha = fig3_data.ALPHA_SHOWN
+    for friction in ("coulomb", "mixed"):
+        again = nonlinear.sheet_speed(alpha, friction, nonlinear.RTOL)
+        kept = next(
+            s for s in nonlinear.read() if (s.body, s.friction, s.alpha) == ("sheet", friction, alpha)
+        )
+        assert again.speed == pytest.approx(kept.speed, abs=again.error + kept.error)
+
+
+def test_an_absent_or_incomplete_table_is_reported_with_its_command(tmp_path):
+    path = tmp_path / "nonlinear.csv"
+    with pytest.raises(FileNotFoundError, match=r"python -m figures\.nonlinear"):
+        nonlinear.read(path)
+    nonlinear.write([s for s in nonlinear.read() if s.body == "sheet"], path)
+    with pytest.raises(ValueError, match=r"no coulomb bar.*python -m figures\.nonlinear"):
+        fig3_speed.nonlinear_speeds(nonlinear.read(path))
+
+
+def test_speed_over_alpha_squared_approaches_its_limits(speeds):
+    dry, mixed, viscous = (series_of(speeds, f"{name}, theory") for name in fig3_speed.REGIMES)
+    ratios = [s.speed / s.alpha**2 for s in (dry, mixed, viscous)]
+    assert ratios[0][0] == pytest.approx(speeds.coefficients[2][0], rel=1e-3)  # Coulomb
+    for fast, slow in itertools.pairwise(ratios):
+        assert np.all(fast > slow)
+    assert ratios[2][0] / ratios[0][0] == pytest.approx(0.535, abs=0.005)  # about half
+    linear = field_speed(airy_series(Sheet(), SineWave()), 0.2, "current", "viscous").mean / 0.2**2
+    np.testing.assert_allclose(ratios[2], linear, rtol=1e-3)  # 100 alpha L/T is viscous, at all alpha
+
+
+def test_a_nonlinear_sheet_has_the_limit_of_linear_theory_only_if_viscous(speeds):
+    lag = {}
+    for name in fig3_speed.REGIMES:
+        linear, sheet = (series_of(speeds, f"{name}, {m}") for m in ("theory", "nonlinear sheet"))
+        ratios = [s.speed[0] / s.alpha[0] ** 2 for s in (linear, sheet)]
+        lag[name] = 1 - ratios[1] / ratios[0]
+    assert lag["dry"] == pytest.approx(0.2, abs=0.01)
+    assert lag["mixed"] == pytest.approx(0.093, abs=0.01)
+    assert abs(lag["viscous"]) < 5e-4
+
+
 def test_largest_alpha_is_where_the_area_of_another_solution_vanishes(speeds):
     sheet, wave = Sheet(), SineWave()
     field = ritz_field(sheet, wave, rtol=1e-5)
@@ -84,23 +159,44 @@ def test_friction_of_both_solutions_points_the_same_way(speeds):
     assert size.max() > 1.2 > 0.8 > size.min() > 0  # more weight where the sheet has grown
 
 
-def test_figure_3_writes_what_it_shows(speeds, tmp_path):
+def test_figure_3_writes_what_it_shows(speeds, drawn, tmp_path):
     paths = fig3.write(speeds, tmp_path, ["png"])
     assert sorted(p.name for p in paths) == [
         "fig3.json", "fig3.png", "fig3_friction.csv", "fig3_speed.csv",
     ]  # fmt: skip
     shown = json.loads((tmp_path / "fig3.json").read_text())["speeds_at_alpha_shown"]
     rows = rows_of(tmp_path / "fig3_speed.csv")
-    assert len(rows) == sum(series.alpha.size for series in speeds.series)
-    axes = fig3.draw(speeds).axes[-1]
-    assert set(axes.get_legend_handles_labels()[1]) == {s.label for s in speeds.series} == set(shown)
-    symbols = next(c for c in axes.containers if c.get_label() == "2D, linear FEM")
-    written = [(float(r["alpha"]), float(r["speed"])) for r in rows if r["series"] == "2D, linear FEM"]
-    np.testing.assert_allclose(symbols.lines[0].get_xydata(), written, rtol=1e-8)
+    assert len(rows) == sum(series.alpha.size for series in (*speeds.series, *speeds.slips))
+    upper, lower = drawn.axes[-2:]
+    assert set(upper.get_legend_handles_labels()[1]) == {s.label for s in speeds.series} == set(shown)
+    for axes, label, power in (
+        (upper, "2D, linear FEM", 0),
+        (upper, "2D, nonlinear sheet", 0),
+        (lower, "mixed, nonlinear sheet", 2),
+    ):
+        chosen = [(float(r["alpha"]), float(r["speed"])) for r in rows if r["series"] == label]
+        alpha, speed = np.array(chosen).T
+        points = symbols_of(axes, label)[0]
+        np.testing.assert_allclose(points, np.stack([alpha, speed / alpha**power], 1), rtol=1e-8)
     for series in speeds.series:
         assert shown[series.label]["speed"] == pytest.approx(at_alpha_shown(series)[0], rel=1e-8)
     arrows = rows_of(tmp_path / "fig3_friction.csv")
     assert len(arrows) == 2 * np.prod(fig3_data.ARROWS)
+
+
+def test_figure_3_tells_the_numbers_of_each_slip_speed(speeds, tmp_path):
+    fig3.write(speeds, tmp_path, ["png"])
+    regimes = json.loads((tmp_path / "fig3.json").read_text())["slip_regimes"]
+    assert set(regimes) == set(fig3_speed.REGIMES)
+    for series in speeds.slips:
+        regime = regimes[series.friction]
+        assert regime["slip_speed_over_alpha"] == nonlinear.SLIPS[series.friction]
+        model = regime["linear theory" if series.kind == "theory" else "nonlinear sheet"]
+        speed, error = at_alpha_shown(series)
+        assert model["at_alpha_shown"] == pytest.approx({"speed": speed, "error": error}, rel=1e-8)
+        ratio = series.speed[0] / series.alpha[0] ** 2
+        limit = model["speed_over_alpha_squared_at_smallest_alpha"]
+        assert limit["value"] == pytest.approx(ratio, rel=1e-8)
 
 
 def test_figure_7_draws_numbers_that_differ_as_they_should(amplitudes):
