@@ -4,6 +4,7 @@
 #   make nonlinear the table of speeds that figure 3 reads, figures/data/nonlinear.csv: half a minute
 #   make test      lint, types, tests
 #   make bench     measured times and ratios
+#   make bench-shell the same for the nonlinear sheet, with memory
 #   make lock      rewrite requirements.lock after a change of dependencies
 #   make clean     remove figures and caches; `make distclean` also the environment
 #
@@ -30,7 +31,7 @@ export MKL_NUM_THREADS := 1
 
 FIGURE_OPTIONS = $(if $(OUT),--out "$(OUT)") $(if $(RTOL),--rtol $(RTOL))
 
-.PHONY: figures nonlinear test bench lock clean distclean
+.PHONY: figures nonlinear test bench bench-shell lock clean distclean
 .DEFAULT_GOAL := figures
 .DELETE_ON_ERROR:
 
@@ -49,6 +50,9 @@ test: $(STAMP)
 
 bench: $(STAMP)
 	$(RUN) -m figures.bench
+
+bench-shell: $(STAMP)
+	$(RUN) -m figures.bench_shell
 
 # setuptools comes with the lock and build isolation is off: pip fetches nothing that is not pinned.
 $(STAMP): requirements.lock pyproject.toml

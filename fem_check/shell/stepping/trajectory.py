@@ -164,9 +164,12 @@ class Trajectory:
         """Mean velocity of the last period.
 
         error: of step, mesh (where asked for) and spread between periods together; model_error:
-        distance to dry friction, see `SpeedErrors`.
+        distance to dry friction, see `SpeedErrors`. Where the sheet snaps over in that period the
+        error is a lower bound, since steps of different length take different ways: never converged.
         """
         last, errors = self._last(1), self.errors
+        snaps = bool(self.buckled[last].any())
+        model = f"Koiter shell stepped in time, {self.scene.growth_law} growth"
         mean = float(self.period_speeds[-1])
         error = float(np.nansum([errors.step, errors.spread, errors.mesh]))
         times = self.times[last]
@@ -175,11 +178,11 @@ class Trajectory:
             mean=mean,
             error=error,
             model_error=errors.slip_speed,
-            converged=self.rtol is not None and error <= self.rtol * abs(mean),
+            converged=self.rtol is not None and error <= self.rtol * abs(mean) and not snaps,
             times=times,
             velocity=velocity,
             seconds=self.seconds,
-            model=f"Koiter shell stepped in time, {self.scene.growth_law} growth",
+            model=f"{model}; snaps over" if snaps else model,
             slip_ratio=self.slip_ratio,
         )
 
