@@ -15,6 +15,7 @@ from linear_theory.line import (
     line_speed_viscous,
 )
 from linear_theory.ritz import RitzField, ritz_field
+from linear_theory.second_order import SecondOrder, second_order
 from linear_theory.sheet import Sheet
 from linear_theory.speed import CrawlSpeed
 from linear_theory.waves import SineWave, TravellingWave
@@ -26,6 +27,7 @@ __all__ = [
     "FieldWave",
     "NotConvergedError",
     "RitzField",
+    "SecondOrder",
     "Sheet",
     "SineWave",
     "TravellingWave",
@@ -41,4 +43,5 @@ __all__ = [
     "line_speed_tanh",
     "line_speed_viscous",
     "ritz_field",
+    "second_order",
 ]

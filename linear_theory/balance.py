@@ -9,7 +9,7 @@ the rotation (-y, x). It is where the convex function int (1 + alpha e) F(|w|) d
 
 For small alpha the mean of q is much smaller than q(t). Hence q = q_0 + alpha q_1: q_0 balances the
 load 1, and q_1 solves what is left, divided by alpha, with the difference quotient of f w/|w| written
-without cancellation.
+without cancellation. A velocity of second order, v = alpha v^ + alpha^2 v_2, joins q_1.
 """
 
 from collections.abc import Callable
@@ -74,7 +74,11 @@ class Balance:
         channels = [*motion.velocity, area, rate]
         if not motion.mirrored:
             channels += [np.broadcast_to(p, rate.shape) for p in motion.position]
-        self._values = np.stack(channels)  # v_x, v_y, area, e and, if the sheet may turn, x, y
+        self._second = slice(0, 0) if motion.second is None else slice(len(channels), len(channels) + 2)
+        if motion.second is not None:
+            channels += [*motion.second]
+        # v_x, v_y, area, e, then x, y if the sheet may turn, then v_2 if there is one
+        self._values = np.stack(channels)
         self._scale = float(np.sqrt(np.mean(motion.velocity**2))) or 1.0
         self._stages = [(halvings, tolerance)]
         if halvings > 2 * _COARSE_HALVINGS:
@@ -89,11 +93,11 @@ class Balance:
         starts = (None, None) if guess is None else (guess.leading[:, modes], guess.remainder[:, modes])
         leading = self._zero(self._leading, np.zeros((1, 1)), 1.0, starts[0])
         remainder = np.zeros_like(leading)
-        if np.any(self._values[3]):  # without e nothing remains
+        if np.any(self._values[3]) or np.any(self._values[self._second]):  # else nothing remains
             residual = partial(self._remainder, leading)
             remainder = self._zero(residual, leading, self._alpha, starts[1])
-        velocity = self._moved(self._values, leading + self._alpha * remainder)
-        speed = _norm(velocity)
+        change = self._change(self._values, remainder)
+        speed = _norm(self._moved(self._values, leading) + self._alpha * change)
         rest = np.mean(speed < _REST * self._scale, axis=(1, 2, 3))
         return RigidMotion(self._full(leading), self._full(remainder), rest, float(speed.max()))
 
@@ -155,7 +159,7 @@ class Balance:
 
         def integrand(values: Array, owners: Integers) -> Array:
             before = self._moved(values, first[owners])
-            change = self._moved(np.zeros_like(values[:2]), q[owners], values)
+            change = self._change(values, q[owners])
             after = before + alpha * change
             r, r_after = _norm(before), _norm(after)
             speed_slope = ((before + after) * change).sum(0) / (r + r_after)
@@ -170,7 +174,8 @@ class Balance:
 
         def motion(values: Array, owners: Integers) -> list[Array]:
             before = first[owners]
-            return [self._moved(values, before), self._moved(values, before + alpha * q[owners])]
+            slow = self._moved(values, before)
+            return [slow, slow + alpha * self._change(values, q[owners])]
 
         return self._integrate(times, integrand, motion, halvings)
 
@@ -200,6 +205,11 @@ class Balance:
             return np.stack([values[0], values[1] + spread[0]])
         x, y = (values if at is None else at)[4:6]
         return np.stack([values[0] + spread[0] - y * spread[2], values[1] + spread[1] + x * spread[2]])
+
+    def _change(self, values: Array, q: Array) -> Array:
+        """What a rigid motion q of second order and the velocity v_2 add to w/alpha, (2, ...)."""
+        still = np.zeros_like(values[:2]) if self._second.stop == 0 else values[self._second]
+        return self._moved(still, q, values)
 
     def _dot(self, mode: int, w: Array, values: Array) -> Array:
         """w . R of a rigid velocity R."""

@@ -28,6 +28,8 @@ class Motion:
     dilation: (T, c, n, n), trace of the strain.
     growth: (T, c, n, n), the wave c.
     mirrored: the cells cover x >= 0 of a motion that is mirror symmetric in x.
+    second: (2, T, c, n, n), velocity per unit alpha^2 that adds to alpha times `velocity`; None in a
+    theory of first order.
     """
 
     position: Array
@@ -36,6 +38,7 @@ class Motion:
     dilation: Array
     growth: Array
     mirrored: bool = False
+    second: Array | None = None
 
 
 @dataclass(frozen=True)

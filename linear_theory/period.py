@@ -25,16 +25,20 @@ _STICKING = 0.01  # share of the sheet at rest that counts as sticking
 class Period(NamedTuple):
     """One period of motion.
 
-    times (T,); rigid (3, T): V_x, V_y, Omega; mean of V_y and its estimated error, absolute;
-    first_order: V_1 of mean = V_1 alpha + O(alpha^2); fastest: the largest speed against the ground;
-    sticks: whether at some time a share of the sheet is at rest.
+    times (T,); rigid (3, T): V_x, V_y, Omega; orders (2, T): q_0 and q_1 of V_y; mean of V_y and its
+    estimated error, absolute;
+    first_order: V_1 of mean = V_1 alpha + O(alpha^2), and first_error, what times and cells do to it;
+    fastest: the largest speed against the ground; sticks: whether at some time a share of the sheet is
+    at rest.
     """
 
     times: Array
     rigid: Array
+    orders: Array
     mean: float
     error: float
     first_order: float
+    first_error: float
     fastest: float
     sticks: bool
 
@@ -111,12 +115,15 @@ class Crawl:
         second = self.alpha**2 * motion.remainder[:, 1]
         return second if self.starts_at_second_order else self.alpha * motion.leading[:, 1] + second
 
-    def quadrature_error(self, times: Array, motion: RigidMotion) -> float:
-        """Largest change of the counted V_y at three times by one Newton step on finer cells."""
+    def quadrature_errors(self, times: Array, motion: RigidMotion) -> tuple[float, float]:
+        """Largest change of the counted V_y, and of q_0 along y, by one Newton step on finer cells.
+
+        At three times.
+        """
         some = np.unique((np.array([0.07, 0.41, 0.77]) * times.size).astype(int))
         finer = replace(self, resolution=self.resolution.finer())
         step = finer._balance(times[some]).correction(motion.leading[some], motion.remainder[some])
-        return float(abs(self.counted(step)).max())
+        return float(abs(self.counted(step)).max()), float(abs(step.leading[:, 1]).max())
 
     def field_error(self, motion: RigidMotion) -> float:
         """What the error of the deformation does to V.
@@ -160,7 +167,7 @@ class Known(NamedTuple):
 def average(crawl: Crawl, rtol: float, atol: float) -> Period:
     """Rigid motion through a period at as many times and as finely as the tolerance needs."""
     grid = _first_grid(crawl)
-    crawl, motion, quadrature_error = _with_fine_cells(crawl, grid.times, rtol, atol)
+    crawl, motion, (quadrature_error, first_error) = _with_fine_cells(crawl, grid.times, rtol, atol)
     while True:
         mean, time_error = grid.mean(crawl.counted(motion))
         tolerance = 0.5 * max(rtol * abs(mean), atol)
@@ -169,13 +176,20 @@ def average(crawl: Crawl, rtol: float, atol: float) -> Period:
         grid, added = grid.refined(crawl.counted(motion), tolerance)
         known = Known(grid.times[~added], motion)
         motion = _joined(motion, crawl.balance(grid.times[added], known), added)
-    leading = 0.0 if crawl.starts_at_second_order else grid.mean(motion.leading[:, 1])[0]
+    leading, leading_error = grid.mean(motion.leading[:, 1])
+    if crawl.starts_at_second_order:
+        leading, leading_error, first_error = 0.0, 0.0, 0.0
     rigid = crawl.alpha * (motion.leading + crawl.alpha * motion.remainder).T
+    orders = np.stack([motion.leading[:, 1], motion.remainder[:, 1]])
+    times, whole = _whole_period(crawl, grid.times, np.concatenate([rigid, orders]))
     return Period(
-        *_whole_period(crawl, grid.times, rigid),
+        times=times,
+        rigid=whole[:3],
+        orders=whole[3:],
         mean=mean,
         error=time_error + quadrature_error + crawl.field_error(motion) + 1e-13 * abs(mean),
         first_order=leading,
+        first_error=leading_error + first_error,
         fastest=abs(crawl.alpha) * motion.fastest,
         sticks=bool(motion.rest.max() > _STICKING),
     )
@@ -183,16 +197,16 @@ def average(crawl: Crawl, rtol: float, atol: float) -> Period:
 
 def _with_fine_cells(
     crawl: Crawl, times: Array, rtol: float, atol: float
-) -> tuple[Crawl, RigidMotion, float]:
+) -> tuple[Crawl, RigidMotion, tuple[float, float]]:
     """Refine the cells until they meet their share of the tolerance at the first times."""
     for last in (False, False, True):
         motion = crawl.balance(times)
-        error = crawl.quadrature_error(times, motion)
+        errors = crawl.quadrature_errors(times, motion)
         size = abs(crawl.counted(motion).mean())
-        if last or error <= 0.3 * max(rtol * size, atol):
+        if last or errors[0] <= 0.3 * max(rtol * size, atol):
             break
         crawl = replace(crawl, resolution=crawl.resolution.finer())
-    return crawl, motion, error
+    return crawl, motion, errors
 
 
 def _first_grid(crawl: Crawl) -> TimeGrid:
@@ -214,11 +228,11 @@ def _joined(motion: RigidMotion, more: RigidMotion, added: NDArray[np.bool_]) ->
     return RigidMotion(leading, remainder, rest, max(motion.fastest, more.fastest))
 
 
-def _whole_period(crawl: Crawl, times: Array, rigid: Array) -> tuple[Array, Array]:
-    """Times (T,) and rigid motion (3, T) of one period, without its end."""
+def _whole_period(crawl: Crawl, times: Array, values: Array) -> tuple[Array, Array]:
+    """Times (T,) and values (n, T) of one period, without its end."""
     if crawl.reversal_time is None:
-        return times[:-1], rigid[:, :-1]
+        return times[:-1], values[:, :-1]
     back = slice(-2, 0, -1)
     return np.concatenate([times, 2 * times[-1] - times[back]]), np.concatenate(
-        [rigid, rigid[:, back]], 1
+        [values, values[:, back]], 1
     )

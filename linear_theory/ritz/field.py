@@ -90,7 +90,7 @@ class RitzField(LinearField):
     def __init__(self, wave: Wave, solver: RitzSolver, cases: LoadCases | None = None) -> None:
         start = time.perf_counter()
         self.sheet, self.wave, self.degree = solver.sheet, wave, solver.degree
-        self._solver = solver
+        self.solver = solver
         self._cases = cases or load_cases(wave, solver.sheet.length)
         self.mirrored = isinstance(self._cases, Harmonics)
         self._growth = self._moments()
@@ -148,18 +148,25 @@ class RitzField(LinearField):
         return legendre.values(legendre.values(self._solution, 2), 3)
 
     @cached_property
+    def gradient_polynomials(self) -> Array:
+        """du_k/dx_j of each load case in orthonormal Legendre polynomials of 2x/W and 2y/L.
+
+        (cases, k, j, degree x + 1, degree y + 1).
+        """
+        by_x = legendre.values(legendre.slopes(self._solution, 2), 3) / (self.sheet.width / 2)
+        by_y = legendre.slopes(legendre.values(self._solution, 2), 3) / (self.sheet.length / 2)
+        return np.stack([by_x, by_y], 2)
+
+    @cached_property
     def _strain_polynomials(self) -> Array:
         """Strain in orthonormal Legendre polynomials, (cases, 3, degree x + 1, degree y + 1)."""
-        x, y = self._solution[:, 0], self._solution[:, 1]
-        half_x, half_y = self.sheet.width / 2, self.sheet.length / 2
-        values, slopes = legendre.values, legendre.slopes
-        x_x, x_y = values(slopes(x, 1), 2) / half_x, slopes(values(x, 1), 2) / half_y
-        y_x, y_y = values(slopes(y, 1), 2) / half_x, slopes(values(y, 1), 2) / half_y
-        return np.stack([x_x, y_y, (x_y + y_x) / 2], 1)
+        slope = self.gradient_polynomials
+        mixed = (slope[:, 0, 1] + slope[:, 1, 0]) / 2
+        return np.stack([slope[:, 0, 0], slope[:, 1, 1], mixed], 1)
 
     def _for_times(self, t: Array) -> "RitzField":
         cases = self._cases.at(t)
-        return self if cases is self._cases else RitzField(self.wave, self._solver, cases)
+        return self if cases is self._cases else RitzField(self.wave, self.solver, cases)
 
     def _amplitudes(self, t: Array) -> Array:
         return self._cases.amplitudes(t)

@@ -103,6 +103,20 @@ class RitzSolver:
                 solution[cases] += self._solve_parity(load[cases], parity)
         return self._without_rigid_motion(solution)
 
+    def solve_stress(self, moments: Array) -> Array:
+        """Coefficients for a stress P that does the virtual work int P_kj dv_k/dx_j, mirrored in x.
+
+        moments: (cases, 2, 2, degree x + 1, degree y + 1), integrals of P_kj p_i p_j over [-1, 1]^2, of
+        a P without net force or torque, P_xx and P_yy even and P_xy and P_yx odd in x.
+        Returns (cases, 2, degree x + 1, degree y + 1), length; no mean, no mean rotation.
+        """
+        values, slopes = legendre.against_values, legendre.against_slopes
+        along = values(slopes(moments[:, :, 0], 2), 3) * (self.sheet.length / 2)
+        across = slopes(values(moments[:, :, 1], 2), 3) * (self.sheet.width / 2)
+        load = along + across
+        solution = self._solve_parity(load, (0, 0)) + self._solve_parity(load, (0, 1))
+        return self._without_rigid_motion(solution)
+
     def _load(self, moments: Array) -> Array:
         """Virtual work of the growth: int c tr(C I)/2 div(v), per test function."""
         modulus = 1 / (1 - self.sheet.poisson)
