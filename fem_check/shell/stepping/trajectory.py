@@ -170,6 +170,8 @@ class Trajectory:
         last, errors = self._last(1), self.errors
         snaps = bool(self.buckled[last].any())
         model = f"Koiter shell stepped in time, {self.scene.growth_law} growth"
+        if np.isnan(errors.mesh):
+            model += "; mesh error not estimated"
         mean = float(self.period_speeds[-1])
         error = float(np.nansum([errors.step, errors.spread, errors.mesh]))
         times = self.times[last]
