@@ -296,6 +296,14 @@ CASES = {
     "F2 exponential growth, material load": (sp.exp, one, -sp.Rational(1, 4)),
     "F3 exponential growth, current load": (sp.exp, sp.exp, sp.Rational(3, 4)),
     "F3 linear metric 1 + 2 alpha c, current load": (metric, metric, sp.Rational(5, 4)),
+    "F2 linear metric 1 + 2 alpha c, material load": (metric, one, sp.Rational(1, 4)),
+    "F1 narrow strip, exponential growth": (
+        sp.exp,
+        lambda growth: sp.exp(2 * growth),
+        sp.Rational(7, 4),
+    ),
+    "F1 narrow strip, linear lengths": (linear, lambda growth: linear(growth) ** 2, 2),
+    "F1 narrow strip, linear metric": (metric, lambda growth: 1 + 2 * growth, sp.Rational(9, 4)),
 }
 
 
@@ -315,6 +323,45 @@ def test_leading_coefficient_in_general():
     series = speed_series(lambda g: 1 + s1 * g + s2 * g**2, lambda g: 1 + w1 * g + w2 * g**2, order=2)
     assert series[:2] == [0, 0]
     assert sp.simplify(series[2] - (s1 * w1 - s2 / 2)) == 0
+
+
+def test_leading_coefficient_in_general_for_viscous_friction():
+    """mean(s w)/mean(w) - mean(s) = (s1 w1/2) alpha^2: the bend of the stretch does nothing."""
+    s1, s2, w1, w2 = sp.symbols("s1 s2 w1 w2")
+    growth = ALPHA * sp.sin(PHI)
+    stretch, weight = 1 + s1 * growth + s2 * growth**2, 1 + w1 * growth + w2 * growth**2
+
+    def mean(expression):
+        return sp.integrate(sp.expand(expression), (PHI, 0, 2 * sp.pi)) / (2 * sp.pi)
+
+    speed = mean(stretch * weight) / mean(weight) - mean(stretch)
+    assert sp.series(speed, ALPHA, 0, 3).removeO().equals(ALPHA**2 * s1 * w1 / 2)
+
+
+def test_strip_of_linear_lengths_in_closed_form():
+    """F1: stretch 1 + a c, weight its square: theta (1 + a^2/2) - (a^2/4) sin(2 theta) = 2 a cos."""
+    balance = signed((1 + ALPHA * sp.sin(PHI)) ** 2) / 4
+    closed = THETA * (1 + ALPHA**2 / 2) - ALPHA**2 / 4 * sp.sin(2 * THETA) - 2 * ALPHA * sp.cos(THETA)
+    assert sp.simplify(balance - closed) == 0
+    strip = signed(1 + 2 * ALPHA * sp.sin(PHI)) / 4  # linear metric: Kepler's equation with 2 alpha
+    assert sp.simplify(strip - (THETA - 2 * ALPHA * sp.cos(THETA))) == 0
+
+
+def test_second_order_of_any_wave():
+    """V_2 = p E|c - m|/(2 f) + s2 (m^2 - E c^2), m the median of c and f its density there (dry).
+
+    c = sin(phi) - b cos(2 phi) has median -b, density 1/pi there and E|c - m| = 2/pi.
+    """
+    b, s2, p = sp.Rational(1, 5), sp.Symbol("s2"), sp.Symbol("p")
+
+    def profile(sine):
+        return sine - b * (1 - 2 * sine**2)
+
+    series = speed_series(lambda g: 1 + g + s2 * g**2, lambda g: 1 + p * g, profile, order=2)
+    square = sp.integrate(sp.expand(profile(sp.sin(PHI)) ** 2), (PHI, 0, 2 * sp.pi)) / (2 * sp.pi)
+    assert square == sp.Rational(1, 2) + b**2 / 2
+    expected = p * (2 / sp.pi) / (2 / sp.pi) + s2 * (b**2 - square)
+    assert sp.simplify(series[2] - expected) == 0
 
 
 def test_series_and_closed_form_agree():

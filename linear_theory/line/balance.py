@@ -6,7 +6,8 @@ import numpy as np
 
 from linear_theory import validation
 from linear_theory.field import Wave
-from linear_theory.friction import LOADS, FrictionLaw
+from linear_theory.friction import FrictionLaw, warn_if_viscous
+from linear_theory.line.growth import Growth
 from linear_theory.line.samples import sampled_balance
 from linear_theory.line.travelling import travelling_balance
 from linear_theory.speed import CrawlSpeed
@@ -21,53 +22,63 @@ def line_balance(
     slip_speed: float | None = None,
     rtol: float = 1e-4,
     atol: float | None = None,
+    growth_law: str = "linear",
+    body: str = "line",
 ) -> CrawlSpeed:
     """Speed of the body 0 <= S <= 1 (L = 1, y = S - 1/2) driven by any wave c(y, t).
 
     wave: a `TravellingWave` (solved to rounding, V is constant) or anything with `period`, `value`
     and `rate` as in `field.Wave`, evaluated at x = 0 (sampled until the error meets rtol).
-    alpha: dimensionless growth coupling, 1 + alpha c > 0 everywhere.
-    load: "current", "grown" (the same on a line) or "material"; friction: "coulomb", "tanh" with
-    its `slip_speed` in length/time, or "viscous".
+    alpha: dimensionless growth coupling; growth_law: of the stretch, "exp" exp(alpha c), "linear"
+    1 + alpha c (eq. 5) or "metric" (1 + 2 alpha c)^(1/2), without expansion in alpha.
+    body: "line", its weight counted per length, or "strip", narrow, growing in both directions, its
+    weight counted per area; load: "current", "grown" (the same here) or "material", weight conserved.
+    friction: "coulomb", "tanh" with its `slip_speed` in length/time, or "viscous".
     rtol, atol: `converged` says whether error <= max(rtol |mean|, atol), atol =
     1e-3 rtol alpha^2 L/period unless given (length/time).
 
     Returns a `CrawlSpeed`, whose first_order and second_order are the limits of small alpha: for dry
-    friction on a travelling wave (median c - mean c)/(nT) and E|c - median|/(2 p nT), p the density
-    of c at its median; for tanh at a fixed slip speed they are those of viscous friction.
-    Raises ValueError, naming the place, where 1 + alpha c <= 0, and for other bad arguments.
+    friction on a travelling wave (median c - mean c)/(nT) and [p E|c - median|/(2 f) +
+    s_2 (median^2 - E c^2)]/(nT), f the density of c at its median, p and s_2 those of the body and the
+    growth law (see `travelling`); for tanh at a fixed slip speed they are those of viscous friction.
+    Raises ValueError, naming the place, where no length would be left (1 + alpha c <= 0, 1 + 2 alpha c
+    <= 0) or |alpha c| >= 100 for "exp", and for other bad arguments. Warns (ViscousRegimeWarning)
+    where friction = "tanh" acts as viscous: see `CrawlSpeed.regime`.
     """
     start = time.perf_counter()
     alpha, rtol = validation.real("alpha", alpha), validation.tolerance(rtol)
-    grows = validation.choice("load", load, LOADS) != "material"
+    growth = Growth.of(growth_law, load, body)
     law = FrictionLaw(friction, slip_speed)
     atol = 1e-3 * rtol * alpha**2 / wave.period if atol is None else validation.positive("atol", atol)
     if isinstance(wave, TravellingWave):
-        answer = travelling_balance(wave, alpha, law, grows)
+        answer = travelling_balance(wave, alpha, law, growth)
     else:
-        answer = sampled_balance(wave, alpha, law, grows, rtol, atol)
-    return CrawlSpeed(
+        answer = sampled_balance(wave, alpha, law, growth, rtol, atol)
+    found = CrawlSpeed(
         mean=answer.mean,
         error=answer.error,
         model_error=np.nan,
         converged=answer.error <= max(rtol * abs(answer.mean), atol),
         times=answer.times,
         velocity=answer.velocity,
-        slip_ratio=law.width / answer.fastest if answer.fastest else law.width and np.inf,
+        slip_ratio=law.slip_ratio(answer.fastest),
         first_order=answer.first,
         second_order=answer.second,
         sticks=answer.sticks,
         seconds=time.perf_counter() - start,
-        model=_words(law, grows),
+        model=_words(law, growth, body),
     )
+    warn_if_viscous(found, slip_speed)
+    return found
 
 
-def _words(law: FrictionLaw, grows: bool) -> str:
+def _words(law: FrictionLaw, growth: Growth, body: str) -> str:
     friction = {"coulomb": "dry friction", "viscous": "viscous friction"}.get(
         law.name, f"friction tanh(v/{law.width:g})"
     )
-    load = "load on the current length" if grows else "weight conserved"
+    shape = {"line": "body on a line", "strip": "narrow strip that grows both ways"}[body]
+    load = {0: "weight conserved", 1: "load on the current length", 2: "load on the current area"}
     return (
-        "body on a line, stretch 1 + alpha c, quasi-static, shape not affected by friction; "
-        f"{friction}, {load}"
+        f"{shape}, stretch {growth.law.words}, quasi-static, shape not affected by friction; "
+        f"{friction}, {load[growth.power]}"
     )

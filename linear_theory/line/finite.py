@@ -1,100 +1,136 @@
-"""A sine wave on a line at finite strain: the exact speed of a bar whose lengths grow by a given law.
+"""A sine wave on a line at finite strain: the exact speed of a bar or a narrow strip that grows.
 
-A body 0 <= S <= 1 (L = 1) grows by the factor s(c), c = sin(phi), phi = 2 pi (n S - t/T), so that
-x(S, t) = int_0^S s dS'. Without forces along the bar this is the shape of the nonlinear sheet in one
-dimension. As s_t = -s_S/(nT), a material point moves in the frame of the mean motion with
+A body 0 <= S <= 1 (L = 1) grows by the stretch s(alpha c), c = sin(phi), phi = 2 pi (n S - t/T), so
+that x(S, t) = int_0^S s dS'. Without forces along the body this is the shape of the nonlinear sheet in
+one dimension. In the frame of the mean motion v = -(s - mean s)/(nT), and friction (eq. 7 with the
+weight w = s^p of `growth`) balances for
 
-    v = -(s - mean s)/(nT).
+    dry       nTV = s(alpha sin(theta)) - mean s,   int_(-pi/2)^theta w = int_theta^(pi/2) w,
+    viscous   nTV = mean(s w)/mean(w) - mean s.
 
-Dry friction balances where (eq. 7 with the weight s per length, or 1 if weight is conserved)
+Stretch 1 + s_1 e + s_2 e^2 and weight 1 + w_1 e, e = alpha c, give to leading order nTV/alpha^2 =
+s_1 w_1 - s_2/2 (dry) and s_1 w_1/2 (viscous): all growth laws agree to first order in alpha c, but not
+in V, which is of second. In closed form, with M = mean s and M_3 = mean s^3,
 
-    V = (m - mean s)/(nT),   m the weighted median of s: constant in time.
+    growth law   line, current load         strip, current load            weight conserved
+    exp                                                                    1 - I_0(alpha)
+    linear       alpha sin(theta)           alpha sin(theta')              0
+    metric                                  s(alpha sin(theta_2)) - M      1 - M
+    exp          I_0(2 a)/I_0(a) - I_0(a)   I_0(3 a)/I_0(2 a) - I_0(a)     0             (viscous,
+    linear       alpha^2/2                  2 alpha^2/(2 + alpha^2)        0              a = alpha)
+    metric       1/M - M                    M_3 - M                        0
 
-All laws agree to first order in alpha c, but not in V, which is of second order: with the load on the
-current length V -> 3/4, 1, 5/4 alpha^2/(nT) for "exp", "linear" and "metric", and with conserved weight
--1/4, 0, 1/4 (F3 of the list of corrections). "linear" is eq. 5, and V that of `line_speed`.
+theta = alpha cos(theta) (`line_speed`), theta_2 = 2 alpha cos(theta_2),
+theta' (1 + alpha^2/2) - (alpha^2/4) sin(2 theta') = 2 alpha cos(theta'). For "metric", with complete
+elliptic integrals of parameter m = 4 alpha/(1 + 2 alpha), M = (2/pi) (1 + 2 alpha)^(1/2) E and
+M_3 = (2/(3 pi)) (1 + 2 alpha)^(1/2) [4 E - (1 - 2 alpha) K]; for "exp" M = I_0(alpha).
+As differences these lose their digits for small alpha; the integrals below do not.
 """
 
-from collections.abc import Callable
+import math
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from linear_theory import validation
-from linear_theory.friction import LOADS
+from linear_theory.line.growth import Growth
 from linear_theory.line.roots import bracketed_newton
 
 Array = NDArray[np.float64]
 
-STRETCHES: dict[str, Callable[[Array], Array]] = {
-    "exp": np.expm1,
-    "linear": np.positive,
-    "metric": lambda strain: 2 * strain / (1 + np.sqrt(1 + 2 * strain)),
-}
-"""s - 1 as a function of alpha c: s = exp(alpha c), 1 + alpha c and sqrt(1 + 2 alpha c)."""
+FRICTIONS = ("coulomb", "viscous")
 
-LARGEST = {"exp": np.inf, "linear": 1.0, "metric": 0.5}
-"""Bounds of |alpha|, beyond which lengths would vanish."""
+POINTS = 32
+"""Gauss points between phase 0 and the median, where stretches are >= 1 and hence smooth functions of
+the phase, and as many more as the exponent of the weight is large."""
 
-POINTS = 64
-"""Gauss points on either side of the median: enough for rounding up to |alpha| = 0.49 ("metric") and
-9 ("exp"), where 200 points were compared."""
+STEP, ENDS = 1 / 24, 76
+"""Of the double exponential rule for a quarter of the period. Stretches may vanish at one end of it:
+the square root of "metric" then has a branch point as close as one likes, to which points crowd."""
+
+BLOCK = 4096
+"""Values of alpha taken at a time: some MB of quadrature points."""
 
 
 def line_cycle_speed(
     alpha: ArrayLike,
-    law: str = "exp",
+    growth_law: str = "exp",
     load: str = "current",
     count: int = 1,
     period: float = 1.0,
+    body: str = "line",
+    friction: str = "coulomb",
 ) -> Array:
-    """Speed of the growing bar with dry friction, exact.
+    """Speed of the growing body with dry or viscous friction, exact; `line_balance` takes any wave.
 
-    alpha: dimensionless growth coupling, any shape. law: "exp", "linear" or "metric" (the square of the
-    stretch is 1 + 2 alpha c). load: "current" or "grown" (the same on a line: weight per length of the
-    grown body) or "material". count: waves on the body, any non-zero integer. period: units of time.
+    alpha: dimensionless growth coupling, any shape; |alpha| < 1 for "linear", 1/2 for "metric" and 100
+    for "exp". growth_law: of the stretch, "exp" exp(alpha c), "linear" 1 + alpha c or "metric"
+    (1 + 2 alpha c)^(1/2). load: "current" or "grown" (the same here), weight per length of a "line" and
+    per area of a narrow "strip" that grows both ways (`body`), or "material", weight conserved.
+    count: waves on the body, any non-zero integer. period: units of time. friction: "coulomb" or
+    "viscous"; the law tanh(v/v0) is in `line_balance`.
 
-    Returns the shape of alpha, length/time, positive towards +y; absolute error about 1e-15/(nT).
-    Raises ValueError for other names and for |alpha| so large that a length would vanish.
+    Returns the shape of alpha, length/time, positive towards +y, with a relative error of about 1e-15
+    of the terms of the formulas above. Raises ValueError for other names and for |alpha| so large that
+    a length would vanish.
     """
     strength = validation.real_array("alpha", alpha)
-    validation.choice("law", law, tuple(STRETCHES))
-    grows = validation.choice("load", load, LOADS) != "material"
+    growth = Growth.of(growth_law, load, body)
     unit = validation.wave_count(count) * validation.positive("period", period)
+    dry = validation.choice("friction", friction, FRICTIONS) == "coulomb"
+    limit = min(-growth.law.lowest, growth.law.highest)
     worst = strength.flat[abs(strength).argmax()] if strength.size else 0.0
-    if abs(worst) >= LARGEST[law]:
+    if abs(worst) >= limit:
         raise ValueError(
-            f"alpha = {worst:g}: must be in (-{LARGEST[law]:g}, {LARGEST[law]:g}) for {law!r}"
+            f"alpha = {worst:g}: must be in (-{limit:g}, {limit:g}) for growth_law = {growth_law!r}"
         )
-    change = STRETCHES[law]
     # (alpha, c) and (-alpha, -c) are the same growth, half a period apart.
-    size = abs(strength)
-    angle = _median_angle(size, change) if grows else np.zeros(size.shape)
-    return np.asarray((change(size * np.sin(angle)) - _mean(size, change)) / unit)
+    size = abs(strength).ravel()
+    solve = _dry if dry else _viscous
+    blocks = [solve(size[i : i + BLOCK], growth) for i in range(0, size.size, BLOCK)]
+    return np.asarray(np.concatenate([*blocks, size[:0]]).reshape(strength.shape) / unit)
 
 
-def _mean(alpha: Array, change: Callable[[Array], Array]) -> Array:
-    """Mean of s - 1 over the phase."""
-    below, above = _halves(alpha, np.zeros(alpha.shape), change)
-    return np.asarray((below + above) / np.pi)
+def _dry(alpha: Array, growth: Growth) -> Array:
+    sine = np.sin(_median_angle(alpha, growth))
+    return np.asarray(growth.rise(alpha * sine) - _mean_rise(alpha, growth))
 
 
-def _median_angle(alpha: Array, change: Callable[[Array], Array]) -> Array:
-    """theta with the weight s on (-pi/2, theta) equal to that on (theta, pi/2)."""
+def _viscous(alpha: Array, growth: Growth) -> Array:
+    x, weights = _strains(alpha)
+    gain, mean = growth.gain(x), _mean_rise(alpha, growth)
+    moment = np.sum(weights * gain * (growth.rise(x) - mean[:, None]), axis=1)
+    return np.asarray(moment / (1 + np.sum(weights * gain, axis=1)))
+
+
+def _mean_rise(alpha: Array, growth: Growth) -> Array:
+    """mean s - 1: the mean of the linear part is 0."""
+    x, weights = _strains(alpha)
+    return np.asarray(np.sum(weights * x**2 * growth.bend(x), axis=1))
+
+
+def _median_angle(alpha: Array, growth: Growth) -> Array:
+    """theta: the weight between phases 0 and theta is half of the difference of those of both signs."""
+    if growth.power == 0:
+        return np.zeros(alpha.shape)
+    x, weights = _strains(alpha)
+    target = np.pi / 2 * np.sum(weights * abs(growth.gain(x)), axis=1)
+    exponent = growth.power * alpha.max(initial=0.0)
+    nodes, shares = np.polynomial.legendre.leggauss(POINTS + math.ceil(exponent))
 
     def balance(angle: Array) -> tuple[Array, Array]:
-        below, above = _halves(alpha, angle, change)
-        return 2 * angle + below - above, 2 * (1 + change(alpha * np.sin(angle)))
+        phase = angle[:, None] / 2 * (1 + nodes)
+        gain = growth.gain(alpha[:, None] * np.sin(phase)) @ shares / 2
+        return angle * (1 + gain) - target, 1 + growth.gain(alpha * np.sin(angle))
 
     return bracketed_newton(balance, np.zeros(alpha.shape), np.pi / 2, np.minimum(alpha, 1.0))
 
 
-def _halves(alpha: Array, angle: Array, change: Callable[[Array], Array]) -> tuple[Array, Array]:
-    """Integrals of s - 1 over phases from -pi/2 to `angle` and from there to pi/2."""
-    nodes, weights = np.polynomial.legendre.leggauss(POINTS)
-    sums = []
-    for end in (-np.pi / 2, np.pi / 2):
-        half = (angle - end)[..., None] / 2
-        values = change(alpha[..., None] * np.sin(end + half * (1 + nodes)))
-        sums.append(np.asarray(abs(half[..., 0]) * (values @ weights)))
-    return sums[0], sums[1]
+def _strains(alpha: Array) -> tuple[Array, Array]:
+    """alpha sin(phi) at both signs of the points of a quarter period, and weights of their mean."""
+    t = STEP * np.arange(-ENDS, ENDS + 1.0)
+    # The phase from the turning point, pi/2 (1 + tanh(pi/2 sinh t))/2
+    share = 1 / (1 + np.exp(-np.pi * np.sinh(t)))
+    weights = STEP * np.pi * np.cosh(t) * share * (1 - share) / 2
+    sine = np.cos(np.pi / 2 * share)
+    return alpha[:, None] * np.concatenate([sine, -sine]), np.concatenate([weights, weights])

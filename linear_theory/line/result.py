@@ -21,6 +21,13 @@ more under pulses with gaps.
 """
 
 
+class Level(NamedTuple):
+    """A speed in units of |alpha|/(nT), and its error."""
+
+    value: float
+    error: float
+
+
 class Balance(NamedTuple):
     """Speeds of a balanced body: mean and its error, V(t), the largest speed against the ground.
 

@@ -1,13 +1,18 @@
 """Friction balance of any wave c(S, t) on a line, from samples.
 
-Eqs 5 and 6 give the velocity in the frame of the mean motion, alpha g, g = int_0^S c_t dS' less its
-mean; eq. 7 is balanced at every time by
+Eqs 5 and 6 with the stretch s(alpha c) give the velocity in the frame of the mean motion, alpha g,
+g = int_0^S s'(alpha c) c_t dS' less its mean; eq. 7 is balanced at every time by
 
-    V(t) = -alpha m,   m the weighted median of g over the body, weight 1 + alpha c      (dry)
+    V(t) = -alpha m,   m the median of g over the body, weighted with s^p (see `growth`)   (dry)
 
-or by the root of the tanh law. Here c_t, hence g, is linear between equidistant points and the
+or by the root of the tanh law. Here s' c_t is linear between equidistant points, as is g, and the
 weight constant there: every step after that is exact, so the error falls with the square of the
 spacing, and samples and times are doubled until the last change meets the tolerance.
+
+For small alpha g = g_1 + alpha s_2 g_2 + ..., g_1 = int c_t, g_2 = int 2 c c_t, both less their means.
+With m_0 the median of g_1, f its density there and E_0 the mean over the places where g_1 = m_0,
+
+    V = -alpha m_0 + alpha^2 (p E[c sgn(m_0 - g_1)]/(2 f) - s_2 E_0[g_2]) + ...
 """
 
 import math
@@ -19,6 +24,7 @@ from numpy.typing import NDArray
 from linear_theory import validation
 from linear_theory.field import Wave
 from linear_theory.friction import FrictionLaw
+from linear_theory.line.growth import Growth
 from linear_theory.line.result import REST_PART, REST_SPEED, Balance
 from linear_theory.line.roots import EPS, bracketed_newton
 
@@ -43,16 +49,16 @@ class Snapshot(NamedTuple):
 
 
 def sampled_balance(
-    wave: Wave, alpha: float, law: FrictionLaw, grows: bool, rtol: float, atol: float
+    wave: Wave, alpha: float, law: FrictionLaw, growth: Growth, rtol: float, atol: float
 ) -> Balance:
-    """Speed of a general wave; raises ValueError if 1 + alpha c <= 0 at a sampled point."""
+    """Speed of a general wave; raises ValueError if a sampled strain is out of the range of the law."""
     period = float(wave.period)
     cells = times = FEWEST
     space = time = math.inf
     while True:
         instants: Array = period / times * np.arange(float(times))
-        fine = _snapshots(wave, alpha, law, grows, instants, 2 * cells)
-        coarse = _snapshots(wave, alpha, law, grows, instants, cells)
+        fine = _snapshots(wave, alpha, law, growth, instants, 2 * cells)
+        coarse = _snapshots(wave, alpha, law, growth, instants, cells)
         mean = float(fine.velocity.mean())
         # A difference may vanish by chance; a quarter of the one before, for second order, does not.
         last_space, space = space, abs(mean - float(coarse.velocity.mean()))
@@ -79,34 +85,31 @@ def sampled_balance(
 
 
 def _snapshots(
-    wave: Wave, alpha: float, law: FrictionLaw, grows: bool, times: Array, cells: int
+    wave: Wave, alpha: float, law: FrictionLaw, growth: Growth, times: Array, cells: int
 ) -> Snapshot:
     step = max(1, BLOCK // cells)
     parts = [
-        _snapshot(wave, alpha, law, grows, times[i : i + step, None], cells)
+        _snapshot(wave, alpha, law, growth, times[i : i + step, None], cells)
         for i in range(0, times.size, step)
     ]
     return Snapshot(*(np.concatenate(column) for column in zip(*parts, strict=True)))
 
 
 def _snapshot(
-    wave: Wave, alpha: float, law: FrictionLaw, grows: bool, times: Array, cells: int
+    wave: Wave, alpha: float, law: FrictionLaw, growth: Growth, times: Array, cells: int
 ) -> Snapshot:
     y = np.linspace(-0.5, 0.5, cells + 1)
-    growth, rate = (_on_grid(f(0.0, y, times), times, y) for f in (wave.value, wave.rate))
-    _check_stretch(alpha, growth, times, y)
-    g = np.zeros_like(rate)
-    np.cumsum(_middle(rate) / cells, axis=1, out=g[:, 1:])
-    g -= _middle(g).mean(axis=1, keepdims=True)
-    mean_growth = _middle(growth) if grows else np.zeros((times.size, cells))
-    weight = (1 + alpha * mean_growth) / cells
+    c, rate = (_on_grid(f(0.0, y, times), times, y) for f in (wave.value, wave.rate))
+    _check_strain(alpha, c, times, y, growth)
+    g = _less_mean(growth.slope(alpha * c) * rate)
+    weight = (1 + _middle(growth.gain(alpha * c))) / cells
     if law.width == 0:
         level, _ = _weighted_median(g, weight)
         velocity = -alpha * level
-        first, second = _dry_coefficients(g, mean_growth)
+        first, second = _dry_coefficients(c, rate, growth)
     else:
         velocity = -alpha * np.sum(weight * _middle(g), axis=1) / weight.sum(axis=1)
-        first, second = np.zeros(times.size), -np.mean(mean_growth * _middle(g), axis=1)
+        first, second = np.zeros(times.size), _viscous_coefficient(c, rate, growth)
         if law.slip_speed is not None:
             velocity = _tanh_speed(alpha * g, weight, law.slip_speed, velocity)
     slip = velocity[:, None] + alpha * g
@@ -119,14 +122,19 @@ def _on_grid(values: Array, times: Array, y: Array) -> Array:
     return np.broadcast_to(validation.real_array("wave", values), (times.size, y.size))
 
 
-def _check_stretch(alpha: float, growth: Array, times: Array, y: Array) -> None:
-    stretch = 1 + alpha * growth
-    row, column = np.unravel_index(stretch.argmin(), stretch.shape)
-    if stretch[row, column] <= 0:
-        raise ValueError(
-            f"alpha = {alpha:g}: 1 + alpha c = {stretch[row, column]:g} at S = {y[column] + 0.5:.4g}, "
-            f"t = {times[row, 0]:.4g}, must be > 0"
-        )
+def _check_strain(alpha: float, c: Array, times: Array, y: Array, growth: Growth) -> None:
+    worst = growth.misplaced(alpha * c)
+    if worst is not None:
+        row, column = np.unravel_index(worst, c.shape)
+        place = f"S = {y[column] + 0.5:.4g}, t = {times[row, 0]:.4g}"
+        raise growth.refusal(alpha, float(alpha * c[row, column]), place)
+
+
+def _less_mean(rate: Array) -> Array:
+    """int rate dS from one end of the body to every point, less its mean."""
+    g = np.zeros_like(rate)
+    np.cumsum(_middle(rate) / (rate.shape[1] - 1), axis=1, out=g[:, 1:])
+    return np.asarray(g - _middle(g).mean(axis=1, keepdims=True))
 
 
 def _middle(values: Array) -> Array:
@@ -164,21 +172,40 @@ def _weighted_median(g: Array, weight: Array) -> tuple[Array, Array]:
     return level, _part_below(g, level[:, None])
 
 
-def _density(g: Array, level: Array) -> Array:
-    """Part of the body per unit of g at a level, (times,); infinite on a flat cell."""
+def _at_level(g: Array, level: Array) -> Array:
+    """Part of the body per unit of g at a level, by cell, (times, cells); infinite on a flat cell."""
     low, high = np.minimum(g[:, 1:], g[:, :-1]), np.maximum(g[:, 1:], g[:, :-1])
     at = level[:, None]
     with np.errstate(divide="ignore"):
-        return np.mean(
-            np.where((low < at) & (at <= high) | (low == high) & (low == at), 1 / (high - low), 0),
-            axis=1,
-        )
+        there = (low < at) & (at <= high) | (low == high) & (low == at)
+        return np.where(there, 1 / (high - low), 0) / low.shape[1]
 
 
-def _dry_coefficients(g: Array, growth: Array) -> tuple[Array, Array]:
-    """Of V = V1 alpha + V2 alpha^2: V1 = -m0, V2 = E[c sgn(m0 - g)]/(2 p(m0))."""
-    level, below = _weighted_median(g, np.full(growth.shape, 1 / growth.shape[1]))
-    return -level, np.mean(growth * (2 * below - 1), axis=1) / (2 * _density(g, level))
+def _dry_coefficients(c: Array, rate: Array, growth: Growth) -> tuple[Array, Array]:
+    """Of V = V1 alpha + V2 alpha^2, as in the module's head, each (times,)."""
+    g, mean_growth = _less_mean(rate), _middle(c)
+    level, below = _weighted_median(g, np.full(mean_growth.shape, 1 / mean_growth.shape[1]))
+    density = _at_level(g, level)
+    weighed = np.mean(mean_growth * (2 * below - 1), axis=1) / (2 * density.sum(axis=1))
+    second = growth.power * weighed
+    if growth.curvature:
+        second = second - growth.curvature * _mean_at(_less_mean(2 * c * rate), g, level, density)
+    return -level, second
+
+
+def _mean_at(values: Array, g: Array, level: Array, density: Array) -> Array:
+    """Mean of linear values over the places where g meets a level, (times,): where flat, over flats."""
+    flat = np.isinf(density)
+    share = np.where(flat.any(axis=1, keepdims=True), flat, density)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        place = np.where(flat, 0.5, (level[:, None] - g[:, :-1]) / np.diff(g, axis=1))
+    here = values[:, :-1] + np.where(share > 0, place, 0.0) * np.diff(values, axis=1)
+    return np.asarray(np.sum(share * here, axis=1) / share.sum(axis=1))
+
+
+def _viscous_coefficient(c: Array, rate: Array, growth: Growth) -> Array:
+    """Of alpha^2: the mean of v weighted with 1 + p alpha c, whatever the stretch; (times,)."""
+    return np.asarray(-growth.power * np.mean(_middle(c) * _middle(_less_mean(rate)), axis=1))
 
 
 def _tanh_speed(velocity: Array, weight: Array, slip_speed: float, guess: Array) -> Array:

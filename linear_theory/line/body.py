@@ -1,0 +1,95 @@
+"""A body that carries a travelling wave: its speeds and its weight as functions of one number, g.
+
+With n whole waves on the body, s_t = -s_S/(nT), so that in the frame of the mean motion a piece moves
+at all times with
+
+    v = -(s - mean s)/(nT) = -(alpha/nT) (z - mean z),   z = (s - s_0)/alpha = g (s_1 + alpha g bend),
+
+s_0, s_1 and `bend` those of the mean growth (see `growth`), g = c - mean c. As mean g = 0, mean z =
+alpha mean(g^2 bend): of order alpha, known to its last digits.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linear_theory.line.growth import Growth
+from linear_theory.line.profile import Profile
+from linear_theory.line.roots import EPS
+from linear_theory.waves import TravellingWave
+
+Array = NDArray[np.float64]
+
+NOISE = 64 * EPS
+"""Strains closer than this part of all amplitudes to a bound cannot be told from it."""
+
+
+@dataclass(frozen=True)
+class Body:
+    """Of a wave of the given profile, |alpha| = `size`; growth is that about the mean strain.
+
+    Speeds are in units of |alpha|/(nT), and g has the sign of alpha (c - mean c).
+    """
+
+    profile: Profile
+    growth: Growth
+    size: float
+
+    @classmethod
+    def of(cls, wave: TravellingWave, alpha: float, growth: Growth) -> "Body":
+        """Raises ValueError, naming the phase, where a strain is beyond the range of the law."""
+        sign = -1.0 if alpha < 0 else 1.0  # (alpha, c) and (-alpha, -c) are the same growth
+        profile, size = Profile.of(wave, sign), abs(alpha)
+        strain = alpha * wave.mean + size * profile.values
+        worst = growth.misplaced(strain, NOISE * size * (profile.scale + abs(wave.mean)))
+        if worst is not None:
+            place = f"the phase {profile.nodes[worst]:.4g} of the wave"
+            raise growth.refusal(alpha, float(strain[worst]), place)
+        growth = growth.about(alpha * wave.mean)
+        stretch = growth.law.stretch
+        return cls(profile.resolved(lambda g: stretch(growth.start + size * g)), growth, size)
+
+    def height(self, g: Array) -> Array:
+        """z."""
+        return self.straight(g) + self.bent(g)
+
+    def straight(self, g: Array) -> Array:
+        """s_1 g, odd in g."""
+        return self.growth.slope(0.0) * g
+
+    def bent(self, g: Array) -> Array:
+        """z - s_1 g, of order alpha."""
+        return self.size * g**2 * self.growth.bend(self.size * g)
+
+    def slope(self, g: float) -> float:
+        """dz/dg."""
+        return float(self.growth.slope(self.size * g))
+
+    def gain(self, g: Array) -> Array:
+        """w/w_0 - 1."""
+        return self.growth.gain(self.size * g)
+
+    @cached_property
+    def mean_height(self) -> float:
+        """Mean of z."""
+        return self.profile.mean(self.bent)
+
+    @cached_property
+    def noise(self) -> float:
+        """Rounding error of mean_height: that of g, through dz/dg - s_1, and that of the sum."""
+        steep = self.profile.mean(
+            lambda g: abs(self.growth.slope(self.size * g) - self.growth.slope(0.0))
+        )
+        return 4 * EPS * (self.profile.scale * steep + 2 * abs(self.mean_height))
+
+    @cached_property
+    def range(self) -> tuple[float, float]:
+        """Least and largest speed, z - mean z."""
+        ends = self.height(np.array([self.profile.values.min(), self.profile.values.max()]))
+        return float(ends[0]) - self.mean_height, float(ends[1]) - self.mean_height
+
+    def fastest(self, level: float) -> float:
+        """Largest speed against the ground of a body that moves with `level`."""
+        return max(abs(end - level) for end in self.range)
