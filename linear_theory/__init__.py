@@ -2,11 +2,12 @@
 
 from linear_theory.airy import AirySeries, airy_series
 from linear_theory.crawl import crawl_speed, field_speed, friction_field
-from linear_theory.errors import NotConvergedError
+from linear_theory.errors import NotConvergedError, ViscousRegimeWarning
 from linear_theory.field_wave import FieldWave
 from linear_theory.line import (
     LAPLACE_LIMIT,
     line_balance,
+    line_cycle_series,
     line_cycle_speed,
     line_series,
     line_speed,
@@ -14,6 +15,7 @@ from linear_theory.line import (
     line_speed_tanh,
     line_speed_viscous,
 )
+from linear_theory.path import rigid_path
 from linear_theory.ritz import RitzField, ritz_field
 from linear_theory.second_order import SecondOrder, second_order
 from linear_theory.sheet import Sheet
@@ -31,17 +33,20 @@ __all__ = [
     "Sheet",
     "SineWave",
     "TravellingWave",
+    "ViscousRegimeWarning",
     "airy_series",
     "crawl_speed",
     "field_speed",
     "friction_field",
     "line_balance",
+    "line_cycle_series",
     "line_cycle_speed",
     "line_series",
     "line_speed",
     "line_speed_series",
     "line_speed_tanh",
     "line_speed_viscous",
+    "rigid_path",
     "ritz_field",
     "second_order",
 ]

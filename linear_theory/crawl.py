@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 from linear_theory import validation
 from linear_theory.airy import airy_series
 from linear_theory.field import LinearField, Wave
-from linear_theory.friction import LOADS, FrictionLaw, load_rate
+from linear_theory.friction import LOADS, FrictionLaw, load_rate, warn_if_viscous
 from linear_theory.period import Crawl, average, first_resolution
 from linear_theory.ritz import ritz_field
 from linear_theory.second_order import check_model, second_order_speed
@@ -54,24 +54,19 @@ def crawl_speed(
 
     Raises ValueError for bad input, among it an alpha so large that the area element
     1 + alpha tr(strain) is not positive somewhere (order 1) or that lengths vanish (order 2).
+    Warns (ViscousRegimeWarning) where friction = "tanh" acts as viscous: see `CrawlSpeed.regime`.
     """
     check_model(order, growth_law, area)
     if order == 2:
         validation.choice("method", method, ("auto", "ritz"))
-        return second_order_speed(
+        found = second_order_speed(
             sheet, wave, alpha, growth_law, area, load, friction, slip_speed, rtol, atol
         )
-    validation.choice("method", method, METHODS)
-    travelling = isinstance(wave, TravellingWave)
-    if method == "airy" and not travelling:
-        raise ValueError("method = 'airy': must be 'ritz' for a wave that depends on x")
-    field_rtol = max(0.1 * validation.tolerance(rtol), validation.SMALLEST_RTOL)
-    field: LinearField
-    if method != "ritz" and isinstance(wave, TravellingWave):
-        field = airy_series(sheet, wave, rtol=field_rtol)
     else:
-        field = ritz_field(sheet, wave, rtol=field_rtol)
-    return field_speed(field, alpha, load, friction, slip_speed, rtol, atol)
+        field = _field(sheet, wave, rtol, method)
+        found = _field_speed(field, alpha, load, friction, slip_speed, rtol, atol)
+    warn_if_viscous(found, slip_speed)
+    return found
 
 
 def field_speed(
@@ -84,6 +79,33 @@ def field_speed(
     atol: float | None = None,
 ) -> CrawlSpeed:
     """`crawl_speed` for a deformation that is known: series, Ritz or finite elements."""
+    found = _field_speed(field, alpha, load, friction, slip_speed, rtol, atol)
+    warn_if_viscous(found, slip_speed)
+    return found
+
+
+def _field(sheet: Sheet, wave: Wave, rtol: float, method: str) -> LinearField:
+    """Deformation of first order for a speed that is right to rtol."""
+    validation.choice("method", method, METHODS)
+    travelling = isinstance(wave, TravellingWave)
+    if method == "airy" and not travelling:
+        raise ValueError("method = 'airy': must be 'ritz' for a wave that depends on x")
+    field_rtol = max(0.1 * validation.tolerance(rtol), validation.SMALLEST_RTOL)
+    if method != "ritz" and isinstance(wave, TravellingWave):
+        return airy_series(sheet, wave, rtol=field_rtol)
+    return ritz_field(sheet, wave, rtol=field_rtol)
+
+
+def _field_speed(
+    field: LinearField,
+    alpha: float,
+    load: str,
+    friction: str,
+    slip_speed: float | None,
+    rtol: float,
+    atol: float | None,
+) -> CrawlSpeed:
+    """`field_speed` without its warning."""
     start = time.perf_counter()
     alpha = validation.real("alpha", alpha)
     rtol = validation.tolerance(rtol)
@@ -104,7 +126,7 @@ def field_speed(
         velocity=period.rigid[1],
         seconds=field.seconds + time.perf_counter() - start,
         model=_model(field, load, law),
-        slip_ratio=law.width / period.fastest,
+        slip_ratio=law.slip_ratio(period.fastest),
         first_order=period.first_order,
         sticks=period.sticks,
         rigid=None if field.mirrored else period.rigid,
@@ -155,9 +177,8 @@ class FrictionField(NamedTuple):
 def _at_rest(field: LinearField, load: str, law: FrictionLaw) -> CrawlSpeed:
     """No growth, no motion."""
     nothing = np.zeros(1)
-    return CrawlSpeed(
-        0.0, 0.0, 0.0, True, nothing, nothing, field.seconds, _model(field, load, law), math.inf, 0.0
-    )
+    words, ratio = _model(field, load, law), law.slip_ratio(0.0)
+    return CrawlSpeed(0.0, 0.0, 0.0, True, nothing, nothing, field.seconds, words, ratio, 0.0)
 
 
 def _model(field: LinearField, load: str, law: FrictionLaw) -> str:

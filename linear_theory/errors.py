@@ -1,4 +1,4 @@
-"""What is raised when a solver misses its tolerance."""
+"""What is raised when a solver misses its tolerance, and what is warned of."""
 
 from typing import Any
 
@@ -9,3 +9,7 @@ class NotConvergedError(RuntimeError):
     def __init__(self, message: str, best: Any) -> None:
         super().__init__(message)
         self.best = best
+
+
+class ViscousRegimeWarning(UserWarning):
+    """A law that stands for dry friction acts as viscous: its slip speed is above all speeds."""

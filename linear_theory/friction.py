@@ -4,6 +4,8 @@ The force on an element is -mu N f(|w|) w/|w|, w its velocity against the ground
 cancels in the balance of a sheet that friction does not deform.
 """
 
+import math
+import warnings
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,7 +13,9 @@ from numpy.typing import NDArray
 
 from linear_theory import validation
 from linear_theory.cells import gauss
+from linear_theory.errors import ViscousRegimeWarning
 from linear_theory.motion import Motion
+from linear_theory.speed import DRY_RATIO, CrawlSpeed
 
 Array = NDArray[np.float64]
 
@@ -42,6 +46,12 @@ class FrictionLaw:
     def width(self) -> float:
         """Speed over which the force turns round: 0 for Coulomb, infinite for viscous friction."""
         return {"coulomb": 0.0, "viscous": np.inf}.get(self.name, self.slip_speed or 0.0)
+
+    def slip_ratio(self, fastest: float) -> float:
+        """`width` over the largest speed (see `CrawlSpeed`); Coulomb friction is dry at rest, too."""
+        if self.width == 0:
+            return 0.0
+        return self.width / fastest if fastest > 0 else math.inf
 
     def scaled(self, factor: float) -> "FrictionLaw":
         """The law for speeds divided by `factor`."""
@@ -80,6 +90,24 @@ class FrictionLaw:
 
     def _force(self, r: Array) -> Array:
         return np.ones_like(r) if self.name == "coulomb" else np.tanh(r / self.width)
+
+
+def warn_if_viscous(found: CrawlSpeed, slip_speed: float | None) -> None:
+    """Warn where friction tanh(v/slip_speed), which stands for dry friction, acts as viscous.
+
+    slip_speed: None for laws that have none, which are what they are called. To be called by the
+    function that the user calls, to whose line the warning points. No warning where nothing moves.
+    """
+    if slip_speed is None or found.regime != "viscous" or math.isinf(found.slip_ratio):
+        return
+    fastest = slip_speed / found.slip_ratio
+    warnings.warn(
+        f"slip_speed = {slip_speed:.4g} is {found.slip_ratio:.3g} times the largest speed against the "
+        f"ground, {fastest:.3g}: friction tanh(v/slip_speed) acts as viscous; at such speeds it is dry "
+        f"for a slip_speed below about {DRY_RATIO * fastest:.3g}",
+        ViscousRegimeWarning,
+        stacklevel=3,
+    )
 
 
 def load_rate(load: str, dilation: Array, growth: Array) -> Array:

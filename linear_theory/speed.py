@@ -1,11 +1,32 @@
 """The answer to the one question: how fast, how sure, at what cost."""
 
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
+
+Regime = Literal["dry", "mixed", "viscous", "none"]
+
+DRY_RATIO = 0.05
+"""Slip ratio up to which tanh(v/v0) is dry friction. The speed of the paper's sheet has gone there 0.2
+to 1.2 % of the way from its dry to its viscous value under a sine wave (alpha from 0.02 to 0.3), 4 to
+9 % under a pulse of two harmonics, whose speed is of first order."""
+
+VISCOUS_RATIO = 1.0
+"""Slip ratio from which it is viscous: v0 is above all speeds at all times. The speed of the paper's
+sheet has gone there 90 % of the way under a sine wave, 94 to 96 % under the pulse."""
+
+
+def regime_of(slip_ratio: float) -> Regime:
+    """Regime of friction at a slip ratio (see `CrawlSpeed`); "none" for NaN, which is no friction."""
+    if np.isnan(slip_ratio):
+        return "none"
+    if slip_ratio <= DRY_RATIO:
+        return "dry"
+    return "viscous" if slip_ratio >= VISCOUS_RATIO else "mixed"
 
 
 @dataclass(frozen=True)
@@ -21,7 +42,8 @@ class CrawlSpeed:
     first_order, second_order: V_1 and V_2 of V = V_1 alpha + V_2 alpha**2 + ..., within this model;
     NaN where they were not computed.
     slip_ratio: slip speed of the friction law over the largest speed relative to the ground: dry
-    friction where it is << 1, viscous where it is >> 1; 0 for Coulomb, infinite for viscous.
+    friction where it is << 1, viscous where it is >> 1; 0 for Coulomb, infinite for viscous, and for
+    tanh where nothing moves; NaN without friction. `regime` is what it means.
     sticks: whether at some time part of the sheet is at rest and a range of forces is balanced,
     so that V is the value that the regularised law selects.
     seconds: time spent, set-up and solution; model: what is assumed, in words.
@@ -40,3 +62,8 @@ class CrawlSpeed:
     second_order: float = np.nan
     sticks: bool = False
     rigid: Array | None = None
+
+    @property
+    def regime(self) -> Regime:
+        """Friction as the sheet meets it: "dry", "mixed", "viscous", or "none" where there is none."""
+        return regime_of(self.slip_ratio)

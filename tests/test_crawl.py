@@ -63,6 +63,7 @@ def test_tanh_law_solves_its_balance(paper_field, slip):
     assert found == pytest.approx(literal, abs=2e-6)
 
 
+@pytest.mark.filterwarnings("ignore::linear_theory.ViscousRegimeWarning")
 def test_tanh_law_joins_dry_and_viscous_friction():
     speeds = {
         slip: crawl_speed(PAPER, SINE, 0.1, friction="tanh", slip_speed=slip, rtol=1e-5)

@@ -40,6 +40,7 @@ def block(incline: float = 0.0, inertia: bool = False, weight: float = WEAK) -> 
     return Scene(PAPER, SineWave(), 0.0, effects=effects, cells=(1, 2))
 
 
+@pytest.mark.filterwarnings("ignore::linear_theory.ViscousRegimeWarning")
 @pytest.mark.parametrize("share", [-0.9, 0.3, 0.9, 0.99])
 def test_a_block_on_an_incline_creeps(share: float) -> None:
     """Below tan theta = mu it sticks, but for the creep v0 artanh(tan theta/mu) of the tanh law."""
@@ -145,6 +146,7 @@ def test_a_mirrored_wave_crawls_the_other_way() -> None:
     assert there.speed.mean > 0.05
 
 
+@pytest.mark.filterwarnings("ignore::linear_theory.ViscousRegimeWarning")
 def test_a_mirrored_wave_crawls_the_other_way_on_the_ground() -> None:
     options = {"steps": 24, "periods": 1}
     there = simulate(lying(), **options)
@@ -166,6 +168,7 @@ class Slope:
         return np.stack([self.rise * y, zero, zero + self.rise, zero, zero, zero])
 
 
+@pytest.mark.filterwarnings("ignore::linear_theory.ViscousRegimeWarning")
 def test_a_sheet_creeps_down_a_slope_of_the_ground() -> None:
     """Ground given by its height, vertical weight: the same creep, along the slope."""
     rise = 0.5 * MU

@@ -25,7 +25,7 @@ from fem_check.shell.statics.newton import Minimiser
 from fem_check.shell.stepping.simulation import Progress, simulate
 from fem_check.shell.stepping.step_control import History, StepSize
 from fem_check.shell.stepping.trajectory import Trajectory
-from linear_theory import Sheet, SineWave, TravellingWave
+from linear_theory import Sheet, SineWave, TravellingWave, ViscousRegimeWarning
 from tests.shell_scenes import MATERIAL, PAPER, STIFFNESS, WEIGHT, lying, planar
 
 ALPHA = 0.25
@@ -76,6 +76,7 @@ def test_speeds_are_of_second_order_in_the_step(refined: dict[int, Trajectory]) 
     assert errors[32] / errors[64] == pytest.approx(4, rel=0.1)
 
 
+@pytest.mark.filterwarnings("ignore::linear_theory.ViscousRegimeWarning")
 @pytest.mark.parametrize("slip", [1e-3, 10.0])
 @pytest.mark.parametrize("alpha", [0.1, ALPHA])
 def test_the_stepper_agrees_with_the_cycle_of_shapes(alpha: float, slip: float) -> None:
@@ -89,7 +90,8 @@ def test_the_stepper_agrees_with_the_cycle_of_shapes(alpha: float, slip: float) 
 
 
 def test_viscous_friction_crawls_a_third_slower(refined: dict[int, Trajectory]) -> None:
-    viscous = simulate(planar(ALPHA, slip=10.0), steps=64)
+    with pytest.warns(ViscousRegimeWarning):
+        viscous = simulate(planar(ALPHA, slip=10.0), steps=64)
     assert viscous.speed.mean / refined[64].speed.mean == pytest.approx(0.7, abs=0.03)
     assert viscous.linear_share == 1
     assert viscous.slip_ratio > 10
@@ -108,6 +110,7 @@ def test_the_error_of_the_step_is_honest(refined: dict[int, Trajectory]) -> None
 PULSE = TravellingWave(np.array([0.5, 0.3]), np.array([0.2, 0.1]))
 
 
+@pytest.mark.filterwarnings("ignore::linear_theory.ViscousRegimeWarning")
 @pytest.mark.parametrize(
     "scene",
     [
@@ -185,7 +188,8 @@ def test_the_balance_of_power_closes_at_second_order(refined: dict[int, Trajecto
 @pytest.fixture(scope="module")
 def crawling() -> Trajectory:
     """A bending sheet on damped ground, 64 steps per period."""
-    return simulate(lying(damping=1e-5), periods=2, steps=64)
+    with pytest.warns(ViscousRegimeWarning):
+        return simulate(lying(damping=1e-5), periods=2, steps=64)
 
 
 def test_a_bending_sheet_balances_its_power(crawling: Trajectory) -> None:
@@ -358,7 +362,8 @@ def test_a_sheet_that_buckles_leaves_its_plane_and_says_so() -> None:
     assert np.ptp(flat) < 1e-9
     assert np.ptp(trajectory.positions(1.0)[2]) > 2 * PAPER.thickness
     assert 0.05 < first < 1.0
-    assert not simulate(lying(alpha=0.02, bending=0.0, cells=(2, 4)), periods=1, steps=16).buckled.any()
+    less = lying(alpha=0.02, bending=0.0, slip=0.01, cells=(2, 4))
+    assert not simulate(less, periods=1, steps=16).buckled.any()
 
 
 @pytest.mark.parametrize(

@@ -20,7 +20,7 @@ from fem_check.shell.cycle.shapes import Shapes, cycle_of_shapes, static_effects
 from fem_check.shell.effects.koiter import Membrane
 from fem_check.shell.scene import Scene
 from linear_theory import validation
-from linear_theory.friction import FrictionLaw
+from linear_theory.friction import FrictionLaw, warn_if_viscous
 from linear_theory.speed import CrawlSpeed
 from linear_theory.waves import TravellingWave
 
@@ -58,7 +58,8 @@ def cycle_speed(
     sheet of the stated growth law, area measure and load; NaN for other scenes.
 
     Raises ValueError for bad input, ConvergenceError where a shape is not found, UnresolvedError where
-    the shapes change too fast for the largest number of phases.
+    the shapes change too fast for the largest number of phases. Warns (ViscousRegimeWarning) where
+    friction = "tanh" acts as viscous: see `CrawlSpeed.regime`.
     """
     start = time.perf_counter()
     rtol, law = validation.tolerance(rtol), FrictionLaw(friction, slip_speed)
@@ -70,7 +71,7 @@ def cycle_speed(
     balance, period, phase_error = _with_enough_phases(scene, load, law, rtol, atol)
     error = period.error + phase_error + _mesh_error(balance, period)
     times, rigid = balance.whole_period(period)
-    return CrawlSpeed(
+    found = CrawlSpeed(
         mean=period.mean,
         error=error,
         model_error=0.0 if _is_target(scene) else math.nan,
@@ -79,11 +80,13 @@ def cycle_speed(
         velocity=rigid[1],
         seconds=time.perf_counter() - start,
         model=_words(scene, load, law),
-        slip_ratio=law.width / period.fastest,
+        slip_ratio=law.slip_ratio(period.fastest),
         first_order=0.0 if _starts_at_second_order(scene) else math.nan,
         sticks=period.sticks,
         rigid=None if balance.mirrored else rigid,
     )
+    warn_if_viscous(found, slip_speed)
+    return found
 
 
 def _with_enough_phases(
@@ -162,8 +165,8 @@ def other_mesh(mesh: Any) -> tuple[Any, float]:
 def _at_rest(scene: Scene, load: str, law: FrictionLaw) -> CrawlSpeed:
     """No growth, no motion."""
     nothing = np.zeros(1)
-    words = _words(scene, load, law)
-    return CrawlSpeed(0.0, 0.0, 0.0, True, nothing, nothing, 0.0, words, math.inf, 0.0)
+    words, ratio = _words(scene, load, law), law.slip_ratio(0.0)
+    return CrawlSpeed(0.0, 0.0, 0.0, True, nothing, nothing, 0.0, words, ratio, 0.0)
 
 
 def _is_target(scene: Scene) -> bool:

@@ -24,6 +24,7 @@ from fem_check.shell.stepping.step_control import History, step_size
 from fem_check.shell.stepping.stepper import Stepper, StepResult
 from fem_check.shell.stepping.trajectory import Trajectory
 from linear_theory import validation
+from linear_theory.friction import warn_if_viscous
 
 Array = NDArray[np.float64]
 
@@ -82,7 +83,8 @@ def simulate(
     A scene without Friction and Inertia has no motion in time; use `cycle_speed.cycle_speed`.
     Raises ValueError for such scenes and for values out of range, SnapshotError for a snapshot that is
     damaged or of another scene or run, ConvergenceError (with the last state and its time as
-    `parameter`) where steps become too small.
+    `parameter`) where steps become too small. Warns (ViscousRegimeWarning) where Friction, regularised
+    dry friction, acts as viscous: see `CrawlSpeed.regime`.
     """
     begin = time.perf_counter()
     run = Run(scene, periods, rtol, steps, ramp, velocity, snapshot_every, keep_every)
@@ -91,15 +93,19 @@ def simulate(
     run.finish(None if snapshot is None else Path(snapshot), report or None)
     difference = np.nan
     if mesh_error:
-        coarse = simulate(coarser(scene), periods, rtol, steps, ramp=ramp, velocity=velocity)
-        difference = coarse.period_speeds[-1] - run.trajectory().period_speeds[-1]
+        coarse = Run(coarser(scene), periods, rtol, steps, ramp, velocity, snapshot_every, keep_every)
+        coarse.finish(None, None)
+        difference = coarse.trajectory().period_speeds[-1] - run.trajectory().period_speeds[-1]
         difference = MESH_MARGIN * abs(difference)
-    return replace(
+    found = replace(
         run.trajectory(),
         seconds=time.perf_counter() - begin,
         resumed_at=resumed,
         mesh_error=float(difference),
     )
+    friction: Friction | None = scene.find(Friction)
+    warn_if_viscous(found.speed, None if friction is None else friction.slip_speed)
+    return found
 
 
 class Run:
