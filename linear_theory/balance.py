@@ -9,7 +9,8 @@ the rotation (-y, x). It is where the convex function int (1 + alpha e) F(|w|) d
 
 For small alpha the mean of q is much smaller than q(t). Hence q = q_0 + alpha q_1: q_0 balances the
 load 1, and q_1 solves what is left, divided by alpha, with the difference quotient of f w/|w| written
-without cancellation. A velocity of second order, v = alpha v^ + alpha^2 v_2, joins q_1.
+without cancellation. A velocity of second order, v = alpha v^ + alpha^2 v_2, joins q_1, and so does
+that a sheet displaced by alpha u turns about its centre with R_2 = (-y - alpha u_y, x + alpha u_x).
 """
 
 from collections.abc import Callable
@@ -33,6 +34,8 @@ Residual = Callable[..., tuple[Array, Array]]
 _COARSE_HALVINGS = 8
 _MARGIN = 1.5  # mean over variation of w on a cell, above which Gauss quadrature sees it as smooth
 _TINY = 1e-80  # replaces |w| = 0, where w/|w| is any direction
+_LINEAR = 1e-8  # alpha below which q_1 is the zero of a linear function
+_NEAR = 0.3  # after a Newton step s the error is some s^2 over the speed of the sheet: 10 would do
 _REST = 1e-6  # speeds below this share of the mean speed count as rest
 _ALONG = (1,)  # rigid velocities of a mirror-symmetric motion; 0, 1 translations, 2 rotation
 _ALL = (0, 1, 2)
@@ -77,7 +80,11 @@ class Balance:
         self._second = slice(0, 0) if motion.second is None else slice(len(channels), len(channels) + 2)
         if motion.second is not None:
             channels += [*motion.second]
-        # v_x, v_y, area, e, then x, y if the sheet may turn, then v_2 if there is one
+        displacement = None if motion.mirrored else motion.displacement
+        self._shift = slice(0, 0) if displacement is None else slice(len(channels), len(channels) + 2)
+        if displacement is not None:
+            channels += [*displacement]
+        # v_x, v_y, area, e, then x, y if the sheet may turn, then v_2 and u if there are any
         self._values = np.stack(channels)
         self._scale = float(np.sqrt(np.mean(motion.velocity**2))) or 1.0
         self._stages = [(halvings, tolerance)]
@@ -93,27 +100,30 @@ class Balance:
         starts = (None, None) if guess is None else (guess.leading[:, modes], guess.remainder[:, modes])
         leading = self._zero(self._leading, np.zeros((1, 1)), 1.0, starts[0])
         remainder = np.zeros_like(leading)
-        if np.any(self._values[3]) or np.any(self._values[self._second]):  # else nothing remains
-            residual = partial(self._remainder, leading)
-            remainder = self._zero(residual, leading, self._alpha, starts[1])
-        change = self._change(self._values, remainder)
+        if any(np.any(self._values[i]) for i in (3, self._second, self._shift)):  # else nothing remains
+            remainder = self._remaining(leading, starts[1])
+        change = self._change(self._values, leading, remainder)
         speed = _norm(self._moved(self._values, leading) + self._alpha * change)
         rest = np.mean(speed < _REST * self._scale, axis=(1, 2, 3))
         return RigidMotion(self._full(leading), self._full(remainder), rest, float(speed.max()))
 
     def correction(self, leading: Array, remainder: Array) -> RigidMotion:
         """One Newton step from a motion (times, 3) that was found with other cells."""
-        modes, times = list(self._modes), np.arange(self._values.shape[1])
-        halvings = self._stages[-1][0]
-        first, second = leading[:, modes], remainder[:, modes]
-        steps = [
-            -np.linalg.solve(slope, value[:, :, None])[:, :, 0]
-            for value, slope in (
-                self._leading(first, times, halvings),
-                self._remainder(first, second, times, halvings),
-            )
-        ]
-        return RigidMotion(self._full(steps[0]), self._full(steps[1]), np.zeros(times.size), 0.0)
+        first, second = leading[:, list(self._modes)], remainder[:, list(self._modes)]
+        steps = self._step(self._leading, first), self._step(partial(self._remainder, first), second)
+        return RigidMotion(self._full(steps[0]), self._full(steps[1]), np.zeros(len(leading)), 0.0)
+
+    def _remaining(self, leading: Array, start: Array | None) -> Array:
+        """q_1, (times, unknowns)."""
+        residual = partial(self._remainder, leading)
+        if abs(self._alpha) <= _LINEAR:
+            return self._step(residual, np.zeros_like(leading))
+        return self._zero(residual, leading, self._alpha, start)
+
+    def _step(self, residual: Residual, q: Array) -> Array:
+        """One Newton step from q, (times, unknowns), with the finest cells."""
+        value, slope = residual(q, np.arange(len(q)), halvings=self._stages[-1][0])
+        return np.asarray(-np.linalg.solve(slope, value[:, :, None])[:, :, 0])
 
     def _zero(self, residual: Residual, offset: Array, unit: float, start: Array | None) -> Array:
         """q (times, unknowns) of residual 0; without a start, first roughly with few halvings."""
@@ -122,10 +132,11 @@ class Balance:
         ends = np.sort([(low - offset) / unit, (high - offset) / unit], axis=0)[:, :, 0]
         for halvings, tolerance in self._stages if start is None else self._stages[-1:]:
             xtol = tolerance * self._scale
+            near = _NEAR * np.sqrt(xtol * self._scale)
             if len(self._modes) == 1:
-                q = _single(residual, halvings, q, ends, xtol)
+                q = _single(residual, halvings, q, ends, xtol, near)
             else:
-                q = damped_newton(partial(residual, halvings=halvings), q, xtol)
+                q = damped_newton(partial(residual, halvings=halvings), q, xtol, near)
         return q
 
     def _bracket(self) -> tuple[Array, Array]:
@@ -159,7 +170,7 @@ class Balance:
 
         def integrand(values: Array, owners: Integers) -> Array:
             before = self._moved(values, first[owners])
-            change = self._change(values, q[owners])
+            change = self._change(values, first[owners], q[owners])
             after = before + alpha * change
             r, r_after = _norm(before), _norm(after)
             speed_slope = ((before + after) * change).sum(0) / (r + r_after)
@@ -169,13 +180,19 @@ class Balance:
             force = ratio * (change + rate * after) + quotient * before
             weight = 1 + alpha * rate
             dots = [self._dot(i, after, values) for i in self._modes]
+            forces = [self._dot(i, force, values) for i in self._modes]
+            if self._shift.stop:
+                forces[-1] += self._law.ratio(r) * self._dot(2, before, self._arms(values))
             hessian = self._hessian(values, dots, weight * ratio, weight * slope)
-            return values[2] * np.stack([self._dot(i, force, values) for i in self._modes] + hessian)
+            return values[2] * np.stack(forces + hessian)
 
         def motion(values: Array, owners: Integers) -> list[Array]:
             before = first[owners]
             slow = self._moved(values, before)
-            return [slow, slow + alpha * self._change(values, q[owners])]
+            if abs(alpha) <= _LINEAR:
+                return [slow]
+            change = self._change(values, before, q[owners])
+            return [slow, slow + alpha * change]
 
         return self._integrate(times, integrand, motion, halvings)
 
@@ -206,10 +223,16 @@ class Balance:
         x, y = (values if at is None else at)[4:6]
         return np.stack([values[0] + spread[0] - y * spread[2], values[1] + spread[1] + x * spread[2]])
 
-    def _change(self, values: Array, q: Array) -> Array:
-        """What a rigid motion q of second order and the velocity v_2 add to w/alpha, (2, ...)."""
+    def _change(self, values: Array, leading: Array, q: Array) -> Array:
+        """What a rigid motion q of second order, v_2 and u add to w/alpha, (2, ...)."""
         still = np.zeros_like(values[:2]) if self._second.stop == 0 else values[self._second]
+        if self._shift.stop:
+            still = self._moved(still, leading * [0.0, 0.0, 1.0], self._arms(values))
         return self._moved(still, q, values)
+
+    def _arms(self, values: Array) -> Array:
+        """The values with u in the place of x, y."""
+        return np.concatenate([values[:4], values[self._shift]])
 
     def _dot(self, mode: int, w: Array, values: Array) -> Array:
         """w . R of a rigid velocity R."""
@@ -254,7 +277,9 @@ class Balance:
         return full
 
 
-def _single(residual: Residual, halvings: int, q: Array, ends: Array, xtol: float) -> Array:
+def _single(
+    residual: Residual, halvings: int, q: Array, ends: Array, xtol: float, near: float
+) -> Array:
     """The zero for motions along y alone."""
 
     def function(x: Array, which: Integers) -> tuple[Array, Array]:
@@ -262,8 +287,8 @@ def _single(residual: Residual, halvings: int, q: Array, ends: Array, xtol: floa
         return value[:, 0], slope[:, 0, 0]
 
     low, high = ends
-    return guarded_newton(function, np.clip(q[:, 0], low, high), low, high, xtol)[:, None]
+    return guarded_newton(function, np.clip(q[:, 0], low, high), low, high, xtol, near)[:, None]
 
 
 def _norm(w: Array) -> Array:
-    return np.maximum(np.hypot(w[0], w[1]), _TINY)
+    return np.maximum(np.sqrt(w[0] * w[0] + w[1] * w[1]), _TINY)  # np.hypot takes ten times as long

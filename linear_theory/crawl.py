@@ -2,6 +2,7 @@
 
 import math
 import time
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -11,6 +12,7 @@ from linear_theory import validation
 from linear_theory.airy import airy_series
 from linear_theory.field import LinearField, Wave
 from linear_theory.friction import LOADS, FrictionLaw, load_rate, warn_if_viscous
+from linear_theory.model_error import LEVELS, model_error
 from linear_theory.period import Crawl, average, first_resolution
 from linear_theory.ritz import ritz_field
 from linear_theory.second_order import check_model, second_order_speed
@@ -49,8 +51,9 @@ def crawl_speed(
     order alpha; for a sine wave, whose speed is of order alpha^2, it is the speed of the stated model,
     not a leading term (25 % too fast for the default sheet). order = 2 is V_1 alpha + V_2 alpha^2 of
     the nonlinear sheet with that growth_law and area (see `second_order`), right up to order alpha^3,
-    for a sine alpha^4; waves c(y, t) only, by Ritz. It says nothing of large alpha. order = 1 does not
-    depend on growth_law and area. `model_error`, the distance to a nonlinear sheet, is not known here.
+    for a sine alpha^4; any wave, by Ritz. It says nothing of large alpha. order = 1 does not depend on
+    growth_law and area but for its `model_error`: the distance to the nonlinear sheet of that
+    growth_law, area and load where it was measured (`model_error.model_error`), else NaN.
 
     Raises ValueError for bad input, among it an alpha so large that the area element
     1 + alpha tr(strain) is not positive somewhere (order 1) or that lengths vanish (order 2).
@@ -65,6 +68,8 @@ def crawl_speed(
     else:
         field = _field(sheet, wave, rtol, method)
         found = _field_speed(field, alpha, load, friction, slip_speed, rtol, atol)
+    distance = model_error(LEVELS[order], sheet, wave, alpha, growth_law, area, load, friction)
+    found = replace(found, model_error=distance)
     warn_if_viscous(found, slip_speed)
     return found
 

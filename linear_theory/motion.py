@@ -29,7 +29,8 @@ class Motion:
     growth: (T, c, n, n), the wave c.
     mirrored: the cells cover x >= 0 of a motion that is mirror symmetric in x.
     second: (2, T, c, n, n), velocity per unit alpha^2 that adds to alpha times `velocity`; None in a
-    theory of first order.
+    theory of first order. displacement: likewise, alpha times which moves the points on which friction
+    acts when the sheet turns; None where position is that of the points, or where it does not count.
     """
 
     position: Array
@@ -39,6 +40,7 @@ class Motion:
     growth: Array
     mirrored: bool = False
     second: Array | None = None
+    displacement: Array | None = None
 
 
 @dataclass(frozen=True)

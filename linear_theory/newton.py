@@ -18,13 +18,15 @@ _MOST_EVALUATIONS = 120
 _PATIENCE = 10  # Newton steps before every second one becomes a bisection
 
 
-def guarded_newton(function: Problem, start: Array, low: Array, high: Array, xtol: float) -> Array:
+def guarded_newton(
+    function: Problem, start: Array, low: Array, high: Array, xtol: float, near: float = 0.0
+) -> Array:
     """Zeros of N rising functions with low < zero < high, (N,) each.
 
     function(x, which): values and slopes at x of the functions number `which`. Newton steps, until one
-    is below xtol; where a step would leave the bracket, which every evaluation narrows, the bracket is
-    halved. Where a function jumps through zero, the place of the jump. Raises NotConvergedError, with
-    the last iterates.
+    is below xtol, or below `near`, after which the error is known to be below xtol; where a step would
+    leave the bracket, which every evaluation narrows, the bracket is halved. Where a function jumps
+    through zero, the place of the jump. Raises NotConvergedError, with the last iterates.
     """
     x, low, high = start.copy(), low.copy(), high.copy()
     active = np.arange(start.size)
@@ -37,24 +39,25 @@ def guarded_newton(function: Problem, start: Array, low: Array, high: Array, xto
         below, above = low[active], high[active]
         with np.errstate(divide="ignore", invalid="ignore"):
             new = x[active] - value / slope
-        outside = ~((new > below) & (new < above))
+        outside = ~((new >= below) & (new <= above)) | ~np.isfinite(slope)
         if evaluation > _PATIENCE and evaluation % 2:
             outside[:] = True
         new = np.where(value == 0, x[active], np.where(outside, (below + above) / 2, new))
         moved = abs(new - x[active])
         x[active] = new
-        active = active[moved > xtol]
+        active = active[moved > np.where(outside, xtol, max(xtol, near))]
         if not active.size:
             return x
     raise NotConvergedError(f"{active.size} of {x.size} zeros not found to {xtol:g}", x)
 
 
-def damped_newton(function: Problem, start: Array, xtol: float) -> Array:
+def damped_newton(function: Problem, start: Array, xtol: float, near: float = 0.0) -> Array:
     """Zeros of N gradients of convex functions of J variables, (N, J).
 
     function(x, which): gradients (n, J) and Hessians (n, J, J). Along a Newton step the derivative of a
     convex function rises through zero: a step that ends far behind the zero is halved, also where the
-    gradient saturates and says nothing by its size. Raises NotConvergedError, with the last iterates.
+    gradient saturates and says nothing by its size. Ends as `guarded_newton` does.
+    Raises NotConvergedError, with the last iterates.
     """
     x, step = start.copy(), np.zeros_like(start)
     fall = np.full(start.shape[0], np.inf)  # minus the derivative along the step at its start
@@ -73,7 +76,8 @@ def damped_newton(function: Problem, start: Array, xtol: float) -> Array:
             step[ahead] = np.linalg.solve(slope + floor, -gradient[~behind][:, :, None])[:, :, 0]
             fall[ahead] = -(gradient[~behind] * step[ahead]).sum(1)
             x[ahead] += step[ahead]
-        active = active[abs(step[active]).max(1) > xtol]
+        moved = abs(step[active]).max(1)
+        active = active[moved > np.where(behind, xtol, max(xtol, near))]
         if not active.size:
             return x
     raise NotConvergedError(f"{active.size} of {len(x)} balances not found to {xtol:g}", x)

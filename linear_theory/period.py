@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -11,13 +12,15 @@ from linear_theory.balance import Balance, RigidMotion
 from linear_theory.field import LinearField, Wave
 from linear_theory.friction import FrictionLaw, check_load, load_rate
 from linear_theory.motion import CellGrid, Motion
+from linear_theory.sheet import Sheet
 from linear_theory.time_grid import TimeGrid, first_grid
 from linear_theory.waves import TravellingWave
 
 Array = NDArray[np.float64]
 
 _MOST_TIMES = 4096
-_LOT = 200_000  # points balanced together: bounds the memory
+_LOT = 10_000  # points balanced together, which halving makes ten times as many: they fit in the cache
+_PROBES = 11  # points per direction, and times per half period, at which a wave is seen to change sign
 _FAINT = 0.1  # harmonics below this share of the largest are left to the check of the quadrature
 _STICKING = 0.01  # share of the sheet at rest that counts as sticking
 
@@ -25,22 +28,27 @@ _STICKING = 0.01  # share of the sheet at rest that counts as sticking
 class Period(NamedTuple):
     """One period of motion.
 
-    times (T,); rigid (3, T): V_x, V_y, Omega; orders (2, T): q_0 and q_1 of V_y; mean of V_y and its
-    estimated error, absolute;
-    first_order: V_1 of mean = V_1 alpha + O(alpha^2), and first_error, what times and cells do to it;
+    times (T,); orders (2, 3, T): V_x, V_y, Omega of q_0 and q_1, and rigid (3, T), of both together;
+    mean of V_y and its estimated error, absolute; means, mean_errors (2, 3): of `orders`, and what
+    times and cells do to them;
     fastest: the largest speed against the ground; sticks: whether at some time a share of the sheet is
     at rest.
     """
 
     times: Array
-    rigid: Array
     orders: Array
+    rigid: Array
     mean: float
     error: float
-    first_order: float
-    first_error: float
+    means: Array
+    mean_errors: Array
     fastest: float
     sticks: bool
+
+    @property
+    def first_order(self) -> float:
+        """V_1 of mean = V_1 alpha + O(alpha^2)."""
+        return float(self.means[0, 1])
 
 
 @dataclass(frozen=True)
@@ -76,6 +84,16 @@ def shortest_waves(wave: Wave) -> int:
     return int(wave.orders[rates >= _FAINT * rates.max()][-1])
 
 
+def changes_sign(wave: Wave, sheet: Sheet) -> bool:
+    """Whether c(t + T/2) = -c(t); of a wave of any shape at points and times of a grid."""
+    if isinstance(wave, TravellingWave):
+        return wave.is_half_period_antisymmetric
+    x, y = (s * np.linspace(-0.5, 0.5, _PROBES) for s in (sheet.width, sheet.length))
+    t = np.arange(2 * _PROBES)[:, None, None] * (wave.period / (2 * _PROBES))
+    values = wave.value(x[:, None], y, t, sheet.length)
+    return bool(abs(values[:_PROBES] + values[_PROBES:]).max() <= 1e-12 * abs(values).max())
+
+
 @dataclass(frozen=True)
 class Crawl:
     """All that defines V(t), and how finely it is found."""
@@ -86,11 +104,10 @@ class Crawl:
     law: FrictionLaw
     resolution: Resolution
 
-    @property
+    @cached_property
     def starts_at_second_order(self) -> bool:
         """Whether c(t + T/2) = -c(t), so that the leading q_0 has exactly no mean."""
-        wave = self.field.wave
-        return isinstance(wave, TravellingWave) and wave.is_half_period_antisymmetric
+        return changes_sign(self.field.wave, self.field.sheet)
 
     def balance(self, times: Array, known: "Known | None" = None) -> RigidMotion:
         """Rigid motion at the given times, in lots; known: times before and after to start from."""
@@ -115,15 +132,18 @@ class Crawl:
         second = self.alpha**2 * motion.remainder[:, 1]
         return second if self.starts_at_second_order else self.alpha * motion.leading[:, 1] + second
 
-    def quadrature_errors(self, times: Array, motion: RigidMotion) -> tuple[float, float]:
-        """Largest change of the counted V_y, and of q_0 along y, by one Newton step on finer cells.
+    def quadrature_errors(self, times: Array, motion: RigidMotion) -> tuple[float, Array]:
+        """Largest change of the counted V_y and of q_0, q_1 (2, 3) by a Newton step on finer cells.
 
-        At three times.
+        At three times; none of a q_0 that has no mean.
         """
         some = np.unique((np.array([0.07, 0.41, 0.77]) * times.size).astype(int))
         finer = replace(self, resolution=self.resolution.finer())
         step = finer._balance(times[some]).correction(motion.leading[some], motion.remainder[some])
-        return float(abs(self.counted(step)).max()), float(abs(step.leading[:, 1]).max())
+        orders = abs(np.stack([step.leading, step.remainder])).max(1)
+        if self.starts_at_second_order:
+            orders[0] = 0.0
+        return float(abs(self.counted(step)).max()), orders
 
     def field_error(self, motion: RigidMotion) -> float:
         """What the error of the deformation does to V.
@@ -167,7 +187,9 @@ class Known(NamedTuple):
 def average(crawl: Crawl, rtol: float, atol: float) -> Period:
     """Rigid motion through a period at as many times and as finely as the tolerance needs."""
     grid = _first_grid(crawl)
-    crawl, motion, (quadrature_error, first_error) = _with_fine_cells(crawl, grid.times, rtol, atol)
+    crawl, motion, (quadrature_error, quadrature_errors) = _with_fine_cells(
+        crawl, grid.times, rtol, atol
+    )
     while True:
         mean, time_error = grid.mean(crawl.counted(motion))
         tolerance = 0.5 * max(rtol * abs(mean), atol)
@@ -176,36 +198,42 @@ def average(crawl: Crawl, rtol: float, atol: float) -> Period:
         grid, added = grid.refined(crawl.counted(motion), tolerance)
         known = Known(grid.times[~added], motion)
         motion = _joined(motion, crawl.balance(grid.times[added], known), added)
-    leading, leading_error = grid.mean(motion.leading[:, 1])
-    if crawl.starts_at_second_order:
-        leading, leading_error, first_error = 0.0, 0.0, 0.0
-    rigid = crawl.alpha * (motion.leading + crawl.alpha * motion.remainder).T
-    orders = np.stack([motion.leading[:, 1], motion.remainder[:, 1]])
-    times, whole = _whole_period(crawl, grid.times, np.concatenate([rigid, orders]))
+    means, errors = _means(crawl, grid, motion)
+    times, orders = _whole_period(crawl, grid.times, np.stack([motion.leading.T, motion.remainder.T]))
     return Period(
         times=times,
-        rigid=whole[:3],
-        orders=whole[3:],
+        orders=orders,
+        rigid=crawl.alpha * (orders[0] + crawl.alpha * orders[1]),
         mean=mean,
         error=time_error + quadrature_error + crawl.field_error(motion) + 1e-13 * abs(mean),
-        first_order=leading,
-        first_error=leading_error + first_error,
+        means=means,
+        mean_errors=errors + quadrature_errors,
         fastest=abs(crawl.alpha) * motion.fastest,
         sticks=bool(motion.rest.max() > _STICKING),
     )
 
 
+def _means(crawl: Crawl, grid: TimeGrid, motion: RigidMotion) -> tuple[Array, Array]:
+    """Of q_0 and q_1, (2, 3), and the errors of the quadrature in time; none where symmetry says 0."""
+    orders = np.stack([motion.leading.T, motion.remainder.T])
+    found = np.array([[grid.mean(values) for values in order] for order in orders])
+    if crawl.starts_at_second_order:
+        found[0] = 0.0
+    return found[..., 0], found[..., 1]
+
+
 def _with_fine_cells(
     crawl: Crawl, times: Array, rtol: float, atol: float
-) -> tuple[Crawl, RigidMotion, tuple[float, float]]:
+) -> tuple[Crawl, RigidMotion, tuple[float, Array]]:
     """Refine the cells until they meet their share of the tolerance at the first times."""
+    known = None
     for last in (False, False, True):
-        motion = crawl.balance(times)
+        motion = crawl.balance(times, known)
         errors = crawl.quadrature_errors(times, motion)
         size = abs(crawl.counted(motion).mean())
         if last or errors[0] <= 0.3 * max(rtol * size, atol):
             break
-        crawl = replace(crawl, resolution=crawl.resolution.finer())
+        crawl, known = replace(crawl, resolution=crawl.resolution.finer()), Known(times, motion)
     return crawl, motion, errors
 
 
@@ -229,10 +257,9 @@ def _joined(motion: RigidMotion, more: RigidMotion, added: NDArray[np.bool_]) ->
 
 
 def _whole_period(crawl: Crawl, times: Array, values: Array) -> tuple[Array, Array]:
-    """Times (T,) and values (n, T) of one period, without its end."""
+    """Times (T,) and values (..., T) of one period, without its end."""
     if crawl.reversal_time is None:
-        return times[:-1], values[:, :-1]
+        return times[:-1], values[..., :-1]
     back = slice(-2, 0, -1)
-    return np.concatenate([times, 2 * times[-1] - times[back]]), np.concatenate(
-        [values, values[:, back]], 1
-    )
+    whole = np.concatenate([values, values[..., back]], -1)
+    return np.concatenate([times, 2 * times[-1] - times[back]]), whole

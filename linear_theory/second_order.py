@@ -6,6 +6,16 @@ the balance of friction says, at its first and second order,
     int f(|w|) w/|w| . R dA = 0,                                   w = v_1 + q_0,
     int [D(w) (v_2 + q_1) + e f(|w|) w/|w|] . R dA = 0,             D(w) = d(f(|w|) w/|w|)/dw.
 
+For waves that are not mirror symmetric in x, q stands for V_x, V_y and Omega together, and displaced
+points turn: R = (-y - alpha u_y, x + alpha u_x) for the rotation about the centre of mass, so that v_2
+is joined by Omega_0 (-u_y, u_x), and the moment by the force of first order times that arm.
+
+V_x and V_y are the velocity of the centre of mass (of the undeformed area) along the axes of the body,
+Omega the rate at which these axes turn, with the mean deformation gradient: see `second_field`, and
+`fem_check/shell/cycle/frame.py` for the same frame of a nonlinear sheet. Another choice of axes would
+change V_x and V_y at order alpha^2. Means of V_x, V_y are not the drift over the ground, which Omega
+turns.
+
 For dry friction D(w) is of size 1/|w|: at the few points where w = 0 that is integrable in the plane.
 The cells are halved towards these points until the rest, of size the square root of the area of the
 last cell, is below the tolerance (`period.first_resolution`); V_1 and V_2 are the means of q_0 and q_1.
@@ -23,7 +33,7 @@ from linear_theory import validation
 from linear_theory.balance import RigidMotion
 from linear_theory.field import Wave
 from linear_theory.friction import LOADS, FrictionLaw
-from linear_theory.period import Crawl, Period, average, first_resolution
+from linear_theory.period import Crawl, Period, average, changes_sign, first_resolution
 from linear_theory.second_field import AREAS, GROWTH_LAWS, SecondOrderField, second_order_field
 from linear_theory.sheet import Sheet
 from linear_theory.speed import CrawlSpeed
@@ -44,6 +54,9 @@ enough makes q_1(t) uneven, and the mean over time would then be refined in vain
 PHASES = 256
 """Phases per harmonic at which growth is checked."""
 
+POINTS, TIMES = 33, 64
+"""Points per direction and times at which growth is checked for waves of any shape."""
+
 FIELD_SHARE = 0.1
 """Of rtol, for the deformation: it costs little."""
 
@@ -57,6 +70,9 @@ class SecondOrder(NamedTuple):
     first is 0 where c(t + T/2) = -c(t). second is NaN, its error infinite, where at some time part of
     the sheet is at rest, since V is not smooth in alpha then.
     seconds: time spent; model: what is assumed, in words.
+    rigid_first, rigid_second (3,): coefficients of the means of V_x, V_y (these are first and second
+    again) and of Omega (1/time, anticlockwise), in the frame of the body, see the module's head;
+    rigid_first_error, rigid_second_error (3,): their errors. V_x and Omega are 0 for mirrored motions.
     """
 
     first: float
@@ -65,6 +81,27 @@ class SecondOrder(NamedTuple):
     second_error: float
     seconds: float
     model: str
+    rigid_first: Array
+    rigid_second: Array
+    rigid_first_error: Array
+    rigid_second_error: Array
+
+
+class Model(NamedTuple):
+    """Growth, elasticity, load and friction; law: for speeds per unit |alpha|."""
+
+    growth_law: str
+    area: str
+    load: str
+    law: FrictionLaw
+
+    @property
+    def words(self) -> str:
+        """What the coefficients assume."""
+        return (
+            f"second order in alpha, growth law {self.growth_law}, energy per {self.area} area, "
+            f"{self.load} load, {self.law.name} friction"
+        )
 
 
 @dataclass(frozen=True)
@@ -78,14 +115,8 @@ class _Coefficients(Crawl):
         return np.asarray(self.alpha**2 * motion.remainder[:, 1])
 
     def field_error(self, motion: RigidMotion) -> float:
-        """What the errors of u_1 and u_2 do to V_2.
-
-        At single times met were factors up to 1.1 where SECOND_SHARE stands (widths from 0.1 L to 2 L,
-        one and two waves, all loads); most are below 0.1.
-        """
-        field = self.field
-        speed = field.error * motion.fastest + field.second_error * field.second_speed
-        return SECOND_SHARE * self.alpha**2 * speed
+        """What the errors of u_1 and u_2 do to V_2."""
+        return self.alpha**2 * _second_field_error(self.field, motion.fastest)
 
 
 def second_order(
@@ -103,48 +134,34 @@ def second_order(
     They are those of the planar Koiter membrane (eq. 1a), not of a linear theory: for a sine wave,
     first = 0 and second is the limit of V/alpha^2. How far in alpha two orders reach they do not say.
 
-    wave: a TravellingWave; growth_law: of lengths, "exp" exp(alpha c), "linear" 1 + alpha c or "metric"
-    (1 + 2 alpha c)^(1/2); area: in which energy is counted, "grown" or "undeformed"; load: "current",
-    "grown" or "material" (see `friction.load_rate`); friction: "coulomb", "viscous", or "tanh" with
-    slip_speed, length per time and unit |alpha|: what stays fixed as alpha -> 0 is its ratio to alpha.
+    wave: a TravellingWave or a FieldWave; growth_law: of lengths, "exp" exp(alpha c), "linear"
+    1 + alpha c or "metric" (1 + 2 alpha c)^(1/2); area: in which energy is counted, "grown" or
+    "undeformed"; load: "current", "grown" or "material" (see `friction.load_rate`); friction:
+    "coulomb", "viscous", or "tanh" with slip_speed.
+    slip_speed: length per time *and unit |alpha|*, since what stays fixed as alpha -> 0 is its ratio to
+    the speeds. `crawl_speed(order=2, alpha=a, slip_speed=s)` takes a speed and looks s/|a| up here.
     rtol: of `second`, whose error is to be below max(rtol |second|, 0.01 rtol L/T); a miss shows in
-    second_error. `first` comes with the same cells and times.
+    second_error. All else comes with the same cells and times.
 
-    Raises ValueError for bad input, among it waves that depend on x.
+    Raises ValueError for bad input.
     """
-    start = time.perf_counter()
-    rtol, law = validation.tolerance(rtol), FrictionLaw(friction, slip_speed)
-    validation.choice("load", load, LOADS)
+    start, rtol = time.perf_counter(), validation.tolerance(rtol)
+    model = checked_model(growth_law, area, load, FrictionLaw(friction, slip_speed))
     field = second_order_field(sheet, wave, growth_law, area, field_tolerance(rtol))
-    period = leading_period(field, load, law, rtol)
-    second, second_error = coefficient(period)
-    return SecondOrder(
-        first=period.first_order,
-        second=second,
-        first_error=first_error(field, period),
-        second_error=second_error,
-        seconds=time.perf_counter() - start,
-        model=words(growth_law, area, load, law),
-    )
+    return coefficients(field, leading_period(field, load, model.law, rtol), model, start)
+
+
+def checked_model(growth_law: str, area: str, load: str, law: FrictionLaw) -> Model:
+    """Raise ValueError for names that do not exist."""
+    validation.choice("growth_law", growth_law, GROWTH_LAWS)
+    validation.choice("area", area, AREAS)
+    validation.choice("load", load, LOADS)
+    return Model(growth_law, area, load, law)
 
 
 def field_tolerance(rtol: float) -> float:
     """Of the deformation, whose error is then a small part of that of V_2."""
     return max(FIELD_SHARE * rtol, validation.SMALLEST_RTOL)
-
-
-def coefficient(period: Period) -> tuple[float, float]:
-    """V_2 and its estimated error from a period at TINY_ALPHA."""
-    if period.sticks:
-        return math.nan, math.inf
-    return period.mean / TINY_ALPHA**2, period.error / TINY_ALPHA**2
-
-
-def first_error(field: SecondOrderField, period: Period) -> float:
-    """Estimated error of V_1, length per time; none where symmetry makes it 0."""
-    if field.wave.is_half_period_antisymmetric:
-        return 0.0
-    return period.first_error + FIRST_SHARE * field.error * period.fastest / TINY_ALPHA
 
 
 def leading_period(field: SecondOrderField, load: str, law: FrictionLaw, rtol: float) -> Period:
@@ -160,12 +177,45 @@ def leading_period(field: SecondOrderField, load: str, law: FrictionLaw, rtol: f
     return average(crawl, rtol, atol)
 
 
-def words(growth_law: str, area: str, load: str, law: FrictionLaw) -> str:
-    """What the coefficients assume."""
-    return (
-        f"second order in alpha, growth law {growth_law}, energy per {area} area, {load} load, "
-        f"{law.name} friction"
+def coefficients(field: SecondOrderField, period: Period, model: Model, start: float) -> SecondOrder:
+    """Means of q_0 and q_1 and their errors; start: of the time that is counted."""
+    first, second = period.means
+    first_error, second_error = period.mean_errors + field_errors(field, period)
+    if period.sticks:
+        second, second_error = np.full(3, math.nan), np.full(3, math.inf)
+    return SecondOrder(
+        first=float(first[1]),
+        second=float(second[1]),
+        first_error=float(first_error[1]),
+        second_error=float(second_error[1]),
+        seconds=time.perf_counter() - start,
+        model=model.words,
+        rigid_first=first,
+        rigid_second=second,
+        rigid_first_error=first_error,
+        rigid_second_error=second_error,
     )
+
+
+def field_errors(field: SecondOrderField, period: Period) -> Array:
+    """What the errors of u_1 and u_2 do to V_x, V_y, Omega of first and second order, (2, 3).
+
+    Nothing where symmetry makes them 0.
+    """
+    fastest = period.fastest / TINY_ALPHA
+    first = 0.0 if changes_sign(field.wave, field.sheet) else FIRST_SHARE * field.error * fastest
+    radius = math.hypot(field.sheet.width, field.sheet.length) / math.sqrt(12)
+    modes = [0.0, 1.0, 0.0] if field.mirrored else [1.0, 1.0, 1 / radius]
+    return np.multiply.outer([first, _second_field_error(field, fastest)], modes)
+
+
+def _second_field_error(field: SecondOrderField, fastest: float) -> float:
+    """What the errors of u_1 and u_2 do to V_2.
+
+    At single times met were factors up to 1.1 where SECOND_SHARE stands (widths from 0.1 L to 2 L,
+    one and two waves, all loads); most are below 0.1.
+    """
+    return SECOND_SHARE * (field.error * fastest + field.second_error * field.second_speed)
 
 
 def second_order_speed(
@@ -183,43 +233,62 @@ def second_order_speed(
     """V_1 alpha + V_2 alpha^2; arguments, result and errors raised are those of `crawl_speed`."""
     start, alpha = time.perf_counter(), validation.real("alpha", alpha)
     rtol, law = validation.tolerance(rtol), FrictionLaw(friction, slip_speed)
-    validation.choice("load", load, LOADS)
+    model = checked_model(growth_law, area, load, law.scaled(abs(alpha) or 1.0))
     field = second_order_field(sheet, wave, growth_law, area, field_tolerance(rtol))
-    unit = sheet.length / field.wave.period
+    unit = sheet.length / wave.period
     atol = 1e-3 * rtol * alpha**2 * unit if atol is None else validation.positive("atol", atol)
-    check_growth(growth_law, alpha, field.wave)
-    period = leading_period(field, load, law.scaled(abs(alpha) or 1.0), rtol)
-    second, second_error = coefficient(period)
-    mean = alpha * period.first_order + alpha**2 * second
-    error = abs(alpha) * first_error(field, period) + alpha**2 * second_error
-    return CrawlSpeed(
-        mean=mean,
-        error=error,
-        model_error=math.nan,
-        converged=error <= max(rtol * abs(mean), atol),
-        times=period.times,
-        velocity=alpha * period.orders[0] + alpha**2 * period.orders[1],
+    check_growth(growth_law, alpha, wave, sheet)
+    period = leading_period(field, load, model.law, rtol)
+    found = speed_at(alpha, coefficients(field, period, model, start), period)
+    return replace(
+        found,
+        converged=found.error <= max(rtol * abs(found.mean), atol),
+        slip_ratio=law.slip_ratio(abs(alpha) * period.fastest / TINY_ALPHA),
+        rigid=None if field.mirrored else found.rigid,
         seconds=time.perf_counter() - start,
-        model=words(growth_law, area, load, law),
-        slip_ratio=law.width / (abs(alpha) * period.fastest / TINY_ALPHA) if alpha else math.inf,
-        first_order=period.first_order,
-        second_order=second,
-        sticks=period.sticks,
     )
 
 
-def check_growth(growth_law: str, alpha: float, wave: TravellingWave) -> None:
+def speed_at(alpha: float, found: SecondOrder, period: Period) -> CrawlSpeed:
+    """What coefficients say at one alpha, without any judgement of it."""
+    rigid = alpha * period.orders[0] + alpha**2 * period.orders[1]
+    return CrawlSpeed(
+        mean=alpha * found.first + alpha**2 * found.second,
+        error=abs(alpha) * found.first_error + alpha**2 * found.second_error,
+        model_error=math.nan,
+        converged=False,
+        times=period.times,
+        velocity=rigid[1],
+        seconds=found.seconds,
+        model=found.model,
+        slip_ratio=math.nan,
+        first_order=found.first,
+        second_order=found.second,
+        sticks=period.sticks,
+        rigid=rigid,
+    )
+
+
+def check_growth(growth_law: str, alpha: float, wave: Wave, sheet: Sheet) -> None:
     """Raise ValueError where lengths would vanish: 1 + alpha c or 1 + 2 alpha c not positive."""
     if growth_law == "exp":
         return
     factor = 1.0 if growth_law == "linear" else 2.0
-    phases = np.linspace(0, 2 * np.pi, PHASES * wave.cosine.size)
-    lowest = float((alpha * wave.profile(phases)).min())
+    lowest = float((alpha * _growths(wave, sheet)).min())
     if 1 + factor * lowest <= 0:
         raise ValueError(
             f"alpha = {alpha:g}: alpha c reaches {lowest:.3g}; must be > {-1 / factor:g} for "
             f"growth_law {growth_law!r}"
         )
+
+
+def _growths(wave: Wave, sheet: Sheet) -> Array:
+    """c at phases, or at points and times, that leave out no extreme of a smooth wave by much."""
+    if isinstance(wave, TravellingWave):
+        return wave.profile(np.linspace(0, 2 * np.pi, PHASES * wave.cosine.size))
+    x, y = (s * np.linspace(-0.5, 0.5, POINTS) for s in (sheet.width, sheet.length))
+    times = np.linspace(0, wave.period, TIMES, endpoint=False)
+    return wave.value(x[:, None], y, times[:, None, None], sheet.length)
 
 
 def check_model(order: int, growth_law: str, area: str) -> None:

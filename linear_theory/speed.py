@@ -37,8 +37,8 @@ class CrawlSpeed:
     model_error: distance to the nonlinear sheet, absolute, NaN where it is not known;
     converged: whether error met the tolerance that was asked for.
     times (T,), velocity (T,): V_y(t) over one period.
-    rigid: (3, T), V_x, V_y and the rate of rotation Omega about the origin (anticlockwise), for
-    motions that are not mirror symmetric in x; None otherwise.
+    rigid: (3, T), V_x, V_y and the rate of rotation Omega about the origin (anticlockwise) in the frame
+    of the body (see `second_order`), for motions that are not mirror symmetric in x; None otherwise.
     first_order, second_order: V_1 and V_2 of V = V_1 alpha + V_2 alpha**2 + ..., within this model;
     NaN where they were not computed.
     slip_ratio: slip speed of the friction law over the largest speed relative to the ground: dry

@@ -265,7 +265,7 @@ def test_friction_field_balances(paper_field):
 def test_results_carry_their_cost_and_assumptions():
     speed = crawl_speed(PAPER, SINE, 0.1, load="grown")
     assert speed.seconds > 0
-    assert np.isnan(speed.model_error)
+    assert speed.model_error > 0  # measured for this wave; see test_model_error.py
     assert "grown" in speed.model
     assert "coulomb" in speed.model
     assert speed.velocity.shape == speed.times.shape

@@ -64,7 +64,7 @@ def _checked_degree(degree: int | Pair) -> Pair:
 def _with_enough_degrees(sheet: Sheet, wave: Wave, rtol: float) -> "RitzField":
     """Raise the degrees until the error estimate meets rtol."""
     start, best = time.perf_counter(), None
-    degree = ritz_error.first_degrees(sheet, _order(wave), rtol)
+    degree = ritz_error.first_degrees(sheet, shortest_order(wave), rtol)
     while True:
         if matrix_size(degree) > MOST_NUMBERS:
             raise NotConvergedError(f"rtol = {rtol:g}: would need degrees {degree} or more", best)
@@ -75,8 +75,8 @@ def _with_enough_degrees(sheet: Sheet, wave: Wave, rtol: float) -> "RitzField":
         degree = ritz_error.raised_degrees(degree, best.tails, rtol)
 
 
-def _order(wave: Wave) -> int:
-    """Waves on the sheet; 1 where nothing is known, more shows in the error estimate."""
+def shortest_order(wave: Wave) -> int:
+    """Waves on the sheet at most; 1 where nothing is known, more shows in the error estimate."""
     return int(wave.orders[-1]) if isinstance(wave, TravellingWave) else 1
 
 
@@ -115,7 +115,7 @@ class RitzField(LinearField):
             self._growth[:, across + 1 :] * (self.sheet.width / 2 / across),
             self._growth[:, :, along + 1 :] * (self.sheet.length / 2 / along),
         )
-        resolving = ritz_error.resolving_degrees(self.sheet, _order(self.wave))
+        resolving = ritz_error.resolving_degrees(self.sheet, shortest_order(self.wave))
         return ritz_error.relative_tails(
             self._polynomials, missed, self._cases.samples(), resolving, self.sheet.poisson
         )

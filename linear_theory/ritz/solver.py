@@ -18,6 +18,9 @@ from linear_theory.sheet import Sheet
 Array = NDArray[np.float64]
 Pair = tuple[int, int]
 
+PARITIES = ((0, 0), (0, 1), (1, 0), (1, 1))
+"""Of growths, across and along; a motion that is mirrored in x has the first two only."""
+
 
 def matrix_size(degree: Pair) -> int:
     """Numbers in the band matrix of one parity, for degrees (across, along)."""
@@ -97,24 +100,25 @@ class RitzSolver:
         moments = moments[:, : self.degree[0] + 1, : self.degree[1] + 1]
         load = self._load(moments)
         solution = np.zeros_like(load)
-        for parity in ((0, 0), (0, 1), (1, 0), (1, 1)):
+        for parity in PARITIES:
             cases = np.flatnonzero(np.any(moments[:, parity[0] :: 2, parity[1] :: 2], axis=(1, 2)))
             if cases.size:
                 solution[cases] += self._solve_parity(load[cases], parity)
         return self._without_rigid_motion(solution)
 
-    def solve_stress(self, moments: Array) -> Array:
-        """Coefficients for a stress P that does the virtual work int P_kj dv_k/dx_j, mirrored in x.
+    def solve_stress(self, moments: Array, mirrored: bool) -> Array:
+        """Coefficients for a stress P that does the virtual work int P_kj dv_k/dx_j.
 
         moments: (cases, 2, 2, degree x + 1, degree y + 1), integrals of P_kj p_i p_j over [-1, 1]^2, of
-        a P without net force or torque, P_xx and P_yy even and P_xy and P_yx odd in x.
+        a P without net force or torque; mirrored: P_xx and P_yy are even and P_xy and P_yx odd in x.
         Returns (cases, 2, degree x + 1, degree y + 1), length; no mean, no mean rotation.
         """
         values, slopes = legendre.against_values, legendre.against_slopes
         along = values(slopes(moments[:, :, 0], 2), 3) * (self.sheet.length / 2)
         across = slopes(values(moments[:, :, 1], 2), 3) * (self.sheet.width / 2)
-        load = along + across
-        solution = self._solve_parity(load, (0, 0)) + self._solve_parity(load, (0, 1))
+        load, solution = along + across, np.zeros_like(along)
+        for parity in PARITIES[:2] if mirrored else PARITIES:
+            solution += self._solve_parity(load, parity)
         return self._without_rigid_motion(solution)
 
     def _load(self, moments: Array) -> Array:

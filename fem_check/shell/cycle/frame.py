@@ -1,12 +1,13 @@
 """The frame that moves and turns with a deforming sheet as a whole.
 
-Its origin is the centre of mass (of the undeformed area) and its axes are turned against those of the
-reference by the angle that brings the reference closest to the shape in the least squares sense,
+Its origin is the centre of mass (of the undeformed area), and its axes are turned against those of the
+reference by the rotation in the mean F of the deformation gradient over that area,
 
-    tan(theta) = int X x x dA / int X . x dA,    X, x from the centres of mass.
+    tan(theta) = (F_yx - F_xy)/(F_xx + F_yy),
 
-For small strains that is the frame of zero mean displacement and zero mean rotation. The supports of a
-static shape fix some vertex and hold some slope, and so turn with the shape of the sheet there.
+which brings F closest to the unit matrix. For small strains that is the frame of linear theory, of zero
+mean displacement and zero mean of (du_y/dx - du_x/dy)/2. The supports of a static shape fix some vertex
+and hold some slope, and so turn with the shape of the sheet there.
 """
 
 from dataclasses import dataclass
@@ -14,17 +15,38 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from fem_check.shell.cycle.shapes import Shapes, time_factors
+from fem_check.shell.cycle.shapes import Shapes, harmonics, time_factors
+from fem_check.shell.discretisation import Discretisation
+from linear_theory.path import Poses
 
 Array = NDArray[np.float64]
+
+
+def moments(discretisation: Discretisation, states: Array) -> Array:
+    """Of states (n, size) the means of x, of y, of F_xx + F_yy and of F_yx - F_xy, (n, 4).
+
+    From the whole sheet, at the quadrature points of its elements.
+    """
+    region = discretisation.interior
+    mass = region.measure / region.measure.sum()
+    found = []
+    for state in states:
+        place, along_x, along_y = region.position(state, (0, 1, 2))[:, :2] @ mass
+        found.append([*place, along_x[0] + along_y[1], along_x[1] - along_y[0]])
+    return np.array(found)
+
+
+def poses(discretisation: Discretisation, times: Array, states: Array) -> Poses:
+    """Of the frame at the times (n,) of states (n, size) that follow each other."""
+    x, y, along, across = moments(discretisation, states).T
+    return Poses(times, np.stack([x, y]), np.unwrap(np.arctan2(across, along)))
 
 
 @dataclass(frozen=True, eq=False)
 class BodyFrame:
     """The frame of a cycle of shapes.
 
-    moments: (2K + 1, 4), harmonics in time of the mean of x (2), of X . x and of X x x; period: of
-    the wave.
+    moments: (2K + 1, 4), harmonics in time of the means (see `moments`); period: of the wave.
     """
 
     moments: Array
@@ -32,17 +54,8 @@ class BodyFrame:
 
     @classmethod
     def of(cls, shapes: Shapes) -> "BodyFrame":
-        """From the whole sheet, at the quadrature points of its elements."""
-        region = shapes.discretisation.interior
-        mass = region.measure / region.measure.sum()
-        place = region.reference[0, :2]
-        arm = (place - (place @ mass)[:, None]) * mass
-        weights = np.zeros((4, 2, mass.size))
-        weights[0, 0] = weights[1, 1] = mass
-        weights[2], weights[3] = arm, np.stack([-arm[1], arm[0]])
-        fields = np.stack([region.displacement(u, (0,))[0, :2] for u in shapes.harmonics])
-        fields[0] += place
-        return cls(np.einsum("hcp,wcp->hw", fields, weights), shapes.scene.period)
+        """From all phases: the means are linear in the shape."""
+        return cls(harmonics(moments(shapes.discretisation, shapes.states)), shapes.scene.period)
 
     def seen(self, times: Array, place: Array, velocity: Array) -> tuple[Array, Array]:
         """Positions and velocities (2, T, points) at times (T,) as seen in the frame."""

@@ -7,6 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from fem_check.shell.cycle.frame import poses
 from fem_check.shell.effects.friction import Friction
 from fem_check.shell.scene import Scene
 from fem_check.shell.stepping.power import Works
@@ -14,7 +15,8 @@ from fem_check.shell.stepping.sliding import COMPARED
 from fem_check.shell.stepping.step_control import extrapolated
 from fem_check.shell.stepping.stepper import amplitude
 from linear_theory import validation
-from linear_theory.speed import CrawlSpeed
+from linear_theory.path import Poses
+from linear_theory.speed import CrawlSpeed, Regime, regime_of
 
 Array = NDArray[np.float64]
 
@@ -105,6 +107,11 @@ class Trajectory:
         return friction.slip_speed / fastest if fastest > 0 else np.inf
 
     @property
+    def regime(self) -> Regime:
+        """See `CrawlSpeed.regime`."""
+        return regime_of(self.slip_ratio)
+
+    @property
     def linear_share(self) -> float:
         """Share of the load, mean over the last period, that moves slower than the slip speed."""
         return self._mean("linear")
@@ -137,6 +144,14 @@ class Trajectory:
         mesh = discretisation.mesh
         region = discretisation.points(mesh.p if points is None else points)
         return np.asarray(region.position(u, (0,))[0])
+
+    @cached_property
+    def path(self) -> Poses:
+        """Position along the ground and heading of the body frame at the stored times.
+
+        The frame is that of `rigid_path`; the ramp is part of the path.
+        """
+        return poses(self.scene.discretisation(), self.stored_times, self.states)
 
     @cached_property
     def period_speeds(self) -> Array:

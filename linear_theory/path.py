@@ -1,0 +1,288 @@
+"""The path of a sheet that crawls and turns: the rigid motion of one period, repeated.
+
+The body frame moves and turns with the sheet as a whole. Its origin is the mean position of the sheet
+and its axes are turned so that the mean rotation is zero, both means over the undeformed area: for
+small strains that of (du_y/dx - du_x/dy)/2, else the rotation in the mean deformation gradient.
+`CrawlSpeed.rigid` is the velocity of its origin along its own axes and its rate of rotation,
+
+    dX/dt = R(theta) (V_x, V_y),   dtheta/dt = Omega.
+
+One period moves it by d and turns it by phi, in its axes at the start of the period. n of them make, as
+complex numbers x + i y,
+
+    z_n = d (1 + q + ... + q^(n - 1)) = d (1 - q^n)/(1 - q),   q = exp(i phi),
+
+which lie on a circle of radius |d|/(2 sin(phi/2)). d is not T times the mean of V: a sheet that goes to
+and fro at order alpha while it swings at order alpha gets ahead by order alpha^2 from that alone.
+"""
+
+import math
+import time
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.interpolate import CubicHermiteSpline
+
+from linear_theory import validation
+from linear_theory.sheet import Sheet
+from linear_theory.speed import CrawlSpeed
+from linear_theory.time_grid import TimeGrid
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+SAME = 1e-6
+"""Relative difference of time steps that count as equal; times are kept to 1e-12 of the period."""
+
+_NODES = np.arange(5.0)
+_POWERS = np.arange(5)
+_CUMULATIVE = (_NODES[:, None] ** (_POWERS + 1) / (_POWERS + 1)) @ np.linalg.inv(
+    _NODES[:, None] ** _POWERS
+)
+"""Integrals from the first of five equidistant nodes to each, by the quartic through them; Boole's rule
+in the last row. Step 1."""
+
+
+@dataclass(frozen=True)
+class Poses:
+    """Where the body frame was: times (N,), position (2, N) of its origin, heading (N,).
+
+    The heading is the angle of its axes against those of the resting sheet, anticlockwise, radians, not
+    reduced to a circle.
+    """
+
+    times: Array
+    position: Array
+    heading: Array
+
+    def seen_from(self, index: int) -> "Poses":
+        """Position and heading in the axes of the pose of that index; the times are the same."""
+        origin = self.position[0, index] + 1j * self.position[1, index]
+        place = self.position[0] + 1j * self.position[1] - origin
+        place = place * np.exp(-1j * self.heading[index])
+        heading = self.heading - self.heading[index]
+        return Poses(self.times, np.stack([place.real, place.imag]), heading)
+
+
+@dataclass(frozen=True)
+class Path(Poses):
+    """The path of a sheet over many periods, from the origin with heading 0 at the first time.
+
+    step (2,), turn: displacement d and angle phi of one period in the axes at its start, length and
+    radians (anticlockwise); period: T. step_error, turn_error: estimates of their numerical errors,
+    absolute. position_error, heading_error (N,): of the path, which add up over the periods. Like the
+    error of the speed they leave out how far its model is from another one. seconds: spent here.
+    """
+
+    period: float
+    step: Array
+    turn: float
+    step_error: float
+    turn_error: float
+    position_error: Array
+    heading_error: Array
+    seconds: float
+
+    @property
+    def is_straight(self) -> bool:
+        """Whether the turning is not told from none."""
+        return abs(self.turn) <= self.turn_error
+
+    @property
+    def radius(self) -> float:
+        """Of the circle on which the origin lies at the ends of the periods; infinite if straight."""
+        if self.is_straight:
+            return math.inf
+        return float(np.linalg.norm(self.step) / abs(2 * math.sin(self.turn / 2)))
+
+    @property
+    def radius_error(self) -> float:
+        """Estimate of its error, absolute; infinite if straight."""
+        if self.is_straight:
+            return math.inf
+        relative = self.turn_error / abs(self.turn)
+        return self.radius * relative + self.step_error / abs(2 * math.sin(self.turn / 2))
+
+    @property
+    def speed(self) -> float:
+        """Mean speed along that circle, or along the line, length per time."""
+        arc_over_chord = 1 / abs(np.sinc(self.turn / (2 * math.pi)))
+        return float(np.linalg.norm(self.step) * arc_over_chord / self.period)
+
+
+def rigid_path(
+    speed: CrawlSpeed, periods: int = 1, samples: int = 16, sheet: Sheet | None = None
+) -> Path:
+    """The path that the rigid motion of one period makes when it is repeated.
+
+    speed: of `crawl_speed`, `field_speed` or `cycle_speed`; where `rigid` is None the motion is mirror
+    symmetric and its path straight. The path starts at speed.times[0], and with `periods` periods of
+    `samples` equal intervals it has N = periods samples + 1 times. sheet: the one that crawls, Sheet()
+    unless given; only an error estimate needs it, that of the rotation: the error of the speed over the
+    radius of gyration.
+
+    The quadrature in time is compared with one that is coarser. `speed.error`, the estimate for V_y,
+    stands for the errors of V_x, too, which were not controlled on their own: where V_y is nearly zero
+    it may be too small, and a sheet is better turned so that it crawls along y.
+
+    Raises ValueError for numbers below 1 and for a speed whose times are not those of a solver: panels
+    of five equidistant times, neighbours sharing their ends. A sheet at rest (alpha = 0) has one time
+    only.
+    """
+    start = time.perf_counter()
+    periods = validation.integer("periods", periods, 1)
+    samples = validation.integer("samples", samples, 1)
+    cycle = _one_period(_checked_grid(speed), speed, Sheet() if sheet is None else sheet)
+    shares = np.arange(samples) / samples
+    whole = np.append(np.repeat(np.arange(periods), samples), periods)
+    share = np.append(np.tile(shares, periods), 0.0)
+    place, heading = cycle.repeated(whole, share)
+    position_error, heading_error = cycle.errors(np.ceil(whole + share))
+    return Path(
+        times=cycle.start + cycle.length * (whole + share),
+        position=np.stack([place.real, place.imag]),
+        heading=heading,
+        period=cycle.length,
+        step=np.array([cycle.step.real, cycle.step.imag]),
+        turn=cycle.turn,
+        step_error=cycle.step_error,
+        turn_error=cycle.turn_error,
+        position_error=position_error,
+        heading_error=heading_error,
+        seconds=time.perf_counter() - start,
+    )
+
+
+class _Cycle(NamedTuple):
+    """One period. spline: x, y, heading over the time; inner, inner_turn: errors within the period
+    that do not add up; swing: largest distance from the start."""
+
+    spline: CubicHermiteSpline
+    step_error: float
+    turn_error: float
+    inner: float
+    inner_turn: float
+    swing: float
+
+    @property
+    def start(self) -> float:
+        return float(self.spline.x[0])
+
+    @property
+    def length(self) -> float:
+        return float(self.spline.x[-1] - self.spline.x[0])
+
+    @property
+    def step(self) -> complex:
+        x, y, _ = self.spline(self.spline.x[-1])
+        return complex(x, y)
+
+    @property
+    def turn(self) -> float:
+        return float(self.spline(self.spline.x[-1])[2])
+
+    def repeated(self, whole: Array, share: Array) -> tuple[Complex, Array]:
+        """Place (complex) and heading after whole periods and a share of the next."""
+        x, y, angle = self.spline(self.start + share * self.length).T
+        turned = np.exp(1j * self.turn * whole)
+        return self.step * _powers(whole, self.turn) + turned * (x + 1j * y), self.turn * whole + angle
+
+    def errors(self, periods: Array) -> tuple[Array, Array]:
+        """Bounds of the errors of place and heading within so many periods, of first order.
+
+        Every period brings the same error of d and phi: d times the sum of q^k, its slope in phi times
+        the sum of k q^k, k < n. On a circle both sums stop growing like n and n^2.
+        """
+        chord = max(abs(math.sin(self.turn / 2)) - self.turn_error / 2, 1e-300)
+        sums = np.minimum(periods, 1 / chord)
+        slopes = np.maximum(np.minimum(periods / 2, 1 / chord) * (periods - 1), 0.0)
+        turned = periods * self.turn_error
+        place = self.step_error * sums + abs(self.step) * self.turn_error * slopes
+        inside = periods > 0
+        return place + turned * self.swing + self.inner * inside, turned + self.inner_turn * inside
+
+
+def _powers(count: Array, angle: float) -> Complex:
+    """1 + q + ... + q^(count - 1) of q = exp(i angle)."""
+    half = math.remainder(angle, 2 * math.pi) / 2
+    if half == 0:
+        return count.astype(complex)
+    return np.asarray(np.exp(1j * (count - 1) * half) * np.sin(count * half) / math.sin(half))
+
+
+def _checked_grid(speed: CrawlSpeed) -> TimeGrid:
+    """Panels of the whole period with its end. Raises ValueError where the times are none."""
+    if not isinstance(speed, CrawlSpeed):
+        raise ValueError(f"speed = {speed!r}: must be a CrawlSpeed")
+    times = speed.times
+    if times.size < 4 or times.size % 4:
+        raise ValueError(f"speed.times has {times.size} times: must be panels of four, 4 or more")
+    closed = np.append(times, 2 * times[-1] - times[-2])
+    steps = np.diff(closed).reshape(-1, 4)
+    if not np.all(steps > 0) or np.any(np.ptp(steps, axis=1) > SAME * steps.min(1)):
+        raise ValueError("speed.times: must be panels of equal, positive steps")
+    return TimeGrid(closed)
+
+
+def _one_period(grid: TimeGrid, speed: CrawlSpeed, sheet: Sheet) -> _Cycle:
+    """The motion through one period and its errors."""
+    times, length = grid.times, grid.lengths.sum()
+    v_x, v_y, omega = _closed_velocities(grid, speed)
+    heading = _integral(grid, omega)
+    velocity = (v_x + 1j * v_y) * np.exp(1j * heading)
+    place = _integral(grid, velocity)
+    poses = np.stack([place.real, place.imag, heading], 1)
+    rates = np.stack([velocity.real, velocity.imag, omega], 1)
+    inner, inner_turn = _inner_errors(times, poses, rates)
+    turn_error, step_error = 0.0, length * speed.error
+    if speed.rigid is not None:
+        gyration = math.hypot(sheet.length, sheet.width) / math.sqrt(12)
+        errors = [length * _mean_error(grid, rate) for rate in rates.T]
+        turn_error = errors[2] + step_error / gyration
+        # a wrong heading within the period turns the ways there
+        turned = inner_turn * float(grid.mean(abs(velocity))[0]) * length
+        step_error = math.hypot(errors[0], errors[1]) + math.sqrt(2) * step_error + turned
+    spline = CubicHermiteSpline(times, poses, rates)
+    return _Cycle(spline, step_error, turn_error, inner, inner_turn, float(abs(place).max()))
+
+
+def _closed_velocities(grid: TimeGrid, speed: CrawlSpeed) -> Array:
+    """V_x, V_y, Omega at all times of the grid, (3, times); the mean of V_y is the speed's own.
+
+    It may know better than the values, of which a part has exactly no mean.
+    """
+    nothing = np.zeros_like(speed.velocity)
+    rigid = np.stack([nothing, speed.velocity, nothing]) if speed.rigid is None else speed.rigid
+    rigid = np.concatenate([rigid, rigid[:, :1]], axis=1)
+    rigid[1] += speed.mean - grid.mean(rigid[1])[0]
+    return rigid
+
+
+def _integral(grid: TimeGrid, values: NDArray[np.inexact]) -> NDArray[np.inexact]:
+    """Integrals of values (times,) from the first time to each."""
+    panels = np.lib.stride_tricks.sliding_window_view(values, 5)[::4]
+    inside = panels @ _CUMULATIVE.T * (grid.lengths / 4)[:, None]
+    before = np.concatenate([[0.0], np.cumsum(inside[:, -1])])
+    return np.append((before[:-1, None] + inside[:, :-1]).ravel(), before[-1])
+
+
+def _mean_error(grid: TimeGrid, values: Array) -> float:
+    """Estimated error of the mean of values (times,).
+
+    Where the second half of the period has the times of the first one, the mean of both is compared: of
+    half-period antisymmetric terms, which are larger by 1/alpha, nothing is left.
+    """
+    count = grid.times.size // 2
+    first, second = grid.times[: count + 1], grid.times[count:]
+    if count % 4 == 0 and np.allclose(second - second[0], first - first[0], SAME, 0.0):
+        return TimeGrid(first).mean((values[: count + 1] + values[count:]) / 2)[1]
+    return grid.mean(values)[1]
+
+
+def _inner_errors(times: Array, poses: Array, rates: Array) -> tuple[float, float]:
+    """Largest errors of place and heading within the period: what every second time leaves out."""
+    coarse = CubicHermiteSpline(times[::2], poses[::2], rates[::2])
+    x, y, angle = (coarse(times) - poses).T
+    return float(np.hypot(x, y).max()), float(abs(angle).max())
