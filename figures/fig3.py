@@ -2,13 +2,16 @@
 
     python -m figures.fig3 [--out FOLDER] [--rtol 1e-4] [--formats png pdf]
 
-Panel A: friction by the Airy series (top) and by linear finite elements (bottom). Panel B: mean
-speed against the growth coupling under dry (Coulomb) friction, signs as they come out: lines from
-theory, open symbols from linear finite elements, filled ones from the nonlinear planar sheet and from
-the bar at finite strain. Panel C: speed over alpha^2 at the slip speeds v0 = 0.01, 1 and 100 alpha L/T
-of friction tanh(v/v0), dry, mixed and viscous: lines from linear theory, symbols from the nonlinear
-sheet. The speed is of second order, beyond what small strains determine: a nonlinear sheet need not
-share the limit of linear theory at small alpha, and does so only in viscous crawling.
+Panel A: friction by the Airy series (left) and by linear finite elements (right). Panel B: mean speed
+against the growth coupling under dry (Coulomb) friction, signs as they come out. Panel C: the same over
+alpha^2, where the models differ: linear strains (eqs 10 and 11, corrected) in a balance that is not
+expanded, by series and by linear finite elements; the nonlinear planar sheet, which grows by exp(alpha
+c), and its second order V_2 alpha^2; bodies in one dimension that grow by 1 + alpha c (eq. 7,
+corrected) and by exp(alpha c), exactly. The speed is of second order, beyond what small strains
+determine: the nonlinear sheet has the limit V_2, 20 per cent below that of linear strains. Panel D:
+speed over alpha^2 at the slip speeds v0 = 0.01, 1 and 100 alpha L/T of friction tanh(v/v0), dry, mixed
+and viscous: lines from linear strains, symbols from the nonlinear sheet. In viscous crawling alone both
+have the same limit.
 
 In 2D the load is 'current', weight per current area as in eq. 11. Error bars are the estimated
 numerical errors, less than the size of a symbol. Nonlinear speeds are read from the table that
@@ -25,7 +28,7 @@ from numpy.typing import ArrayLike, NDArray
 from figures import nonlinear, output, style
 from figures.fig3_data import ALPHA_SHOWN, ARROWS, RTOL, Fig3Data, compute
 from figures.fig3_draw import draw
-from figures.fig3_speed import REGIMES, Series
+from figures.fig3_speed import LABELS, REGIMES, Series
 
 Array = NDArray[np.float64]
 
@@ -33,8 +36,8 @@ Array = NDArray[np.float64]
 def numbers_shown(data: Fig3Data) -> dict[str, object]:
     """What the JSON beside the figure holds."""
     coefficients = {
-        f"{dimension}D": {"value": value, "error": error}
-        for dimension, (value, error) in data.coefficients.items()
+        LABELS[name]: {"value": value, "error": error}
+        for name, (value, error) in data.coefficients.items()
     }
     top, bottom = data.snapshots
     difference = np.hypot(*(top.force - bottom.force))
@@ -49,7 +52,7 @@ def numbers_shown(data: Fig3Data) -> dict[str, object]:
 
 
 def slip_numbers(data: Fig3Data) -> dict[str, dict[str, object]]:
-    """Panel C by regime and model: at ALPHA_SHOWN, and V/alpha^2 at the smallest alpha there is."""
+    """Panel D by regime and model: at ALPHA_SHOWN, and V/alpha^2 at the smallest alpha there is."""
     found: dict[str, dict[str, object]] = {
         name: {"slip_speed_over_alpha": nonlinear.SLIPS[name]} for name in REGIMES
     }
@@ -74,7 +77,7 @@ def at_alpha_shown(series: Series) -> dict[str, float]:
 
 
 def speed_columns(data: Fig3Data) -> dict[str, ArrayLike]:
-    """Panels B and C, one row for each point."""
+    """Panels B to D, one row for each point."""
     rows = [
         (series.label, series.kind, series.friction, *numbers)
         for series in (*data.series, *data.slips)

@@ -8,13 +8,14 @@ from numpy.typing import NDArray
 from fem_check.plane_stress import PlaneStressField, plane_stress_field
 from figures import nonlinear, output
 from figures.fig3_speed import (
+    LABELS,
     REGIMES,
     SMALL_ALPHA,
     Series,
-    law_speeds,
     leading_coefficients,
     line_speeds,
     nonlinear_speeds,
+    second_order_speeds,
     sheet_speeds,
     slip_speeds,
 )
@@ -46,7 +47,7 @@ LEADING_FACTOR = 0.01
 """Share of rtol for the coefficient of alpha^2, and for the deformation, which costs little."""
 
 THEORY_POINTS, SLIP_POINTS = 13, 7
-"""Couplings of the curves of panels B and C, besides ALPHA_SHOWN."""
+"""Couplings of the curves of panels B and C, and of D, besides ALPHA_SHOWN."""
 
 LINE_POINTS = 201
 """Points of a drawn line."""
@@ -80,15 +81,15 @@ class Snapshot:
 class Fig3Data:
     """What the figure shows.
 
-    series: panel B, dry friction; slips: panel C, theory and sheet in turn, in the order of REGIMES;
-    coefficients: V/alpha^2 as alpha -> 0 and its error, in L/T, by dimension; largest_alpha: at which
-    the load is no longer positive somewhere.
+    series: panels B and C, dry friction; slips: panel D, theory and sheet in turn, in the order of
+    REGIMES; coefficients: V/alpha^2 as alpha -> 0 and its error, in L/T, by key of LABELS;
+    largest_alpha: at which the load of linear strains is no longer positive somewhere.
     """
 
     snapshots: tuple[Snapshot, Snapshot]
     series: tuple[Series, ...]
     slips: tuple[Series, ...]
-    coefficients: dict[int, tuple[float, float]]
+    coefficients: dict[str, tuple[float, float]]
     largest_alpha: float
 
 
@@ -99,19 +100,19 @@ def compute(rtol: float = RTOL) -> Fig3Data:
     theory = airy_series(sheet, wave, rtol=LEADING_FACTOR * rtol)
     elements = plane_stress_field(sheet, wave, size=FEM_SIZE)
     limit = largest_alpha(theory)
-    alphas = couplings(0, limit, THEORY_POINTS)
-    few = couplings(SMALL_ALPHA, limit, SLIP_POINTS)  # at 0 V/alpha^2 would be 0/0
+    # From a small alpha on: at 0 V/alpha^2 would be 0/0.
+    alphas, few = (couplings(SMALL_ALPHA, limit, n) for n in (THEORY_POINTS, SLIP_POINTS))
     work = alphas.size + 1 + len(REGIMES) * few.size + FEM_COST * len(FEM_ALPHAS)
     with output.Progress("figure 3", work) as progress:
         coefficients = leading_coefficients(theory, LEADING_FACTOR * rtol)
         progress.advance()
-        curve = sheet_speeds("2D, theory", "theory", theory, alphas, rtol, progress.advance)
+        curve = sheet_speeds(LABELS["first"], "theory", theory, alphas, rtol, progress.advance)
         slips = slip_speeds(table, theory, few, rtol, progress.advance)
         symbols = element_speeds(elements, FEM_FACTOR * rtol, progress)
-    laws = [law_speeds(dimension, c, alphas) for dimension, (c, _) in coefficients.items()]
+    second = second_order_speeds(*coefficients["second"], alphas)
     return Fig3Data(
         snapshots=(snapshot(theory, "Airy series"), snapshot(elements, "linear FEM")),
-        series=(curve, *line_speeds(alphas), *laws, symbols, *nonlinear_speeds(table)),
+        series=(curve, symbols, second, *nonlinear_speeds(table), *line_speeds(alphas)),
         slips=tuple(slips),
         coefficients=coefficients,
         largest_alpha=limit,
@@ -124,9 +125,9 @@ def couplings(start: float, limit: float, points: int) -> Array:
 
 
 def element_speeds(elements: LinearField, rtol: float, progress: output.Progress) -> Series:
-    """Linear finite elements under dry friction, symbols of panel B."""
+    """Linear finite elements under dry friction, symbols of panels B and C."""
     return sheet_speeds(
-        "2D, linear FEM",
+        LABELS["elements"],
         "simulation",
         elements,
         np.array(FEM_ALPHAS),

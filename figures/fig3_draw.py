@@ -1,4 +1,4 @@
-"""The three panels of figure 3."""
+"""The four panels of figure 3."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -15,7 +15,7 @@ from scipy.interpolate import CubicSpline
 
 from figures import nonlinear, style
 from figures.fig3_data import ALPHA_SHOWN, LINE_POINTS, PHASE_SHOWN, Fig3Data, Snapshot
-from figures.fig3_speed import Series
+from figures.fig3_speed import LABELS, Series
 
 Array = NDArray[np.float64]
 
@@ -30,41 +30,49 @@ ARROW_LOOK: dict[str, Any] = {
 LINE_LOOKS: dict[str, dict[str, Any]] = {
     "theory": {"linestyle": "-", "linewidth": 1.2},
     "printed": {"linestyle": "--", "linewidth": 1.0},
-    "law": {"linestyle": ":", "linewidth": 0.8},
+    "second": {"linestyle": (0, (5, 1.2, 1, 1.2)), "linewidth": 1.0},
 }
 COLOURS = {1: style.COLORS["vermillion"], 2: style.COLORS["blue"]}
 SYMBOL_LOOKS: dict[str, dict[str, Any]] = {
-    "2D, linear FEM": {"marker": "o", "markersize": 4.5, "mfc": "white"},
-    "2D, nonlinear sheet": {"marker": "s", "markersize": 3.2},
-    "1D, finite strain": {"marker": "^", "markersize": 3.8},
+    LABELS["elements"]: {"marker": "o", "markersize": 4.5, "mfc": "white"},
+    LABELS["sheet"]: {"marker": "s", "markersize": 3.2},
+    LABELS["bar"]: {"marker": "^", "markersize": 3.8},
 }
 REGIME_LOOKS: dict[str, dict[str, Any]] = {
     "dry": {"marker": "s", "markersize": 3.5, "color": style.COLORS["blue"]},
     "mixed": {"marker": "D", "markersize": 3.3, "color": style.COLORS["green"]},
     "viscous": {"marker": "v", "markersize": 4.0, "color": style.COLORS["purple"]},
 }
-"""Of panel C; "s" in blue is the nonlinear sheet under dry friction in B, too."""
+"""Of panel D; "s" in blue is the nonlinear sheet under dry friction in B and C, too."""
 
-LEGEND: dict[str, Any] = {"handlelength": 1.5, "columnspacing": 0.5, "labelspacing": 0.35}
+HEIGHT_CM, ROWS, COLUMNS = 15.5, (0.62, 1), (1.08, 1)
+"""Of the figure; shares of panel A and of the rest in it; of panel B and of C and D."""
+
+BOTTOM = -0.17
+"""Of panel B, L/T."""
+
+LEGEND: dict[str, Any] = {"handlelength": 1.5, "columnspacing": 0.5, "labelspacing": 0.3}
 NOTE: dict[str, Any] = {"textcoords": "offset points", "fontsize": 7}
 
 
 def draw(data: Fig3Data) -> Figure:
-    """Panel A on the left, with y to the right; panels B and C on the right."""
-    fig = style.figure(width=style.DOUBLE_CM, height=12.6)
-    cells = fig.add_gridspec(1, 2, width_ratios=(1.08, 1))
-    left, right = fig.add_subfigure(cells[0]), fig.add_subfigure(cells[1])
-    panels = left.subplots(2, 1, sharex=True, sharey=True)
+    """Panel A across the top, with y to the right; below it B, and beside that C above D."""
+    fig = style.figure(width=style.DOUBLE_CM, height=HEIGHT_CM)
+    rows = fig.add_gridspec(2, 1, height_ratios=ROWS)
+    top, bottom = fig.add_subfigure(rows[0]), fig.add_subfigure(rows[1])
+    panels = top.subplots(1, 2, sharex=True, sharey=True)
     for axes, shot in zip(panels, data.snapshots, strict=True):
         colours = _draw_sheet(axes, shot)
     _draw_keys(panels)
-    bar = left.colorbar(colours, ax=panels, location="bottom", shrink=0.4, aspect=18, ticks=[-1, 0, 1])
-    bar.set_label("growth $c$", labelpad=0)
+    top.colorbar(colours, ax=panels, shrink=0.7, aspect=14, ticks=[-1, 0, 1], label="growth $c$")
     instant = rf"$\alpha$ = {ALPHA_SHOWN:g}, $t/T$ = {PHASE_SHOWN:g}"
-    left.suptitle(rf"$\mathbf{{A}}$   friction on the sheet at {instant}", x=0.01, ha="left")
-    upper, lower = right.subplots(2, 1, sharex=True)
-    _draw_speeds(upper, data)
-    _draw_regimes(lower, data)
+    top.suptitle(rf"$\mathbf{{A}}$   friction on the sheet at {instant}", x=0.01, ha="left")
+    cells = bottom.add_gridspec(2, 2, width_ratios=COLUMNS)
+    speeds, ratios = bottom.add_subplot(cells[:, 0]), bottom.add_subplot(cells[0, 1])
+    regimes = bottom.add_subplot(cells[1, 1], sharex=ratios)
+    _draw_speeds(speeds, data)
+    _draw_ratios(ratios, data)
+    _draw_regimes(regimes, data)
     return fig
 
 
@@ -114,50 +122,64 @@ def _around(values: Array) -> Array:
 
 def _draw_speeds(axes: Axes, data: Fig3Data) -> None:
     """Lines, symbols and the largest alpha of panel B."""
-    for series in data.series:
+    _draw_series(axes, data.series, 0)
+    axes.plot([0, data.largest_alpha], [0, 0], color="black", linewidth=0.6)
+    _draw_limit(axes, data)
+    end = (data.largest_alpha, BOTTOM)
+    axes.annotate("load reaches 0", end, (2, 4), rotation=90, color="0.4", **NOTE)
+    corner: dict[str, Any] = {"xycoords": ("data", "axes fraction"), **NOTE}
+    axes.annotate("sheet: load 'current'\nCoulomb friction", (0, 0.04), (6, 0), **corner)
+    axes.set(xlim=(0, None), ylim=(BOTTOM, 0.5))
+    axes.set(xlabel=r"growth coupling $\alpha$", ylabel="mean speed $V$  ($L/T$)")
+    axes.legend(loc="upper left", **LEGEND)
+    _title(axes, "B", "mean speed, positive along the wave", -0.135)
+
+
+def _draw_ratios(axes: Axes, data: Fig3Data) -> None:
+    """Panel B over alpha^2, without the print, which has the other sign."""
+    _draw_series(axes, [series for series in data.series if series.kind != "printed"], 2)
+    _draw_limit(axes, data)
+    axes.set(ylim=(0.65, 2.05), ylabel=r"$V/\alpha^2$  ($L/T$)")
+    axes.tick_params(labelbottom=False)
+    _title(axes, "C", r"the same models, $V/\alpha^2$")
+
+
+def _draw_series(axes: Axes, chosen: Sequence[Series], power: int) -> None:
+    """V/alpha^power by all models: lines and symbols in the colours of the dimension."""
+    for series in chosen:
         colour = COLOURS[series.dimension]
         if series.kind == "simulation":
             look = SYMBOL_LOOKS[series.label]
-            _draw_symbols(axes, series, 0, color=colour, label=series.label, **look)
+            _draw_symbols(axes, series, power, color=colour, label=series.label, **look)
         else:
             look = LINE_LOOKS[series.kind]
-            _draw_line(axes, series, 0, color=colour, label=series.label, **look)
-    axes.plot([0, data.largest_alpha], [0, 0], color="black", linewidth=0.6)
+            _draw_line(axes, series, power, color=colour, label=series.label, **look)
+
+
+def _draw_limit(axes: Axes, data: Fig3Data) -> None:
     axes.axvline(data.largest_alpha, color="0.6", linewidth=0.6)
-    end = (data.largest_alpha, 0)
-    axes.annotate("load reaches 0", end, (2, 4), rotation=90, color="0.4", **NOTE)
-    corner: dict[str, Any] = {"xycoords": ("data", "axes fraction"), **NOTE}
-    axes.annotate("2D: load 'current',\nCoulomb friction", (0, 0.04), (6, 0), **corner)
-    axes.set(ylim=(-0.17, 0.49), ylabel="mean speed $V$  ($L/T$)")
-    _draw_legend(axes)
-    _title(axes, "B", "mean speed, positive along the wave")
-
-
-def _draw_legend(axes: Axes) -> None:
-    """2D in the first column, 1D in the second, lines above symbols."""
-    pairs = sorted(zip(*axes.get_legend_handles_labels(), strict=True), key=lambda p: p[1][:2] == "1D")
-    handles, labels = zip(*pairs, strict=True)
-    axes.legend(handles, labels, loc="upper left", ncols=2, **LEGEND)
 
 
 def _draw_regimes(axes: Axes, data: Fig3Data) -> None:
-    """Lines of linear theory and symbols of the nonlinear sheet of panel C."""
+    """Lines of linear theory and symbols of the nonlinear sheet of panel D."""
     handles = []
     for line, symbols in zip(data.slips[::2], data.slips[1::2], strict=True):
         look = REGIME_LOOKS[line.friction]
-        label = rf"{line.friction}: $v_0$ = {nonlinear.SLIPS[line.friction]:g} $\alpha L/T$"
+        label = f"{line.friction}: {nonlinear.SLIPS[line.friction]:g}"
         _draw_line(axes, line, 2, color=look["color"], linewidth=1.2)
         _draw_symbols(axes, symbols, 2, label=symbols.label, **look)
         handles.append(Line2D([], [], label=label, linewidth=1.2, **look))
-    axes.axvline(data.largest_alpha, color="0.6", linewidth=0.6)
-    axes.set(xlim=(0, None), ylim=(0.85, 2.15))
+    _draw_limit(axes, data)
+    axes.set(xlim=(0, None), ylim=(0.85, 2.6), yticks=[1, 1.5, 2])
     axes.set(xlabel=r"growth coupling $\alpha$", ylabel=r"$V/\alpha^2$  ($L/T$)")
-    axes.legend(handles=handles, loc="upper right", bbox_to_anchor=(0.95, 1.02), **LEGEND)
-    _title(axes, "C", "linear theory (lines), nonlinear sheet (symbols)")
+    look = LEGEND | {"columnspacing": 1.2, "title_fontsize": 7, "alignment": "left"}
+    title = r"friction $\tanh(v/v_0)$, slip speed $v_0/(\alpha L/T)$"
+    axes.legend(handles=handles, loc="upper left", ncols=3, title=title, **look)
+    _title(axes, "D", "linear strains (lines), nonlinear sheet (symbols)")
 
 
-def _title(axes: Axes, letter: str, text: str) -> None:
-    axes.set_title(rf"$\mathbf{{{letter}}}$   {text}", loc="left", x=-0.18)
+def _title(axes: Axes, letter: str, text: str, x: float = -0.18) -> None:
+    axes.set_title(rf"$\mathbf{{{letter}}}$   {text}", loc="left", x=x)
 
 
 def _draw_line(axes: Axes, series: Series, power: int, **look: Any) -> None:

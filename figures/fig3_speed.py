@@ -1,5 +1,7 @@
-"""Speeds against the growth coupling for figure 3: theory, finite elements, and the nonlinear table."""
+"""Speeds against the growth coupling for figure 3: theories, finite elements, and the nonlinear
+table."""
 
+import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
@@ -7,7 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from figures import nonlinear
-from linear_theory import field_speed, line_speed
+from linear_theory import Sheet, SineWave, field_speed, line_speed, second_order
+from linear_theory.errors import ViscousRegimeWarning
 from linear_theory.field import LinearField
 
 Array = NDArray[np.float64]
@@ -16,15 +19,26 @@ SMALL_ALPHA = 1e-6
 """V/alpha^2 differs from its limit by alpha^2 relative."""
 
 REGIMES = ("dry", "mixed", "viscous")
-"""Of panel C, keys of `nonlinear.SLIPS`."""
+"""Of panel D, keys of `nonlinear.SLIPS`."""
+
+LABELS = {
+    "first": "1st order, linear strains",
+    "elements": "1st order, linear FEM",
+    "second": "2nd order, exp growth",
+    "sheet": "nonlinear sheet, exp growth",
+    "line": "1D, linear growth",
+    "bar": "1D, exp growth",
+    "printed": "1D as printed, eq. 8",
+}
+"""Of panels B and C: what each model assumes."""
 
 
 @dataclass(frozen=True)
 class Series:
     """Mean speeds against alpha, each (n,), in L/T; error: estimated numerical error of speed.
 
-    kind: "theory", "law" (leading power of alpha), "printed" or "simulation"; dimension: 1 or 2;
-    friction: a key of `nonlinear.SLIPS`, all but "coulomb" in panel C.
+    kind: "theory", "second" (to second order in alpha), "printed" or "simulation"; dimension: 1 or 2;
+    friction: a key of `nonlinear.SLIPS`, all but "coulomb" in panel D.
     """
 
     label: str
@@ -58,39 +72,42 @@ def mean_speed(field: LinearField, alpha: float, friction: str, rtol: float) -> 
     """One speed and its error; the slip speed is in proportion to alpha, as in the table."""
     slip = nonlinear.SLIPS[friction] * alpha
     law, slip_speed = ("tanh", slip) if slip else ("coulomb", None)
-    found = field_speed(field, alpha, "current", law, slip_speed, rtol)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", ViscousRegimeWarning)  # viscous crawling is shown on purpose
+        found = field_speed(field, alpha, "current", law, slip_speed, rtol)
     return found.mean, found.error
 
 
-def leading_coefficients(field: LinearField, rtol: float) -> dict[int, tuple[float, float]]:
-    """V/alpha^2 as alpha -> 0, and its error, by dimension; under dry friction."""
+def leading_coefficients(field: LinearField, rtol: float) -> dict[str, tuple[float, float]]:
+    """V/alpha^2 as alpha -> 0, and its error, by key of LABELS; under dry friction."""
     line = float(line_speed(SMALL_ALPHA)) / SMALL_ALPHA**2
     mean, error = mean_speed(field, SMALL_ALPHA, "coulomb", rtol)
-    return {1: (line, SMALL_ALPHA**2), 2: (mean / SMALL_ALPHA**2, error / SMALL_ALPHA**2)}
+    nonlinear_sheet = second_order(Sheet(), SineWave(), rtol=rtol)
+    return {
+        "line": (line, SMALL_ALPHA**2),
+        "first": (mean / SMALL_ALPHA**2, error / SMALL_ALPHA**2),
+        "second": (nonlinear_sheet.second, nonlinear_sheet.second_error),
+    }
 
 
 def line_speeds(alphas: Array) -> list[Series]:
     """The closed form in 1D, right to 2 ulp, and the printed one."""
     found = []
-    for form, label, kind in (
-        ("corrected", "1D, theory", "theory"),
-        ("printed", "1D, printed", "printed"),
-    ):
+    for form, name, kind in (("corrected", "line", "theory"), ("printed", "printed", "printed")):
         speed = line_speed(alphas, form=form)
-        found.append(Series(label, kind, 1, alphas, speed, 2 * np.spacing(abs(speed))))
+        found.append(Series(LABELS[name], kind, 1, alphas, speed, 2 * np.spacing(abs(speed))))
     return found
 
 
-def law_speeds(dimension: int, coefficient: float, alphas: Array) -> Series:
-    """The leading term, proportional to alpha^2; drawn as it is, it has no error."""
-    label = f"{dimension}D, α² law"
-    return Series(label, "law", dimension, alphas, coefficient * alphas**2, np.zeros_like(alphas))
+def second_order_speeds(coefficient: float, error: float, alphas: Array) -> Series:
+    """V_2 alpha^2 of the nonlinear sheet."""
+    square = alphas**2
+    return Series(LABELS["second"], "second", 2, alphas, coefficient * square, error * square)
 
 
 def nonlinear_speeds(table: Sequence[nonlinear.Speed]) -> list[Series]:
-    """Sheet and bar at finite strain under dry friction, for panel B."""
-    sheet = table_speeds(table, "2D, nonlinear sheet", "sheet", "coulomb")
-    return [sheet, table_speeds(table, "1D, finite strain", "bar", "coulomb")]
+    """Sheet and bar at finite strain under dry friction, for panels B and C."""
+    return [table_speeds(table, LABELS[body], body, "coulomb") for body in ("sheet", "bar")]
 
 
 def slip_speeds(

@@ -8,7 +8,16 @@ import numpy as np
 import pytest
 
 from figures import fig3, fig3_data, fig3_speed, fig7, nonlinear
-from linear_theory import Sheet, SineWave, airy_series, field_speed, line_speed, ritz_field
+from figures.fig3_speed import LABELS
+from linear_theory import (
+    Sheet,
+    SineWave,
+    airy_series,
+    crawl_speed,
+    field_speed,
+    line_speed,
+    ritz_field,
+)
 
 COARSE = {
     "THEORY_POINTS": 5,
@@ -58,20 +67,34 @@ def at_alpha_shown(series: fig3_speed.Series) -> tuple[float, float]:
 
 def test_series_and_elements_give_one_speed_within_their_claims(speeds):
     (airy, airy_error), (fem, fem_error) = (
-        at_alpha_shown(series_of(speeds, label)) for label in ("2D, theory", "2D, linear FEM")
+        at_alpha_shown(series_of(speeds, LABELS[name])) for name in ("first", "elements")
     )
     assert abs(airy - fem) <= airy_error + fem_error
     assert airy_error + fem_error < 0.02 * airy
 
 
 def test_speeds_have_the_signs_and_the_limits_of_the_theory(speeds):
-    line, printed = (series_of(speeds, label) for label in ("1D, theory", "1D, printed"))
+    line, printed = (series_of(speeds, LABELS[name]) for name in ("line", "printed"))
     np.testing.assert_array_equal(line.speed, line_speed(line.alpha))
     assert np.all(line.speed[1:] > 0)
     assert np.all(printed.speed[1:] < 0)
-    assert speeds.coefficients[1][0] == pytest.approx(1, abs=1e-9)
-    assert speeds.coefficients[2][0] == pytest.approx(1.91, abs=0.01)  # below 2, of a narrow strip
+    assert speeds.coefficients["line"][0] == pytest.approx(1, abs=1e-9)
+    assert speeds.coefficients["first"][0] == pytest.approx(1.91, abs=0.01)  # 2 of a narrow strip
+    assert speeds.coefficients["second"][0] == pytest.approx(1.5331, abs=2e-3)
     assert max(s.alpha.max() for s in speeds.series) < speeds.largest_alpha
+
+
+def test_second_order_is_the_tangent_of_the_nonlinear_sheet(speeds):
+    second, sheet = (series_of(speeds, LABELS[name]) for name in ("second", "sheet"))
+    np.testing.assert_allclose(second.speed / second.alpha**2, speeds.coefficients["second"][0])
+    found = crawl_speed(Sheet(), SineWave(), fig3_data.ALPHA_SHOWN, order=2, rtol=1e-3)
+    speed, error = at_alpha_shown(second)
+    assert speed == pytest.approx(found.mean, abs=error + found.error)
+    lag = 1 - sheet.speed / (speeds.coefficients["second"][0] * sheet.alpha**2)
+    assert abs(lag[0]) < 2e-3  # at alpha = 0.02, within the errors of both
+    # alpha^2, slightly less at the larger alpha: from 0.2 to 0.4
+    doubled = lag[sheet.alpha == 0.4] / lag[sheet.alpha == 0.2]
+    assert 3 < doubled.item() < 4
 
 
 def symbols_of(axes, label: str):
@@ -83,8 +106,8 @@ def symbols_of(axes, label: str):
 @pytest.mark.parametrize(
     ("panel", "label", "body", "friction", "power"),
     [
-        (-2, "2D, nonlinear sheet", "sheet", "coulomb", 0),
-        (-2, "1D, finite strain", "bar", "coulomb", 0),
+        *((panel, LABELS["sheet"], "sheet", "coulomb", p) for panel, p in ((-3, 0), (-2, 2))),
+        *((panel, LABELS["bar"], "bar", "coulomb", p) for panel, p in ((-3, 0), (-2, 2))),
         *((-1, f"{name}, nonlinear sheet", "sheet", name, 2) for name in fig3_speed.REGIMES),
     ],
 )
@@ -123,7 +146,7 @@ def test_an_absent_or_incomplete_table_is_reported_with_its_command(tmp_path):
 def test_speed_over_alpha_squared_approaches_its_limits(speeds):
     dry, mixed, viscous = (series_of(speeds, f"{name}, theory") for name in fig3_speed.REGIMES)
     ratios = [s.speed / s.alpha**2 for s in (dry, mixed, viscous)]
-    assert ratios[0][0] == pytest.approx(speeds.coefficients[2][0], rel=1e-3)  # Coulomb
+    assert ratios[0][0] == pytest.approx(speeds.coefficients["first"][0], rel=1e-3)  # Coulomb
     for fast, slow in itertools.pairwise(ratios):
         assert np.all(fast > slow)
     assert ratios[2][0] / ratios[0][0] == pytest.approx(0.535, abs=0.005)  # about half
@@ -167,17 +190,23 @@ def test_figure_3_writes_what_it_shows(speeds, drawn, tmp_path):
     shown = json.loads((tmp_path / "fig3.json").read_text())["speeds_at_alpha_shown"]
     rows = rows_of(tmp_path / "fig3_speed.csv")
     assert len(rows) == sum(series.alpha.size for series in (*speeds.series, *speeds.slips))
-    upper, lower = drawn.axes[-2:]
-    assert set(upper.get_legend_handles_labels()[1]) == {s.label for s in speeds.series} == set(shown)
+    upper, middle, lower = drawn.axes[-3:]
+    labels = [set(axes.get_legend_handles_labels()[1]) for axes in (upper, middle)]
+    assert labels[0] == {s.label for s in speeds.series} == set(shown) == set(LABELS.values())
+    assert labels[0] - labels[1] == {LABELS["printed"]}
     for axes, label, power in (
-        (upper, "2D, linear FEM", 0),
-        (upper, "2D, nonlinear sheet", 0),
+        (upper, LABELS["elements"], 0),
+        (upper, LABELS["sheet"], 0),
+        (middle, LABELS["elements"], 2),
         (lower, "mixed, nonlinear sheet", 2),
     ):
         chosen = [(float(r["alpha"]), float(r["speed"])) for r in rows if r["series"] == label]
         alpha, speed = np.array(chosen).T
         points = symbols_of(axes, label)[0]
         np.testing.assert_allclose(points, np.stack([alpha, speed / alpha**power], 1), rtol=1e-8)
+    limits = json.loads((tmp_path / "fig3.json").read_text())["speed_over_alpha_squared_as_alpha_to_0"]
+    for name, (value, _) in speeds.coefficients.items():
+        assert limits[LABELS[name]]["value"] == pytest.approx(value, rel=1e-8)
     for series in speeds.series:
         assert shown[series.label]["speed"] == pytest.approx(at_alpha_shown(series)[0], rel=1e-8)
     arrows = rows_of(tmp_path / "fig3_friction.csv")
