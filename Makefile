@@ -38,6 +38,9 @@ FIGURE_OPTIONS = $(if $(OUT),--out "$(OUT)") $(if $(RTOL),--rtol $(RTOL))
 figures: $(STAMP)
 	$(RUN) -m figures.fig3 $(FIGURE_OPTIONS)
 	$(RUN) -m figures.fig7 $(FIGURE_OPTIONS)
+	$(RUN) -m figures.reach $(FIGURE_OPTIONS)
+	$(RUN) -m figures.turning $(FIGURE_OPTIONS)
+	$(RUN) -m figures.regimes $(if $(OUT),--out "$(OUT)")
 
 nonlinear: $(STAMP)
 	$(RUN) -m figures.nonlinear
@@ -70,7 +73,7 @@ lock:
 	test -x $(LOCK_VENV)/bin/pip || $(PYTHON) -m venv $(LOCK_VENV)
 	$(LOCK_VENV)/bin/python -m pip install --disable-pip-version-check --quiet $(PIP_TOOLS)
 	CUSTOM_COMPILE_COMMAND="make lock" $(LOCK_VENV)/bin/python -m piptools compile --quiet \
-	    --extra test --build-deps-for editable --allow-unsafe --strip-extras \
+	    --extra test --extra paper --extra docs --build-deps-for editable --allow-unsafe --strip-extras \
 	    --no-emit-index-url --no-emit-find-links --no-emit-trusted-host \
 	    $(LOCKFLAGS) --output-file requirements.lock pyproject.toml
 

@@ -2,6 +2,7 @@
 
 from fem_check.outline import Outline
 from fem_check.plane_stress import PlaneStressField, plane_stress_field
+from fem_check.prediction import Prediction, predict
 from fem_check.shell.cycle.speed import cycle_speed
 from fem_check.shell.scene import Scene
 from fem_check.shell.stepping.simulation import simulate
@@ -10,9 +11,11 @@ from fem_check.shell.stepping.trajectory import Trajectory
 __all__ = [
     "Outline",
     "PlaneStressField",
+    "Prediction",
     "Scene",
     "Trajectory",
     "cycle_speed",
     "plane_stress_field",
+    "predict",
     "simulate",
 ]

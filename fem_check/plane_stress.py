@@ -35,6 +35,15 @@ GAIN = {2: 3.0, 4: 7.0}
 there halving the mesh divides the error by 7 to 8 (degree 2) or 13 (degree 4, limited by the corners,
 u ~ distance**2.74)."""
 
+FALL, NEGLIGIBLE = 2.0, 1e-3
+"""The part of the growth (L2) that is no polynomial on the triangles falls at least so much from one mesh
+to the other where growth is smooth, by 4 or 16; by the root of 2 at a front. Below the second it is of no
+account."""
+
+ROUGH_GAIN = 0.5
+"""Takes the place of GAIN where growth is not resolved: two meshes then sample a front at places that
+have nothing to do with each other."""
+
 FLAT = 1e-6  # a sheet whose displacement is this small for a moment has no relative error then
 
 
@@ -156,7 +165,16 @@ class PlaneStressField(LinearField):
         size, difference = (self._norms(v, fine.weights.ravel()) for v in (u, u - rough))
         if not size.any():
             return 0.0
-        return float(np.max(difference / np.maximum(size, FLAT * size.max()))) / self._gain
+        resolved = self._missed(fine) <= max(self._missed(coarse) / FALL, NEGLIGIBLE)
+        gain = self._gain if resolved else min(self._gain, ROUGH_GAIN)
+        return float(np.max(difference / np.maximum(size, FLAT * size.max()))) / gain
+
+    def _missed(self, solver: PlaneStressSolver) -> float:
+        """Share of the growth that the triangles do not resolve, at the worst of the sampled phases."""
+        growths = self._cases.growths(solver.x, solver.y)
+        size = self._norms(growths, solver.weights)
+        missed = mixed_norms(solver.missed(growths), self._cases.samples())
+        return float(np.max(missed[size > 0] / size[size > 0], initial=0.0))
 
     def _on_cells(self, grid: CellGrid, order: int) -> tuple[Array, Array, Array, Array]:
         """Points, areas, displacements and dilations of the basis, straight from the elements."""

@@ -71,6 +71,18 @@ class PlaneStressSolver:
         modes, means = self._rigid_motions
         return np.asarray(solution - np.linalg.solve(means @ modes.T, means @ solution.T).T @ modes)
 
+    def missed(self, growths: Array) -> Array:
+        """What polynomials of one degree less than the elements leave of growths, the same shape.
+
+        Times the root of the weights: its square sums to the square of an L2 norm.
+        """
+        x, y = np.asarray(self._basis.X)
+        powers = [(i, j) for i in range(self.degree) for j in range(self.degree - i)]
+        scale = np.sqrt(self.weights)
+        polynomials = np.stack([x**i * y**j for i, j in powers], axis=1) * scale[:1].T
+        base, _ = np.linalg.qr(polynomials)
+        return np.asarray(growths * scale - (growths * scale) @ base @ base.T)
+
     def displacements(self, solution: Array, triangle: Indices, local: Array) -> Array:
         """(cases, 2, n) in the given triangles (n,) at local coordinates (2, n)."""
         values, _ = self._shape_functions(local)

@@ -1,0 +1,140 @@
+"""The answer to a tolerance: the cheapest level whose numerical and model error meet it together."""
+
+import math
+import sys
+import time
+import warnings
+from dataclasses import dataclass, replace
+
+from fem_check.levels import LEVELS, Question, distance
+from linear_theory import validation
+from linear_theory.errors import NotConvergedError, ViscousRegimeWarning
+from linear_theory.field import Wave
+from linear_theory.friction import warn_if_viscous
+from linear_theory.sheet import Sheet
+from linear_theory.speed import CrawlSpeed
+
+METHODS = ("auto", *LEVELS)
+
+SHARE = 0.5
+"""Of the tolerance, for the error of the model; the rest is for the numbers."""
+
+
+@dataclass(frozen=True)
+class Prediction:
+    """A speed with the level that gave it.
+
+    speed: its `error` is that of the numbers and `model_error` the distance to the target, NaN where it
+    is unknown (never so for method = "auto"). level: a key of `levels.LEVELS`; reason: why this one and
+    none of those before it, in words. converged: whether `error` meets the tolerance that was asked
+    for. seconds: of all that was tried.
+    """
+
+    speed: CrawlSpeed
+    level: str
+    reason: str
+    converged: bool
+    seconds: float
+
+    @property
+    def mean(self) -> float:
+        """Mean speed, length per time, positive towards +y."""
+        return self.speed.mean
+
+    @property
+    def error(self) -> float:
+        """Of numbers and model together, absolute."""
+        return total_error(self.speed)
+
+
+@dataclass(frozen=True)
+class Goal:
+    """Tolerances, relative and absolute, for the error of numbers and model together."""
+
+    rtol: float
+    atol: float
+
+    def tolerance(self, mean: float) -> float:
+        """Allowed error of that speed."""
+        return max(self.rtol * abs(mean), self.atol)
+
+
+def predict(
+    sheet: Sheet,
+    wave: Wave,
+    alpha: float,
+    growth_law: str = "exp",
+    area: str = "grown",
+    load: str = "current",
+    friction: str = "coulomb",
+    slip_speed: float | None = None,
+    rtol: float = 1e-2,
+    atol: float | None = None,
+    method: str = "auto",
+) -> Prediction:
+    """How fast the nonlinear sheet crawls, by the cheapest level that is known to be near enough.
+
+    The target is a planar sheet that grows by growth_law, counts its energy per area, carries load and
+    is too stiff for friction to change its shape; arguments as in `crawl_speed`. method = "auto" takes
+    of "strip", "first order", "second order" and "cycle" the first one whose error and model error
+    together are below max(rtol |mean|, atol), atol = 1e-3 rtol alpha^2 L/T unless given; a level whose
+    model error is unknown (see `model_error`) is never taken. Any of the names takes that level.
+    A tolerance that the last level misses shows in `converged`.
+
+    Raises ValueError for bad input and what the level that is asked for raises. Warns as `crawl_speed`.
+    """
+    start = time.perf_counter()
+    question = Question(sheet, wave, alpha, growth_law, area, load, friction, slip_speed)
+    rtol = validation.tolerance(rtol)
+    if atol is None:  # positive even without growth
+        atol = max(1e-3 * rtol * question.alpha**2 * question.unit, sys.float_info.min)
+    goal = Goal(rtol, validation.positive("atol", atol))
+    if validation.choice("method", method, METHODS) == "auto":
+        found = _cheapest(question, goal)
+    else:
+        found = _answer(question, method, goal, "asked for")
+    warn_if_viscous(found.speed, slip_speed)
+    return replace(found, seconds=time.perf_counter() - start)
+
+
+def total_error(speed: CrawlSpeed) -> float:
+    """Of numbers and model together, absolute; NaN where that of the model is unknown."""
+    return speed.error + speed.model_error
+
+
+def _cheapest(question: Question, goal: Goal) -> Prediction:
+    """Try those levels in turn that could do, the target last."""
+    passed, largest = "", math.inf
+    for level in LEVELS:
+        obstacle = _obstacle(question, level, goal.tolerance(largest))
+        if not obstacle:
+            try:
+                found = _answer(question, level, goal, f"{level} is near enough{passed}")
+            except NotConvergedError as failure:
+                obstacle = str(failure)
+            else:
+                if found.converged:
+                    return found
+                largest = abs(found.mean) + found.error
+                obstacle = f"error {found.error:.1g} is above {goal.tolerance(found.mean):.1g}"
+        passed += f"; not {level}: {obstacle}"
+    return replace(found, reason=f"the last level{passed}")
+
+
+def _obstacle(question: Question, level: str, tolerance: float) -> str:
+    """Why a level cannot do, seen without solving it; empty if it may. tolerance: at the most."""
+    model = distance(level, question)
+    if math.isnan(model):
+        return "its model error is unknown here"
+    if model > tolerance:
+        return f"its model error {model:.1g} is above {tolerance:.1g}"
+    return ""
+
+
+def _answer(question: Question, level: str, goal: Goal, reason: str) -> Prediction:
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", ViscousRegimeWarning)  # `predict` says it, of the answer
+        rtol = max(SHARE * goal.rtol, validation.SMALLEST_RTOL)
+        speed = LEVELS[level](question, rtol, SHARE * goal.atol)
+    converged = total_error(speed) <= goal.tolerance(speed.mean)
+    return Prediction(speed, level, reason, converged, speed.seconds)

@@ -1,0 +1,119 @@
+"""`predict`: the cheapest level that is known to be near enough, and an honest error."""
+
+import math
+
+import numpy as np
+import pytest
+
+from fem_check.levels import LEVELS, MESHES, TARGET, Question, cycle, scene
+from fem_check.prediction import predict
+from fem_check.shell.cycle.speed import cycle_speed
+from linear_theory import Sheet, SineWave, TravellingWave, crawl_speed, line_cycle_speed
+
+PULSE = TravellingWave(np.array([0.5, 0.3]), np.array([0.2, 0.1]))
+
+
+@pytest.fixture(scope="module")
+def reference():
+    """Speed of the nonlinear sheet by question, on a mesh finer than any level takes."""
+    found = {}
+
+    def speed(question):
+        key = question.sheet, question.alpha, question.load, question.growth_law
+        if key not in found:
+            fine = cycle_speed(scene(question, 3), question.load, rtol=1e-4)
+            found[key] = fine.mean
+        return found[key]
+
+    return speed
+
+
+@pytest.mark.parametrize("rtol", [0.3, 0.1, 0.03, 1e-2, 2e-3])
+@pytest.mark.parametrize(
+    ("width", "alpha", "load", "law"),
+    [(0.5, 0.25, "current", "exp"), (0.2, 0.1, "grown", "linear"), (1.0, 0.05, "current", "exp")],
+)
+def test_error_covers_the_distance_to_the_nonlinear_sheet(reference, width, alpha, load, law, rtol):
+    question = Question(Sheet(width=width), SineWave(), alpha, law, load=load)
+    found = predict(question.sheet, question.wave, alpha, law, load=load, rtol=rtol)
+    assert found.converged
+    assert found.error <= rtol * abs(found.mean)
+    # 2e-4: the reference itself, whose tolerance is 1e-4
+    true = reference(question)
+    assert abs(found.mean - true) <= found.error + 2e-4 * abs(true)
+
+
+def test_levels_rise_with_the_tolerance():
+    levels = [predict(Sheet(), SineWave(), 0.1, rtol=rtol).level for rtol in (0.5, 0.1, 0.03, 1e-3)]
+    places = [list(LEVELS).index(level) for level in levels]
+    assert places == sorted(places)
+    assert levels[0] == "strip"
+    assert levels[-1] == TARGET
+
+
+@pytest.mark.parametrize(
+    ("wave", "friction", "slip_speed"),
+    [(PULSE, "coulomb", None), (SineWave(), "viscous", None), (SineWave(5), "coulomb", None)],
+)
+def test_a_level_of_unknown_model_error_is_not_taken(wave, friction, slip_speed):
+    found = predict(Sheet(), wave, 0.1, friction=friction, slip_speed=slip_speed, rtol=0.9)
+    assert found.level == TARGET
+    for level in list(LEVELS)[:-1]:
+        assert f"not {level}: its model error is unknown" in found.reason
+
+
+def test_asked_for_levels_are_their_functions():
+    sheet, wave = Sheet(width=0.2), SineWave()
+    strip = predict(sheet, wave, 0.1, method="strip")
+    assert strip.mean == pytest.approx(
+        line_cycle_speed(0.1, body="strip"), rel=1e-12
+    )  # both to rounding
+    for order, name in ((1, "first order"), (2, "second order")):
+        # predict gives half of its tolerance to the numbers
+        expected = crawl_speed(sheet, wave, 0.1, rtol=5e-3, atol=5e-8, order=order)
+        assert predict(sheet, wave, 0.1, method=name).mean == pytest.approx(expected.mean, rel=1e-13)
+    pulse = predict(sheet, PULSE, 0.1, method="strip")
+    assert math.isnan(pulse.error)
+    assert not pulse.converged
+
+
+@pytest.mark.parametrize("method", LEVELS)
+def test_units(method):
+    small = predict(Sheet(1.0, 0.4), SineWave(), 0.1, method=method)
+    large = predict(Sheet(3.0, 1.2), SineWave(period=2.0), 0.1, method=method)
+    # the same numbers but for rounding, which the iterations see
+    assert large.mean == pytest.approx(1.5 * small.mean, rel=1e-9)
+    assert large.error == pytest.approx(1.5 * small.error, rel=1e-3)
+
+
+def test_cycle_refines_its_mesh_until_the_tolerance_is_met():
+    question = Question(Sheet(), SineWave(), 0.25)
+    coarse = cycle_speed(scene(question), rtol=1e-3)
+    assert not coarse.converged  # else this test shows nothing
+    fine = cycle(question, 1e-3, 1e-9)
+    assert fine.converged
+    assert fine.seconds > coarse.seconds / 10  # sums over the meshes, of which this is the first
+    assert MESHES[0] == 1
+
+
+def test_no_growth_no_motion():
+    found = predict(Sheet(), SineWave(), 0.0)
+    assert (found.mean, found.error, found.converged) == (0.0, 0.0, True)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ({"method": "magic"}, "'strip'"),
+        ({"growth_law": "log"}, "'metric'"),
+        ({"area": "none"}, "'undeformed'"),
+        ({"load": "ground"}, "'material'"),
+        ({"friction": "none"}, "'viscous'"),
+        ({"rtol": 0.0}, "rtol = 0"),
+        ({"atol": -1.0}, "atol = -1"),
+        ({"alpha": math.inf}, "alpha"),
+    ],
+)
+def test_bad_input(arguments, message):
+    with pytest.raises(ValueError, match=message):
+        predict(**{"sheet": Sheet(), "wave": SineWave(), "alpha": 0.1, **arguments})
