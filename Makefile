@@ -51,8 +51,8 @@ test: $(STAMP)
 	$(RUN) -m mypy
 	$(RUN) -m pytest -n $(WORKERS)
 
-bench: $(STAMP)
-	$(RUN) -m figures.bench
+cost: $(STAMP)
+	$(RUN) -m figures.cost
 
 bench-shell: $(STAMP)
 	$(RUN) -m figures.bench_shell

@@ -1,48 +1,40 @@
-"""Measured errors, times and memory of the nonlinear sheet, with ratios; nothing is asserted.
+"""Measured errors, times and memory of the sheet that bends, with ratios; nothing is asserted.
 
     python -m figures.bench_shell      (or `make bench-shell`, which also asks for one thread)
 
-A minute and a quarter. Errors are against finer runs, of another element where there is one. The sheet
-is that of the paper: 2 : 1, h = 0.03, nu = 1/2; lengths in L, times in periods.
+A minute. What the planar levels and the single effects cost, `make cost` tells. Errors are against
+finer runs, of another element where there is one. The sheet is that of the paper: 2 : 1, h = 0.03,
+nu = 1/2; lengths in L, times in periods.
 """
 
-import gc
 import io
 import multiprocessing
 import resource
 import sys
-import time
-import tracemalloc
 from collections.abc import Callable, Sequence
 from concurrent.futures import ProcessPoolExecutor
-from dataclasses import dataclass
 from functools import partial
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 import skfem
 from numpy.typing import NDArray
 
-from fem_check.shell.cycle.shapes import extrapolated, static_depth, static_effects
-from fem_check.shell.cycle.speed import cycle_speed
+from fem_check.shell.cycle.shapes import static_depth
 from fem_check.shell.effects.effect import Effect
 from fem_check.shell.effects.friction import Friction
 from fem_check.shell.effects.gravity import Gravity
 from fem_check.shell.effects.ground import Ground
-from fem_check.shell.effects.inertia import Inertia
 from fem_check.shell.effects.koiter import Bending, Membrane
 from fem_check.shell.material import Material
 from fem_check.shell.potential import Potential
-from fem_check.shell.rates import Step
 from fem_check.shell.scene import Scene
 from fem_check.shell.statics.linear_solver import factorise
 from fem_check.shell.statics.newton import Minimiser
 from fem_check.shell.statics.ramp import ramp
 from fem_check.shell.stepping.simulation import simulate
-from fem_check.shell.stepping.start import first_history
-from fem_check.shell.stepping.stepper import Stepper
 from fem_check.shell.supports import Supports
-from figures.bench import median_seconds, print_machine
+from figures.cost_measure import machine, timed
 from figures.output import Progress
 from linear_theory import Sheet, SineWave
 
@@ -73,11 +65,6 @@ NEARLY = 0.98
 PATIENCE = 0.2
 """Seconds for the repeats of one measurement."""
 
-PLANAR_ALPHA, SLIP, PLANAR_STEPS = 0.25, 1e-3, (32, 64, 128)
-PLANAR_CELLS, TOLERANCES = ((4, 8), (8, 16)), (1e-2, 1e-3, 1e-4)
-WEAK = 1e-4 * SHEET.thickness
-"""Weight for which friction does not change the shape: mu weight L/(E h) = 1e-4."""
-
 PERIOD_ALPHA, PERIOD_COUPLING, PERIOD_SLIP = 0.02, 2.0, 0.1
 """A bilayer (beta = 100 alpha) that bends without snapping over, and its slip speed."""
 
@@ -92,17 +79,7 @@ PERIODS: tuple[tuple[tuple[int, int], int | None], ...] = (
 """Cells and steps per period; None: chosen for an error of 1 %."""
 FINE: tuple[tuple[int, int], int] = ((8, 16), 128)
 
-COST_CELLS, COST_STEPS, COUNTED = (6, 12), 64, 16
-NAMED: dict[str, tuple[Effect, ...]] = {
-    "planar: membrane": (MEMBRANE,),
-    "planar, weight, friction": (MEMBRANE, WEIGHT, Friction(1.0, 0.1)),
-    "membrane, bending": SHELL,
-    "+ weight, ground": LYING,
-    "+ friction": (*LYING, Friction(1.0, 0.1)),
-    "+ inertia": (*LYING, Friction(1.0, 0.1), Inertia(1e-4, MATERIAL)),
-}
-
-STAGES = 1 + len(PERIODS) + 12 + len(PLANAR_CELLS) + len(PLANAR_STEPS) + len(NAMED)
+STAGES = 1 + len(PERIODS) + 12
 Advance = Callable[[], None]
 
 
@@ -150,9 +127,9 @@ class Static:
         potential, u, sparsity = self.problem(1.0), self.result.state, self.minimiser.sparsity
         values = sparsity.assemble(potential.hessian_blocks(u))
         return (
-            median_seconds(partial(potential.energy_and_gradient, u), PATIENCE),
-            median_seconds(lambda: sparsity.assemble(potential.hessian_blocks(u)), PATIENCE),
-            median_seconds(partial(factorise, sparsity, values), PATIENCE),
+            timed(partial(potential.energy_and_gradient, u), PATIENCE).median,
+            timed(lambda: sparsity.assemble(potential.hessian_blocks(u)), PATIENCE).median,
+            timed(partial(factorise, sparsity, values), PATIENCE).median,
         )
 
 
@@ -207,49 +184,6 @@ def print_exponents(element: str, rows: Array) -> None:
     print(f"  {element}: ms/it. ~ unknowns^{whole:.2f} (last two meshes: ^{last:.2f})")
 
 
-def planar(**options: Any) -> Scene:
-    """The sheet in the plane with nothing but its membrane."""
-    return Scene(SHEET, WAVE, PLANAR_ALPHA, effects=(MEMBRANE,), **options)
-
-
-def print_cycles(advance: Advance) -> None:
-    """Planar speeds by the cycle of shapes."""
-    smooth = {"element": skfem.ElementQuadBFS()}
-    exact = cycle_speed(planar(cells=(12, 24), **smooth), rtol=2e-5)
-    print(f"\n2. Planar speed, alpha {PLANAR_ALPHA:g}, dry friction, by the cycle of shapes (BFS)")
-    print(f"against V = {exact.mean:.7f} +- {exact.error:.0e}; aim: 1e-3 in 2 s; errors relative")
-    print(f"{'cells':<8}{'rtol':>7}{'V':>11}{'error':>9}{'claimed':>9}{'met':>5}{'s':>7}{'2 s/s':>7}")
-    for cells in PLANAR_CELLS:
-        for rtol in TOLERANCES:
-            found = cycle_speed(planar(cells=cells, **smooth), rtol=rtol)
-            error, claimed = abs(found.mean / exact.mean - 1), found.error / abs(found.mean)
-            print(
-                f"{cells[0]}x{cells[1]:<6}{rtol:7.0e}{found.mean:11.7f}{error:9.1e}{claimed:9.1e}"
-                f"{'yes' if found.converged else 'no':>5}{found.seconds:7.2f}{2 / found.seconds:7.1f}"
-            )
-        advance()
-
-
-def print_planar_steps(advance: Advance) -> None:
-    """Planar speeds by stepping, against their extrapolation at second order."""
-    effects = (MEMBRANE, Gravity(WEAK, "current"), Friction(1.0, SLIP))
-    runs = {}
-    for n in PLANAR_STEPS:
-        runs[n] = simulate(Scene(SHEET, WAVE, PLANAR_ALPHA, effects=effects), periods=1, steps=n)
-        advance()
-    coarse, fine = (runs[n].speed.mean for n in PLANAR_STEPS[-2:])
-    exact = (4 * fine - coarse) / 3
-    print(f"\n   The same by stepping, v0 = {SLIP:g}; extrapolated V = {exact:.7f}")
-    print(f"{'steps':<8}{'V':>11}{'error':>9}{'claimed':>9}{'iter./step':>11}{'ms/step':>9}{'s':>7}")
-    for n, run in runs.items():
-        count, found = run.times.size - 1, run.speed
-        print(
-            f"{n:<8}{found.mean:11.7f}{abs(found.mean / exact - 1):9.1e}"
-            f"{found.error / abs(found.mean):9.1e}{run.iterations / count:11.1f}"
-            f"{1e3 * run.seconds / count:9.1f}{run.seconds:7.2f}"
-        )
-
-
 class Run(NamedTuple):
     """What one stepped period gave and cost; error as claimed, memory in MB."""
 
@@ -298,7 +232,7 @@ def stepped_runs(advance: Advance) -> list[Run]:
 def print_periods(runs: Sequence[Run]) -> None:
     """Accuracy against time of one stepped period."""
     exact = runs[-1].mean
-    print("\n3. Bending, on the ground, with friction: ramp (1/2 period) and one period, stepped")
+    print("\n2. Bending, on the ground, with friction: ramp (1/2 period) and one period, stepped")
     given = f"alpha {PERIOD_ALPHA:g}, beta {PERIOD_COUPLING:g}, v0 {PERIOD_SLIP:g}"
     print(f"{given}; last row: what errors are measured against")
     print("aims: 1 % of V, 20 s, 15-30 ms a step, 1 GB; buckled: steps at which it snaps over")
@@ -316,100 +250,10 @@ def print_periods(runs: Sequence[Run]) -> None:
         )
 
 
-@dataclass
-class Named:
-    """What a scene with these effects costs: unknowns, MB, and ms per gradient, Hessian and step."""
-
-    effects: tuple[Effect, ...]
-
-    def scene(self) -> Scene:
-        """A new one, with nothing computed."""
-        element = skfem.ElementQuadBFS()
-        return Scene(SHEET, WAVE, 0.02, 2.0, self.effects, cells=COST_CELLS, element=element)
-
-    @property
-    def moves(self) -> bool:
-        """Whether it is stepped in time; else a step is the next static shape."""
-        return any(isinstance(effect, Friction | Inertia) for effect in self.effects)
-
-    def problem(self) -> tuple[Potential, Array]:
-        """Energy of a step and a state to evaluate it at."""
-        scene = self.scene()
-        if not self.moves:
-            return Potential(
-                scene.discretisation(), static_effects(scene), scene.rest(0.1)
-            ), static_depth(scene)
-        dt = scene.period / COST_STEPS
-        stepper = Stepper(scene, 0.5, dt)
-        history = first_history(stepper, dt, None)
-        velocity, acceleration = history.rules(dt)
-        moving = Step(stepper.at_points(velocity), acceleration and stepper.at_points(acceleration))
-        rest = scene.rest(0.1)
-        return scene.potential(rest, stepper.held(moving, history.state, rest)), history.state
-
-    def memory(self) -> tuple[float, float]:
-        """MB of all arrays kept for evaluations, and of the element Hessians among them."""
-        gc.collect()
-        tracemalloc.start()
-        potential, u = self.problem()
-        potential.gradient(u)
-        blocks = potential.hessian_blocks(u)
-        gc.collect()
-        held, _ = tracemalloc.get_traced_memory()
-        tracemalloc.stop()
-        return held / 1e6, sum(block.values.nbytes for block in blocks) / 1e6
-
-    def step(self) -> tuple[float, float]:
-        """Seconds and iterations of a step of 1/64 period, with a factor that is kept."""
-        scene = self.scene()
-        if self.moves:
-            run = simulate(scene, periods=1, steps=COST_STEPS)
-            return run.seconds / (run.times.size - 1), run.iterations / (run.times.size - 1)
-        supports = Supports(scene.discretisation()).anchor(motions=held_motions(scene))
-        minimiser = Minimiser(supports, keep_factor=True, check_stability=False)
-        states, iterations, begin = [static_depth(scene)], 0, 0.0
-        for i in range(-4, COUNTED):
-            begin = time.perf_counter() if i == 0 else begin
-            rest = scene.rest(i / COST_STEPS)
-            potential = Potential(scene.discretisation(), static_effects(scene), rest)
-            guess = extrapolated(states[-4:]) if len(states) > 4 else states[-1]
-            result = minimiser.minimise(potential, guess)
-            states.append(result.state)
-            iterations += result.iterations if i >= 0 else 0
-        return (time.perf_counter() - begin) / COUNTED, iterations / COUNTED
-
-
-def print_named(advance: Advance) -> None:
-    """Cost against the effects that a scene names."""
-    print(f"\n4. What a scene does not name costs nothing: BFS {COST_CELLS[0]}x{COST_CELLS[1]}, ms")
-    print("step: 1/64 period; static shapes where neither friction nor inertia is named; factor kept")
-    print("x: ratio to the first row; MB: all arrays kept, element Hessians of them")
-    print(
-        f"{'effects':<26}{'unknowns':>9}{'gradient':>9}{'x':>5}{'Hessian':>9}{'x':>5}{'step':>7}"
-        f"{'x':>5}{'it./step':>9}{'MB':>6}{'x':>5}{'of them':>8}"
-    )
-    first: Array | None = None
-    for label, effects in NAMED.items():
-        named = Named(effects)
-        held, blocks = named.memory()
-        potential, u = named.problem()
-        gradient = 1e3 * median_seconds(partial(potential.energy_and_gradient, u), PATIENCE)
-        hessian = 1e3 * median_seconds(partial(potential.hessian_blocks, u), PATIENCE)
-        seconds, iterations = named.step()
-        row = np.array([gradient, hessian, 1e3 * seconds, held])
-        first = row if first is None else first
-        g, h, s, m = row / first
-        print(
-            f"{label:<26}{u.size:>9}{gradient:9.2f}{g:5.1f}{hessian:9.2f}{h:5.1f}{row[2]:7.1f}{s:5.1f}"
-            f"{iterations:9.1f}{held:6.2f}{m:5.1f}{blocks:8.2f}"
-        )
-        advance()
-
-
 def print_quoted(found: dict[str, float]) -> None:
     """Other codes beside two meshes of the free sheet."""
     columns = ("BFS 8x16", "BFS 16x32", "Argyris 8x16x2")
-    print("\n5. One Newton step of other codes: quoted, not measured here (another machine, another")
+    print("\n3. One Newton step of other codes: quoted, not measured here (another machine, another")
     print(
         "problem, 3 720 triangles or 32 x 62 control points); ratios to an iteration of the free sheet"
     )
@@ -428,15 +272,12 @@ def main() -> None:
     """Print all tables."""
     if isinstance(sys.stdout, io.TextIOWrapper):
         sys.stdout.reconfigure(line_buffering=True)  # rows show as they come, in a log as well
-    print_machine()
+    print(machine())
     with Progress("bench_shell", STAGES) as progress:
         runs = stepped_runs(progress.advance)
         free = print_statics("free sheet", SHELL, progress.advance)
         print_statics("sheet on the ground", LYING, progress.advance)
-        print_cycles(progress.advance)
-        print_planar_steps(progress.advance)
         print_periods(runs)
-        print_named(progress.advance)
         print_quoted(free)
 
 

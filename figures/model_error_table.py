@@ -24,9 +24,10 @@ from dataclasses import astuple, dataclass, fields
 from pathlib import Path
 
 from fem_check.shell.cycle.motion import UnresolvedError
+from fem_check.shell.cycle.speed import Cycle
 from fem_check.shell.statics.equilibrium import ConvergenceError
 from figures import output
-from figures.cycles import Cycle, planar_scene
+from figures.cycles import planar_scene
 from linear_theory.airy import airy_series
 from linear_theory.crawl import field_speed
 from linear_theory.field import LinearField
@@ -177,10 +178,10 @@ def nonlinear_speeds(case: Case, alpha: float, rtol: float) -> dict[str, tuple[f
     scene = planar_scene(case.sheet, case.count, alpha, case.growth_law, case.area)
     try:
         cycle = Cycle(scene)
-        speeds = {load: cycle.speed(load, rtol, rtol * alpha**2) for load in LOADS}
+        speeds = {load: cycle.speed(load, rtol=rtol, atol=rtol * alpha**2) for load in LOADS}
     except (ConvergenceError, UnresolvedError):
         return {}
-    return {load: (mean / alpha**2, error / alpha**2) for load, (mean, error) in speeds.items()}
+    return {load: (v.mean / alpha**2, v.error / alpha**2) for load, v in speeds.items()}
 
 
 def strip_ratio(case: Case, load: str, alpha: float) -> float:

@@ -25,9 +25,10 @@ from scipy.interpolate import CubicSpline
 
 from fem_check.shell.cycle.motion import UnresolvedError
 from fem_check.shell.cycle.shapes import cycle_of_shapes
+from fem_check.shell.cycle.speed import cycle_speed
 from fem_check.shell.statics.equilibrium import ConvergenceError
 from figures import output
-from figures.cycles import Cycle, planar_scene
+from figures.cycles import planar_scene
 from figures.model_error_table import (
     BASE,
     SMALL_ALPHA,
@@ -123,13 +124,15 @@ def point_at(case: Case, alpha: float, second: float, rtol: float) -> Point | No
     """All speeds at one alpha; None where the sheet has no shape."""
     scene = planar_scene(case.sheet, case.count, alpha, case.growth_law, case.area)
     try:
-        mean, error = Cycle(scene).speed(BASE[2], rtol, rtol * alpha**2)
+        found = cycle_speed(scene, BASE[2], rtol=rtol, atol=rtol * alpha**2)
     except (ConvergenceError, UnresolvedError):
         return None
     strip = strip_ratio(case, BASE[2], alpha)
     first, _ = first_order_ratio(case.width, case.poisson, case.count, BASE[2], alpha, rtol)
     unit = alpha**2
-    return Point(case.width, case.poisson, alpha, mean / unit, error / unit, strip, first, second)
+    return Point(
+        case.width, case.poisson, alpha, found.mean / unit, found.error / unit, strip, first, second
+    )
 
 
 def largest_alpha(sheet: Sheet, low: float, high: float) -> float:

@@ -207,16 +207,6 @@ def test_leading_coefficients_are_reckoned_from_five(law):
     assert error < 0.02
 
 
-def test_shared_shapes_give_the_speeds_of_a_cycle():
-    scene = cycles.planar_scene(PAPER, 1, 0.2)
-    shared = cycles.Cycle(scene)
-    for load in ("current", "material"):
-        mean, error = shared.speed(load, 1e-2, 1e-2 * 0.2**2)
-        alone = cycle_speed(scene, load, rtol=1e-2, atol=1e-2 * 0.2**2)
-        assert mean == pytest.approx(alone.mean, rel=1e-9)
-        assert error == pytest.approx(alone.error, rel=1e-6)
-
-
 def test_a_table_is_written_and_read(tmp_path):
     rows = [ROWS[0], replace(ROWS[1], nonlinear=math.nan)]
     again = read(model_error_table.write(rows, tmp_path / "table.csv"))

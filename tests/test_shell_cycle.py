@@ -10,7 +10,7 @@ from scipy.special import i0
 
 from fem_check.shell.cycle.motion import CycleMotion, UnresolvedError
 from fem_check.shell.cycle.shapes import cycle_of_shapes
-from fem_check.shell.cycle.speed import cycle_speed
+from fem_check.shell.cycle.speed import Cycle, cycle_speed
 from fem_check.shell.effects.gravity import Gravity
 from fem_check.shell.effects.ground import Ground
 from fem_check.shell.effects.koiter import Bending, Membrane
@@ -307,3 +307,14 @@ def test_the_bar_against_its_weighted_median(law: str) -> None:
     median = stretch[order][np.searchsorted(below, below[-1] / 2)]
     # neighbouring samples of the stretch differ by 1e-5
     assert line_cycle_speed(alpha, law) == pytest.approx(median - stretch.mean(), abs=2e-5)
+
+
+def test_one_cycle_of_shapes_serves_all_loads_and_frictions() -> None:
+    scene = planar(0.2)
+    shared = Cycle(scene)
+    for load, friction in (("current", "coulomb"), ("material", "coulomb"), ("grown", "viscous")):
+        found = shared.speed(load, friction, rtol=1e-2)
+        alone = cycle_speed(scene, load, friction, rtol=1e-2)
+        # the same numbers in the same order, but for shapes interpolated from more phases
+        assert found.mean == pytest.approx(alone.mean, rel=1e-9)
+        assert found.error == pytest.approx(alone.error, rel=1e-6)

@@ -8,6 +8,7 @@ velocities and the area element of the nonlinear sheet).
 import math
 import time
 from dataclasses import replace
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -61,42 +62,94 @@ def cycle_speed(
     the shapes change too fast for the largest number of phases. Warns (ViscousRegimeWarning) where
     friction = "tanh" acts as viscous: see `CrawlSpeed.regime`.
     """
-    start = time.perf_counter()
-    rtol, law = validation.tolerance(rtol), FrictionLaw(friction, slip_speed)
-    load = checked_load(scene, load)
-    unit = scene.sheet.length / scene.period
-    atol = 1e-3 * rtol * scene.alpha**2 * unit if atol is None else validation.positive("atol", atol)
-    if scene.alpha == 0 and (scene.planar or scene.curvature_coupling == 0):
-        return _at_rest(scene, load, law)
-    balance, period, phase_error = _with_enough_phases(scene, load, law, rtol, atol)
-    error = period.error + phase_error + _mesh_error(balance, period)
-    times, rigid = balance.whole_period(period)
-    found = CrawlSpeed(
-        mean=period.mean,
-        error=error,
-        model_error=0.0 if _is_target(scene) else math.nan,
-        converged=error <= max(rtol * abs(period.mean), atol),
-        times=times,
-        velocity=rigid[1],
-        seconds=time.perf_counter() - start,
-        model=_words(scene, load, law),
-        slip_ratio=law.slip_ratio(period.fastest),
-        first_order=0.0 if _starts_at_second_order(scene) else math.nan,
-        sticks=period.sticks,
-        rigid=None if balance.mirrored else rigid,
-    )
+    found = Cycle(scene).speed(load, friction, slip_speed, rtol, atol)
     warn_if_viscous(found, slip_speed)
     return found
 
 
+class Cycle:
+    """A cycle of static shapes, which does not depend on what rests on the sheet nor on friction.
+
+    Found when first needed and kept: speeds under several loads and laws of friction share it.
+    """
+
+    def __init__(self, scene: Scene) -> None:
+        self.scene = scene
+        self._shapes = KeptShapes(scene)
+
+    def speed(
+        self,
+        load: str | None = None,
+        friction: str = "coulomb",
+        slip_speed: float | None = None,
+        rtol: float = 1e-3,
+        atol: float | None = None,
+    ) -> CrawlSpeed:
+        """As `cycle_speed`, but for the warning; `seconds` counts the shapes where they are found."""
+        start, scene = time.perf_counter(), self.scene
+        rtol, law = validation.tolerance(rtol), FrictionLaw(friction, slip_speed)
+        load = checked_load(scene, load)
+        unit = scene.sheet.length / scene.period
+        atol = (
+            1e-3 * rtol * scene.alpha**2 * unit if atol is None else validation.positive("atol", atol)
+        )
+        if scene.alpha == 0 and (scene.planar or scene.curvature_coupling == 0):
+            return _at_rest(scene, load, law)
+        balance, period, phase_error = _with_enough_phases(self._shapes, load, law, rtol, atol)
+        error = period.error + phase_error + self._mesh_error(balance, period)
+        times, rigid = balance.whole_period(period)
+        return CrawlSpeed(
+            mean=period.mean,
+            error=error,
+            model_error=0.0 if _is_target(scene) else math.nan,
+            converged=error <= max(rtol * abs(period.mean), atol),
+            times=times,
+            velocity=rigid[1],
+            seconds=time.perf_counter() - start,
+            model=_words(scene, load, law),
+            slip_ratio=law.slip_ratio(period.fastest),
+            first_order=0.0 if _starts_at_second_order(scene) else math.nan,
+            sticks=period.sticks,
+            rigid=None if balance.mirrored else rigid,
+        )
+
+    @cached_property
+    def _compared(self) -> tuple["KeptShapes", float]:
+        """Shapes on the other mesh, and how far apart they are at least, in errors."""
+        mesh, gain = other_mesh(self.scene.discretisation().mesh)
+        return KeptShapes(replace(self.scene, cells=None, mesh=mesh)), gain
+
+    def _mesh_error(self, balance: CycleBalance, period: Period) -> float:
+        """What the mesh does to the mean, from the speed on another mesh at the same times."""
+        kept, gain = self._compared
+        shapes = kept.at(len(balance.shapes.states))
+        other = replace(balance, shapes=shapes, mirrored=is_mirrored(shapes)).balance(period.grid.times)
+        mean, _ = period.grid.mean(other.leading[:, :, 1].mean(0))
+        return abs(mean - period.mean) / gain
+
+
+class KeptShapes:
+    """Shapes of a scene at FIRST_PHASES, or that times a power of two, each found once."""
+
+    def __init__(self, scene: Scene) -> None:
+        self._scene = scene
+        self._found: dict[int, Shapes] = {}
+
+    def at(self, count: int) -> Shapes:
+        """At `count` phases, from those at half as many where they are known."""
+        if count not in self._found:
+            self._found[count] = cycle_of_shapes(self._scene, count, self._found.get(count // 2))
+        return self._found[count]
+
+
 def _with_enough_phases(
-    scene: Scene, load: str, law: FrictionLaw, rtol: float, atol: float
+    kept: KeptShapes, load: str, law: FrictionLaw, rtol: float, atol: float
 ) -> tuple[CycleBalance, Period, float]:
     """Double the phases until the interpolation between them takes its share of the tolerance."""
-    shapes = cycle_of_shapes(scene, FIRST_PHASES)
+    count = FIRST_PHASES
     while True:
-        last = len(shapes.states) >= MOST_PHASES
-        balance = CycleBalance.of(shapes, load, law, rtol)
+        last = count >= MOST_PHASES
+        balance = CycleBalance.of(kept.at(count), load, law, rtol)
         try:
             period = balance.average(rtol, atol)
             error = _phase_error(balance, period)
@@ -106,7 +159,7 @@ def _with_enough_phases(
         else:
             if last or error <= PHASE_SHARE * max(rtol * abs(period.mean), atol):
                 return balance, period, error
-        shapes = cycle_of_shapes(scene, 2 * len(shapes.states), shapes)
+        count *= 2
 
 
 def _phase_error(balance: CycleBalance, period: Period) -> float:
@@ -126,16 +179,6 @@ def _speeds_of_harmonics(shapes: Shapes) -> Array:
     count = len(shapes.states) // 2
     size = np.linalg.norm(shapes.harmonics[1:], axis=1)
     return np.hypot(size[:count], size[count:]) * np.arange(1, count + 1)
-
-
-def _mesh_error(balance: CycleBalance, period: Period) -> float:
-    """What the mesh does to the mean, from the speed on another mesh at the same times."""
-    scene = balance.shapes.scene
-    mesh, gain = other_mesh(balance.shapes.discretisation.mesh)
-    shapes = cycle_of_shapes(replace(scene, cells=None, mesh=mesh), len(balance.shapes.states))
-    other = replace(balance, shapes=shapes, mirrored=is_mirrored(shapes)).balance(period.grid.times)
-    mean, _ = period.grid.mean(other.leading[:, :, 1].mean(0))
-    return abs(mean - period.mean) / gain
 
 
 def other_mesh(mesh: Any) -> tuple[Any, float]:
