@@ -1,10 +1,12 @@
 # Every target does its own set-up; a fresh machine needs only make and Python >= 3.11.
 #
-#   make figures   figures 3 and 7 (options: OUT=folder RTOL=1e-6)
-#   make nonlinear the table of speeds that figure 3 reads, figures/data/nonlinear.csv: half a minute
-#   make test      lint, types, tests
-#   make bench     measured times and ratios
-#   make bench-shell the same for the nonlinear sheet, with memory
+#   make figures   all figures (options: OUT=folder RTOL=1e-6): half a minute
+#   make test      lint, types, tests: six minutes
+#   make paper     the write-up as a PDF, paper/out/sheetcrawl.pdf, with its figures
+#   make docs      the API reference from the docstrings, build/docs
+#   make cost      error against time of every level, the price of each effect: four minutes
+#   make bench-shell  time and memory of the sheet that bends
+#   make tables    every table that the figures, the paper and predict() read: half an hour
 #   make lock      rewrite requirements.lock after a change of dependencies
 #   make clean     remove figures and caches; `make distclean` also the environment
 #
@@ -31,7 +33,7 @@ export MKL_NUM_THREADS := 1
 
 FIGURE_OPTIONS = $(if $(OUT),--out "$(OUT)") $(if $(RTOL),--rtol $(RTOL))
 
-.PHONY: figures nonlinear test bench bench-shell lock clean distclean
+.PHONY: figures test paper docs cost bench-shell tables lock clean distclean
 .DEFAULT_GOAL := figures
 .DELETE_ON_ERROR:
 
@@ -40,10 +42,8 @@ figures: $(STAMP)
 	$(RUN) -m figures.fig7 $(FIGURE_OPTIONS)
 	$(RUN) -m figures.reach $(FIGURE_OPTIONS)
 	$(RUN) -m figures.turning $(FIGURE_OPTIONS)
+	$(RUN) -m figures.cost --draw $(if $(OUT),--out "$(OUT)")
 	$(RUN) -m figures.regimes $(if $(OUT),--out "$(OUT)")
-
-nonlinear: $(STAMP)
-	$(RUN) -m figures.nonlinear
 
 test: $(STAMP)
 	$(RUN) -m ruff check .
@@ -56,6 +56,22 @@ cost: $(STAMP)
 
 bench-shell: $(STAMP)
 	$(RUN) -m figures.bench_shell
+
+# In the order in which one reads the other; what is measured in seconds is left to `make cost`.
+tables: $(STAMP)
+	$(RUN) -m figures.second_order_table
+	$(RUN) -m figures.model_error_table
+	$(RUN) -m figures.nonlinear
+	$(RUN) -m figures.reach_table
+	$(RUN) -m figures.regimes_table
+	$(RUN) -m figures.turning_table
+	$(RUN) -m tests.hard_cases_page
+	$(RUN) -m paper.shell_table
+	$(RUN) -m paper.derivations
+	$(RUN) -m paper.numbers
+
+paper: figures
+	$(RUN) -m paper.build
 
 # setuptools comes with the lock and build isolation is off: pip fetches nothing that is not pinned.
 $(STAMP): requirements.lock pyproject.toml
@@ -78,7 +94,7 @@ lock:
 	    $(LOCKFLAGS) --output-file requirements.lock pyproject.toml
 
 clean:
-	rm -rf figures/out build dist .mypy_cache .ruff_cache .pytest_cache .hypothesis
+	rm -rf figures/out paper/out build dist .mypy_cache .ruff_cache .pytest_cache .hypothesis
 	find . -path ./$(VENV) -prune -o -type d -name __pycache__ -prune -exec rm -rf {} +
 
 distclean: clean

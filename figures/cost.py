@@ -1,6 +1,7 @@
 """What accuracy costs in time: work-precision diagrams of all levels, and the price of each effect.
 
     python -m figures.cost [--quick] [--panels abcge]      (or `make cost`: one thread)
+    python -m figures.cost --draw                          the picture alone, from the tables
 
 Four minutes on a quiet machine, seconds with --quick. Writes measured numbers into figures/data (they
 differ from run to run; the committed ones are those that are quoted) and the picture into figures/out:
@@ -27,7 +28,7 @@ from figures.cost_effects import EffectRow
 from figures.cost_fields import Fields
 from figures.cost_measure import import_seconds, machine, peak_memory
 from figures.cost_speeds import LinearSpeeds, NonlinearSpeeds
-from figures.cost_table import DATA, Order, Point, orders, write
+from figures.cost_table import DATA, Order, Point, orders, read, write
 from figures.output import Progress
 
 PATIENCE, QUICK_PATIENCE = 0.4, 0.02
@@ -147,7 +148,17 @@ def print_effects(rows: Sequence[EffectRow]) -> None:
 
 def main(arguments: Sequence[str] | None = None) -> None:
     """Measure, print, write the tables and draw."""
+    options = parsed(arguments)
+    points = read((options.data or DATA) / "cost.csv", Point) if options.draw else record(options)
+    if points:
+        figure = cost_draw.draw(points)
+        print(*style.save(figure, "cost", options.out, tuple(options.formats)), sep="\n")
+
+
+def parsed(arguments: Sequence[str] | None) -> argparse.Namespace:
+    """Options of the command."""
     parser = argparse.ArgumentParser(prog="figures.cost", description=__doc__.splitlines()[0])
+    parser.add_argument("--draw", action="store_true", help="only draw what was measured before")
     parser.add_argument("--quick", action="store_true", help="few points, coarse references")
     parser.add_argument("--panels", default=PANELS, help="some of a, b, c, g (growth), e (effects)")
     parser.add_argument("--out", type=Path, help="folder of the figure (figures/out)")
@@ -156,6 +167,11 @@ def main(arguments: Sequence[str] | None = None) -> None:
     options = parser.parse_args(arguments)
     if not set(options.panels) <= set(PANELS):
         parser.error(f"--panels {options.panels}: must be some of {PANELS}")
+    return options
+
+
+def record(options: argparse.Namespace) -> Sequence[Point]:
+    """Measure, print and write the tables; points of the figure."""
     complete = not options.quick and set(options.panels) == set(PANELS)
     folder = options.data or (DATA if complete else style.OUTPUT_DIR)
     words = f"processor seconds, {machine()}"
@@ -163,11 +179,8 @@ def main(arguments: Sequence[str] | None = None) -> None:
     if os.environ.get("OMP_NUM_THREADS") != "1":
         print("OMP_NUM_THREADS is not 1: times are those of all threads together")
     tables = measured_tables(options.quick, options.panels)
-    paths = [write(rows, folder / f"{name}.csv", words) for name, rows in tables.items() if rows]
-    if tables["cost"]:
-        figure = cost_draw.draw(tables["cost"])
-        paths += style.save(figure, "cost", options.out, tuple(options.formats))
-    print(*paths, sep="\n")
+    print(*(write(rows, folder / f"{name}.csv", words) for name, rows in tables.items() if rows))
+    return tables["cost"]
 
 
 def measured_tables(quick: bool, panels: str) -> dict[str, Sequence[Any]]:

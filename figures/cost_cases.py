@@ -24,6 +24,7 @@ P2, P4 = "FEM P2", "FEM P4"
 SECOND = "second order"
 CYCLE = "cycle of shapes"
 STEPPER = "stepper"
+AUTO = "predict"
 
 
 class Judged(NamedTuple):

@@ -13,7 +13,7 @@ from matplotlib.patches import Patch
 from matplotlib.ticker import FixedLocator, LogLocator, NullFormatter, NullLocator
 
 from figures import style
-from figures.cost_cases import BAR, CYCLE, LINE, P2, P4, PLAIN, RITZ, SECOND, STEPPER, STRIP, TAIL
+from figures.cost_cases import AUTO, BAR, CYCLE, LINE, P2, P4, PLAIN, RITZ, SECOND, STEPPER, STRIP, TAIL
 from figures.cost_fields import PANEL as FIELD
 from figures.cost_speeds import LINEAR, LINEAR_ALPHA, NONLINEAR, NONLINEAR_ALPHA
 from figures.cost_table import Point, cheapest, curves
@@ -44,6 +44,7 @@ LOOKS = {
     SECOND: Look(style.COLORS["purple"], "D"),
     CYCLE: Look(style.COLORS["vermillion"], "h"),
     STEPPER: Look(GREY, "o", "-", False),
+    AUTO: Look(style.COLORS["black"], "p", ":", False),
 }
 """Levels by name; markers tell apart what colours may not."""
 

@@ -14,6 +14,9 @@ from typing import Any
 import numpy as np
 import skfem
 
+from fem_check.levels import Question
+from fem_check.levels import strip as strip_level
+from fem_check.prediction import Prediction, predict
 from fem_check.shell.cycle.speed import cycle_speed
 from fem_check.shell.effects.friction import Friction
 from fem_check.shell.effects.gravity import Gravity
@@ -22,6 +25,7 @@ from fem_check.shell.material import Material
 from fem_check.shell.scene import Scene
 from fem_check.shell.stepping.simulation import simulate
 from figures.cost_cases import (
+    AUTO,
     BAR,
     CYCLE,
     LINE,
@@ -67,6 +71,9 @@ field."""
 
 FINE, FINE_RTOL = (12, 24), 2e-5
 """Elements and tolerance of the reference of panel (c)."""
+
+PREDICTED = (0.5, 0.2, 0.1, 1e-2, 1e-3, 1e-4)
+"""Tolerances of numbers and model together, for which `predict` chooses the level."""
 
 CYCLE_CELLS, CYCLE_RTOL = ((1, 2), (2, 4), (4, 8)), 1e-4
 """Of degree 5, their numbers, and the tolerance at which the mesh is what is seen."""
@@ -153,7 +160,7 @@ class NonlinearSpeeds:
         """All that is compared."""
         yield self._case(LINE, "points", 1, partial(line_speed, NONLINEAR_ALPHA))
         yield self._case(BAR, "points", 1, partial(line_cycle_speed, NONLINEAR_ALPHA, "exp"))
-        strip = partial(line_balance, WAVE, NONLINEAR_ALPHA, growth_law="exp", body="strip")
+        strip = partial(strip_level, Question(SHEET, WAVE, NONLINEAR_ALPHA), 1e-4, 1e-9)
         yield self._case(STRIP, "points", 1, strip)
         for level, options in (
             (TAIL, {"method": "airy"}),
@@ -169,6 +176,9 @@ class NonlinearSpeeds:
         for cells in CYCLE_CELLS:
             solve = partial(cycle_speed, planar(cells), rtol=CYCLE_RTOL)
             yield self._case(CYCLE, "cells across", cells[0], solve, quick=cells[0] < 2)
+        for rtol in PREDICTED:
+            solve = partial(predict, SHEET, WAVE, NONLINEAR_ALPHA, rtol=rtol)
+            yield self._case(AUTO, "rtol", rtol, solve, quick=rtol > 1e-2)
         yield from self._steppers()
 
     def _steppers(self) -> Iterator[Case]:
@@ -208,7 +218,9 @@ def stepped(
 
 
 def judged(found: Any, exact: float) -> Judged:
-    """Relative errors of a speed, a number or a `CrawlSpeed`."""
+    """Relative errors of a speed: a number, a `CrawlSpeed` or a `Prediction` of one."""
+    if isinstance(found, Prediction):
+        found = found.speed
     if not isinstance(found, CrawlSpeed):
         return Judged(abs(float(found) / exact - 1))
     claims = np.array([found.error, found.model_error]) / abs(exact)

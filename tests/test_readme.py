@@ -21,5 +21,5 @@ def test_examples_print_what_is_printed():
 
 def test_gallery_is_there():
     pictures = re.findall(r"!\[.*?\]\((.*?)\)", README.read_text())
-    assert len(pictures) == 2
+    assert pictures
     assert all((README.parent / picture).stat().st_size > 10_000 for picture in pictures)
