@@ -36,13 +36,16 @@ there halving the mesh divides the error by 7 to 8 (degree 2) or 13 (degree 4, l
 u ~ distance**2.74)."""
 
 FALL, NEGLIGIBLE = 2.0, 1e-3
-"""The part of the growth (L2) that is no polynomial on the triangles falls at least so much from one mesh
-to the other where growth is smooth, by 4 or 16; by the root of 2 at a front. Below the second it is of no
-account."""
+"""What is no polynomial on the triangles in the growth (share, L2) falls at least so much from one mesh
+to the other where growth is smooth, by 4 or 16; by the root of 2 at a front. A share below the second
+is of no account."""
 
 ROUGH_GAIN = 0.5
 """Takes the place of GAIN where growth is not resolved: two meshes then sample a front at places that
 have nothing to do with each other."""
+
+PHASES = np.arange(1, 17) * (np.sqrt(5) - 1) / 2 % 1
+"""Of the period, at which growth is judged: a front lies on the lines of a mesh at no two of them."""
 
 FLAT = 1e-6  # a sheet whose displacement is this small for a moment has no relative error then
 
@@ -170,10 +173,12 @@ class PlaneStressField(LinearField):
         return float(np.max(difference / np.maximum(size, FLAT * size.max()))) / gain
 
     def _missed(self, solver: PlaneStressSolver) -> float:
-        """Share of the growth that the triangles do not resolve, at the worst of the sampled phases."""
-        growths = self._cases.growths(solver.x, solver.y)
-        size = self._norms(growths, solver.weights)
-        missed = mixed_norms(solver.missed(growths), self._cases.samples())
+        """Share of the growth that the triangles do not resolve, at the worst of some phases."""
+        times = self.wave.period * PHASES
+        cases = self._cases.at(times)
+        growths, amplitudes = cases.growths(solver.x, solver.y), cases.amplitudes(times)
+        size = mixed_norms(growths * np.sqrt(solver.weights), amplitudes)
+        missed = mixed_norms(solver.missed(growths), amplitudes)
         return float(np.max(missed[size > 0] / size[size > 0], initial=0.0))
 
     def _on_cells(self, grid: CellGrid, order: int) -> tuple[Array, Array, Array, Array]:

@@ -172,7 +172,7 @@ CASES: dict[str, tuple[str, Callable[[], object]]] = {
     "point outside": (r"xi = \[7. 0.\]: must be in", lambda: PLATE.point((7.0, 0.0))),
     "point of wrong shape": ("xi has shape", lambda: PLATE.point((1.0,))),
     "held components": ("components", lambda: Supports(PLANAR).pin(at(0, 0), (2,))),
-    "slope of Lagrange": ("has no slopes", lambda: Supports(PLANAR).clamp(at(0, 0))),
+    "slope of Lagrange": ("has no slopes", lambda: Supports(PLANAR).hold_slope(at(0, 0), (0,))),
     "oblique edge": (
         "along the axes",
         lambda: Supports(

@@ -42,9 +42,25 @@ class Supports:
         return self._hold(where, components, across=True)
 
     def clamp(self, where: Where) -> "Supports":
-        """Hold displacement and slope of an edge."""
-        components = range(self.discretisation.components)
-        return self.pin(where, components).hold_slope(where, components)
+        """Hold an edge in place and keep the sheet from turning about it.
+
+        The slope across the edge is held along the normal of the undeformed surface alone: next to a
+        clamp the sheet may be stretched and sheared, as it is where it grows. (Where the normal is
+        oblique to the axes, all components in which it has a part are held.)
+        """
+        self.pin(where, range(self.discretisation.components))
+        turning = self._along_normal(where)
+        return self.hold_slope(where, turning) if turning else self
+
+    def _along_normal(self, where: Where) -> tuple[int, ...]:
+        """Components in which the normal of the surface has a part, on an edge; none in the plane."""
+        if self.discretisation.components == 2:
+            return ()
+        mesh = self.discretisation.mesh
+        vertices = mesh.p[:, np.unique(mesh.facets[:, self.discretisation.facets(where)])]
+        _, first, second, *_ = self.discretisation.surface(*vertices)
+        size = np.abs(np.cross(first, second, axis=0)).max(axis=1)
+        return tuple(int(c) for c in np.flatnonzero(size > 1e-9 * size.max()))
 
     def symmetric(self, where: Where, component: int) -> "Supports":
         """Make an edge lie in a plane of mirror symmetry whose normal is the axis `component`."""

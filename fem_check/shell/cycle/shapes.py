@@ -190,13 +190,24 @@ class _Solver:
         """The shape at time t next to a guess, or to the one before where the guess does not serve."""
         potential = Potential(self.discretisation, self.effects, self.scene.rest(t))
         try:
-            result = self.minimiser.minimise(potential, guess)
-        except ConvergenceError:
-            result = self.minimiser.minimise(potential, before)
-        if result.buckled:
-            self.buckled += 1
-            result = follow_mode(self.minimiser, potential, result, PUSH * self.scene.sheet.length)
+            result = self._left(potential, self._next(potential, guess, before))
+        except ConvergenceError as error:
+            text = f"t = {t:g}: no shape next to the one before, as where a sheet snaps over: {error}"
+            raise ConvergenceError(text, error.state, t) from error
         return self._count(result)
+
+    def _next(self, potential: Potential, guess: Array, before: Array) -> Equilibrium:
+        try:
+            return self.minimiser.minimise(potential, guess)
+        except ConvergenceError:
+            return self.minimiser.minimise(potential, before)
+
+    def _left(self, potential: Potential, result: Equilibrium) -> Equilibrium:
+        """The minimum next to a buckled shape, or the shape itself."""
+        if not result.buckled:
+            return result
+        self.buckled += 1
+        return follow_mode(self.minimiser, potential, result, PUSH * self.scene.sheet.length)
 
     def _count(self, result: Equilibrium) -> Equilibrium:
         self.iterations += result.iterations

@@ -1,0 +1,17 @@
+"""The table of hard cases: it drives tests/test_problems.py and the page docs/hard_cases.md.
+
+    python -m tests.hard_cases_page
+
+A new case is a new entry in one of the families; `Problem` says what an entry holds.
+"""
+
+from tests.problems import balances, fields, line, motion, statics
+from tests.problems.problem import Problem
+
+PROBLEMS: tuple[Problem, ...] = (
+    *line.PROBLEMS,
+    *fields.PROBLEMS,
+    *balances.PROBLEMS,
+    *statics.PROBLEMS,
+    *motion.PROBLEMS,
+)
