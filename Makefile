@@ -73,6 +73,12 @@ tables: $(STAMP)
 paper: figures
 	$(RUN) -m paper.build
 
+# The public names, the effects and the material that scenes are made of; not second_order twice, as
+# the function and as its module.
+docs: $(STAMP)
+	$(RUN) -m pdoc --docformat markdown -o build/docs linear_theory '!linear_theory.second_order' \
+	    fem_check fem_check.shell.effects fem_check.shell.material
+
 # setuptools comes with the lock and build isolation is off: pip fetches nothing that is not pinned.
 $(STAMP): requirements.lock pyproject.toml
 	@$(PYTHON) -c 'import sys; sys.exit("sheetcrawl needs Python >= 3.11, not " + sys.version if sys.version_info < (3, 11) else 0)'

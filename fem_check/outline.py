@@ -25,6 +25,11 @@ class Outline:
     extent of the outline along y: centre the outline on the origin to compare it with a `Sheet`.
 
     Raises ValueError for corners that are not finite, not (n, 2), enclose no area, or cross.
+
+    >>> from fem_check import Outline
+    >>> arrow = Outline([[-0.25, -0.5], [0.25, -0.5], [0.25, 0.0], [0.0, 0.5], [-0.25, 0.0]])
+    >>> print(f"{arrow.length} L long, {arrow.width} L wide, area {arrow.area} L^2")
+    1.0 L long, 0.5 L wide, area 0.375 L^2
     """
 
     corners: Array

@@ -65,6 +65,13 @@ def plane_stress_field(
     given mesh is refined until it is reached, once at least.
 
     Raises ValueError for bad input.
+
+    >>> from fem_check import Outline, plane_stress_field
+    >>> from linear_theory import SineWave
+    >>> trapezoid = Outline.trapezoid(rear=0.6, front=0.4, length=1.0)
+    >>> field = plane_stress_field(trapezoid, SineWave(), size=0.2)
+    >>> print(field.error < 1e-3, field.displacement(x=0.1, y=0.2, t=0.3).round(3))  # L per unit alpha
+    True [-0.063 -0.135]
     """
     if degree not in ELEMENTS:
         raise ValueError(f"degree = {degree!r}: must be 2 or 4")
@@ -133,6 +140,15 @@ class PlaneStressField(LinearField):
     """Deformation of a sheet by finite elements; made by `plane_stress_field`.
 
     sheet: the rectangle around the outline; mesh: the triangles; degree: of the elements.
+
+    >>> import numpy as np
+    >>> from fem_check import plane_stress_field
+    >>> from linear_theory import Sheet, SineWave, airy_series
+    >>> sheet, wave = Sheet(), SineWave()
+    >>> field, series = plane_stress_field(sheet, wave), airy_series(sheet, wave, rtol=1e-8)
+    >>> u, exact = (f.displacement(0.1, [-0.3, 0.1, 0.4], t=0.3) for f in (field, series))
+    >>> print(np.linalg.norm(u - exact) <= field.error * np.linalg.norm(exact), field.error < 1e-3)
+    True True
     """
 
     def __init__(

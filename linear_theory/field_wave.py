@@ -28,6 +28,12 @@ class FieldWave:
 
     Raises ValueError for a period that is not finite and positive, a value or rate that cannot be
     called, and, once they are called, for results that are not finite, real and of that shape.
+
+    >>> import numpy as np
+    >>> from linear_theory import FieldWave
+    >>> oblique = FieldWave(lambda x, y, t: np.sin(2 * np.pi * (x + y - t)), period=1.0)
+    >>> print(oblique.rate(x=0.0, y=[0.0, 0.5], t=0.0).round(6))  # -2 pi cos 2 pi (x + y - t)
+    [-6.283185  6.283185]
     """
 
     def __init__(self, value: Growth, period: float, rate: Growth | None = None) -> None:

@@ -16,6 +16,11 @@ class Sheet:
 
     Raises ValueError for sizes that are not finite and positive and for a Poisson ratio
     outside (-1, 1/2].
+
+    >>> from linear_theory import Sheet
+    >>> strip = Sheet(length=1.0, width=0.1, poisson=0.3)
+    >>> print(f"area {strip.area:.1f} L^2, thickness {strip.thickness} L")
+    area 0.1 L^2, thickness 0.03 L
     """
 
     length: float = 1.0

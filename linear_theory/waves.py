@@ -36,6 +36,13 @@ class TravellingWave:
 
     cosine, sine: (harmonics,) dimensionless amplitudes; count: waves on the sheet, any non-zero
     integer (negative runs towards -y); period in units of time. Raises ValueError otherwise.
+
+    >>> from linear_theory import TravellingWave
+    >>> pulse = TravellingWave(cosine=[1.0, 0.5], sine=[0.0, 0.0])
+    >>> print(pulse.value(x=0.0, y=[0.0, 0.5], t=0.0).round(12))
+    [ 1.5 -0.5]
+    >>> print(pulse.is_half_period_antisymmetric)  # if it were, V would be of order alpha^2
+    False
     """
 
     cosine: Array
@@ -147,7 +154,13 @@ class TravellingWave:
 class SineWave(TravellingWave):
     """c(y, t) = sin(2 pi count y/L - 2 pi t/period), the wave of the seed paper's section 3.1.
 
-    count: any non-zero integer; count > 0 runs towards +y. period in units of time.
+    count: any non-zero integer; count > 0 runs towards +y. period in units of time. Raises ValueError
+    otherwise.
+
+    >>> from linear_theory import SineWave
+    >>> wave = SineWave(count=1, period=1.0)
+    >>> print(wave.value(x=0.0, y=[0.25, 0.5], t=[0.0, 0.25]).round(12))  # the crest runs along +y
+    [1. 1.]
     """
 
     def __init__(self, count: int = 1, period: float = 1.0) -> None:

@@ -55,6 +55,17 @@ class Scene:
 
     Raises ValueError, naming the argument, for values out of range, for effects that contradict each
     other or the sheet, and for effects that miss what they need (friction without load).
+
+    >>> from fem_check import Scene
+    >>> from fem_check.shell.effects.koiter import Bending, Membrane
+    >>> from fem_check.shell.material import Material
+    >>> from linear_theory import Sheet, SineWave
+    >>> material = Material(thickness=0.03, poisson=0.5)
+    >>> stretching, bending = Membrane(material), Bending(material)
+    >>> for effects in ([stretching], [stretching, bending]):
+    ...     print(Scene(Sheet(), SineWave(), alpha=0.25, effects=effects).components)
+    2
+    3
     """
 
     sheet: Sheet

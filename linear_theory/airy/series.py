@@ -57,6 +57,14 @@ def airy_series(
 
     Raises ValueError for bad input and NotConvergedError, with the best field, if rtol asks for more
     modes than fit in memory.
+
+    >>> import numpy as np
+    >>> from linear_theory import Sheet, SineWave, airy_series, ritz_field
+    >>> series = airy_series(Sheet(), SineWave(), rtol=1e-4)
+    >>> reference = ritz_field(Sheet(), SineWave(), rtol=1e-8)
+    >>> u, exact = (field.displacement(0.1, [-0.3, 0.1, 0.4], t=0.3) for field in (series, reference))
+    >>> print(np.linalg.norm(u - exact) <= series.error * np.linalg.norm(exact), series.error <= 1e-4)
+    True True
     """
     printed = validation.choice("form", form, FORMS) == "printed"
     rtol = validation.tolerance(rtol)
@@ -134,6 +142,11 @@ class AirySeries(LinearField):
     The basis is one field for cos(2 pi r y/L) and one for sin(2 pi r y/L) of every harmonic r of the
     wave, and the uniform dilation by the mean of c. modes: terms kept along x (families A, B) and
     along y (C, D); tail: whether their tails are summed.
+
+    >>> from linear_theory import Sheet, SineWave, airy_series
+    >>> series = airy_series(Sheet(), SineWave(), rtol=1e-8)
+    >>> print(series.displacement(x=0.1, y=0.2, t=0.3).round(5))  # L per unit alpha
+    [-0.06152 -0.11559]
     """
 
     mirrored = True

@@ -44,6 +44,14 @@ def line_balance(
     Raises ValueError, naming the place, where no length would be left (1 + alpha c <= 0, 1 + 2 alpha c
     <= 0) or |alpha c| >= 100 for "exp", and for other bad arguments. Warns (ViscousRegimeWarning)
     where friction = "tanh" acts as viscous: see `CrawlSpeed.regime`.
+
+    >>> from linear_theory import SineWave, TravellingWave, line_balance, line_speed
+    >>> sine = line_balance(SineWave(), alpha=0.25)
+    >>> print(f"V = {sine.mean:.5f} L/T", abs(sine.mean - line_speed(0.25)) <= sine.error)
+    V = 0.06007 L/T True
+    >>> pulse = line_balance(TravellingWave(cosine=[1.0, 0.5], sine=[0.0, 0.0]), alpha=0.05)
+    >>> print(f"V = {pulse.mean:.3f} L/T, {pulse.first_order:.1f} alpha L/T for small alpha")
+    V = -0.022 L/T, -0.5 alpha L/T for small alpha
     """
     start = time.perf_counter()
     alpha, rtol = validation.real("alpha", alpha), validation.tolerance(rtol)

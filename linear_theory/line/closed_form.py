@@ -55,6 +55,10 @@ def line_speed(alpha: ArrayLike, count: int = 1, period: float = 1.0, form: str 
     for count = period = 1 and 3 ulp otherwise, as alpha/count/period is rounded too.
     form="printed" solves eq. 8 as it stands in the paper, which does not balance eq. 7.
     Raises ValueError for |alpha| >= 1, where a contracted part would have no length left.
+
+    >>> from linear_theory import line_speed
+    >>> print(line_speed([0.01, 0.25]).round(6))  # L/T; alpha^2 where alpha is small
+    [0.0001   0.060075]
     """
     alpha, scale = _checked(alpha, count, period)
     if validation.choice("form", form, FORMS) == "printed":
@@ -70,7 +74,12 @@ def line_speed(alpha: ArrayLike, count: int = 1, period: float = 1.0, form: str 
 def line_speed_viscous(alpha: ArrayLike, count: int = 1, period: float = 1.0) -> Array:
     """Speed of the sine wave with viscous friction on the current length: alpha^2/(2nT), exactly.
 
-    Arguments, units and errors as for `line_speed`.
+    Arguments and units as for `line_speed`. Raises ValueError as it does.
+
+    >>> from linear_theory import line_speed, line_speed_viscous
+    >>> ratio = line_speed_viscous(0.01) / line_speed(0.01)
+    >>> print(f"{ratio:.3f} of the speed with dry friction")
+    0.500 of the speed with dry friction
     """
     alpha, scale = _checked(alpha, count, period)
     return np.asarray(alpha / 2 * scale)
@@ -82,11 +91,16 @@ def line_speed_tanh(
     """Speed of the sine wave with friction tanh(v/v0), for any v0 = slip_speed > 0.
 
     The root V of int (1 + alpha sin phi) tanh((V - (alpha/nT) sin phi)/v0) dphi = 0; alpha and
-    slip_speed (length/time) broadcast, other arguments and errors as for `line_speed`. Joins dry
-    (v0 -> 0) and viscous friction (v0 -> infinity); relative accuracy 1e-13.
+    slip_speed (length/time) broadcast, other arguments as for `line_speed`. Joins dry (v0 -> 0) and
+    viscous friction (v0 -> infinity); relative accuracy 1e-13. Raises ValueError as `line_speed` does
+    and for slip_speed <= 0.
 
     The integrand is symmetrised under phi -> -phi by hand, so that the small speed (of order
     alpha^2) is not the difference of large numbers.
+
+    >>> from linear_theory import line_speed_tanh
+    >>> print(line_speed_tanh(0.25, slip_speed=[1e-6, 0.05, 1e3]).round(5))  # L/T, from dry to viscous
+    [0.06007 0.05787 0.03125]
     """
     alpha, scale = _checked(alpha, count, period)
     slip = validation.real_array("slip_speed", slip_speed)

@@ -73,6 +73,12 @@ def line_cycle_speed(
     Returns the shape of alpha, length/time, positive towards +y, with a relative error of about 1e-15
     of the terms of the formulas above. Raises ValueError for other names and for |alpha| so large that
     a length would vanish.
+
+    >>> from linear_theory import line_cycle_speed
+    >>> for body in ("line", "strip"):
+    ...     print(f"{body}: V = {line_cycle_speed(0.25, body=body):.5f} L/T")
+    line: V = 0.04662 L/T
+    strip: V = 0.10128 L/T
     """
     strength = validation.real_array("alpha", alpha)
     growth = Growth.of(growth_law, load, body)

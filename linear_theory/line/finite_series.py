@@ -37,6 +37,12 @@ def line_cycle_series(
     nTV is that of `line_cycle_speed`, whose arguments these are; it is even in alpha. The time grows
     with more than the third power of the order: 0.1 s for 20, 1 s for 40.
     Raises ValueError if order is not an integer >= 0 and for names that do not exist.
+
+    >>> from linear_theory import line_cycle_series
+    >>> print(line_cycle_series(4, growth_law="exp"))
+    (0, 0, 3/4, 0, -41/576)
+    >>> print(line_cycle_series(4, growth_law="linear"))
+    (0, 0, 1, 0, -2/3)
     """
     from sympy import Rational  # here: sympy takes longer to import than the rest of the package
 

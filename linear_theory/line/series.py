@@ -38,6 +38,10 @@ def line_series(order: int) -> "tuple[Rational, ...]":
     """Exact coefficients (c_0, ..., c_order) of nTV = sum c_k alpha^k, as sympy rationals.
 
     Raises ValueError if order is not an integer >= 0.
+
+    >>> from linear_theory import line_series
+    >>> print(line_series(6))
+    (0, 0, 1, 0, -2/3, 0, 4/5)
     """
     from sympy import Rational  # here: sympy takes longer to import than the rest of the package
 
@@ -52,6 +56,10 @@ def line_speed_series(
 
     It converges for |alpha| < LAPLACE_LIMIT only. form="printed" is eq. 9 of the paper,
     -alpha^2/(nT), which ends at order 2. Raises ValueError for an order outside [0, 1000].
+
+    >>> from linear_theory import line_speed, line_speed_series
+    >>> print(f"V = {line_speed_series(0.1, order=4):.6f} L/T, exact {line_speed(0.1):.6f} L/T")
+    V = 0.009933 L/T, exact 0.009934 L/T
     """
     order = validation.integer("order", order, 0)
     if order > HIGHEST_ORDER:

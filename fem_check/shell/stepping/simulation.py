@@ -85,6 +85,18 @@ def simulate(
     damaged or of another scene or run, ConvergenceError (with the last state and its time as
     `parameter`) where steps become too small. Warns (ViscousRegimeWarning) where Friction, regularised
     dry friction, acts as viscous: see `CrawlSpeed.regime`.
+
+    >>> from fem_check import Scene, simulate
+    >>> from fem_check.shell.effects.friction import Friction
+    >>> from fem_check.shell.effects.gravity import Gravity
+    >>> from fem_check.shell.effects.koiter import Membrane
+    >>> from fem_check.shell.material import Material
+    >>> from linear_theory import Sheet, SineWave
+    >>> effects = [Membrane(Material(0.03, 0.5)), Gravity(3e-6), Friction(1.0, slip_speed=0.005)]
+    >>> scene = Scene(Sheet(), SineWave(), alpha=0.1, effects=effects, cells=(1, 2))
+    >>> motion = simulate(scene, periods=1, rtol=0.1)
+    >>> print(f"V = {motion.speed.mean:.3f} L/T, friction is {motion.regime}")
+    V = 0.016 L/T, friction is dry
     """
     begin = time.perf_counter()
     run = Run(scene, periods, rtol, steps, ramp, velocity, snapshot_every, keep_every)

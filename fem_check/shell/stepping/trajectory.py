@@ -55,6 +55,18 @@ class Trajectory:
     `record.COLUMNS`. stored_times (n,), states (n, size): kept states. rejected: repeated steps.
     resumed_at: time of the snapshot that the run went on from, NaN if none. mesh_error: see
     `SpeedErrors`. seconds: spent, in this process.
+
+    >>> from fem_check import Scene, simulate
+    >>> from fem_check.shell.effects.friction import Friction
+    >>> from fem_check.shell.effects.gravity import Gravity
+    >>> from fem_check.shell.effects.koiter import Membrane
+    >>> from fem_check.shell.material import Material
+    >>> from linear_theory import Sheet, SineWave
+    >>> effects = [Membrane(Material(0.03, 0.5)), Gravity(3e-6), Friction(1.0, slip_speed=0.005)]
+    >>> scene = Scene(Sheet(), SineWave(), alpha=0.1, effects=effects, cells=(1, 2))
+    >>> motion = simulate(scene, periods=1, rtol=0.1)
+    >>> print(f"centre at y = {motion.centre[1, -1]:.2f} L at t = {motion.times[-1]:.1f} T")
+    centre at y = 0.02 L at t = 1.5 T
     """
 
     scene: Scene
