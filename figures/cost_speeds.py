@@ -177,8 +177,8 @@ class NonlinearSpeeds:
             solve = partial(cycle_speed, planar(cells), rtol=CYCLE_RTOL)
             yield self._case(CYCLE, "cells across", cells[0], solve, quick=cells[0] < 2)
         for rtol in PREDICTED:
-            solve = partial(predict, SHEET, WAVE, NONLINEAR_ALPHA, rtol=rtol)
-            yield self._case(AUTO, "rtol", rtol, solve, quick=rtol > 1e-2)
+            auto = partial(predict, SHEET, WAVE, NONLINEAR_ALPHA, rtol=rtol)
+            yield self._case(AUTO, "rtol", rtol, auto, quick=rtol > 1e-2)
         yield from self._steppers()
 
     def _steppers(self) -> Iterator[Case]:
