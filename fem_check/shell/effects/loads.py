@@ -55,9 +55,9 @@ class EdgeMoment:
 
     Its work is moment times the angle theta of the tangent a_entry, (cos theta, 0, sin theta). It is
     the moment of a conservative load that does not follow the sheet, and the true moment as long as
-    the edge stays parallel to y, which it does in the roll-up of a strip. theta is measured within pi of
-    `angle`: state one near the expected angle to go beyond half a turn. entry: 1 or 2, the derivative
-    across the edge.
+    the edge stays parallel to y, which it does in the roll-up of a strip. theta is measured within pi
+    of `angle`: state one near the expected angle to go beyond half a turn. entry: 1 or 2, the
+    derivative across the edge.
     """
 
     moment: float
