@@ -4,18 +4,17 @@ Every table is a list of frozen dataclasses, one row each, written as CSV after 
 it was made. Columns that do not depend on the machine stand first.
 """
 
-import csv
-import io
 import itertools
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, TypeVar
 
 import numpy as np
 
-from figures import output
+from figures.records import write_rows
+from linear_theory.records import read_rows
 
 DATA = Path(__file__).parent / "data"
 COMMAND = "python -m figures.cost"
@@ -147,24 +146,9 @@ def cheapest(points: Sequence[Point]) -> list[Point]:
 
 def write(rows: Sequence[Any], path: Path, words: str) -> Path:
     """Rows of one dataclass as a table, after the command and `words` that tell how it was made."""
-    text = io.StringIO()
-    text.write(f"# made by: {COMMAND}; {words}\n")
-    table = csv.writer(text, lineterminator="\n")
-    names = [field.name for field in fields(rows[0])]
-    table.writerow(names)
-    for row in rows:
-        values = (getattr(row, name) for name in names)
-        table.writerow(f"{v + 0.0:.{DIGITS}g}" if isinstance(v, float) else v for v in values)
-    return output.write_bytes(path, text.getvalue().encode())
+    return write_rows(path, rows, COMMAND, words, DIGITS)
 
 
 def read(path: Path, kind: type[Row]) -> list[Row]:
     """The rows of a table. Raises FileNotFoundError, naming the command that makes it."""
-    if not path.exists():
-        raise FileNotFoundError(f"{path}: not there; `{COMMAND}` makes it")
-    lines = [line for line in path.read_text().splitlines() if not line.startswith("#")]
-    types = {f.name: f.type for f in fields(kind)}  # type: ignore[arg-type]
-    return [
-        kind(**{name: types[name](text) for name, text in row.items()})  # type: ignore[operator]
-        for row in csv.DictReader(lines)
-    ]
+    return read_rows(path, kind, COMMAND)

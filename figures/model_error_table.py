@@ -14,9 +14,7 @@ to 16 elements across for W = L.
 """
 
 import argparse
-import csv
 import functools
-import io
 import itertools
 import math
 from collections.abc import Iterator, Sequence
@@ -28,6 +26,7 @@ from fem_check.shell.cycle.speed import Cycle
 from fem_check.shell.statics.equilibrium import ConvergenceError
 from figures import output
 from figures.cycles import planar_scene
+from figures.records import write_rows
 from linear_theory.airy import airy_series
 from linear_theory.crawl import field_speed
 from linear_theory.field import LinearField
@@ -229,13 +228,8 @@ def rows_of(case: Case, table: Sequence[Row]) -> list[Row]:
 
 def write(table: Sequence[Row], path: Path = PATH) -> Path:
     """The rows as a table, after a line that tells how it was made."""
-    text = io.StringIO()
-    text.write(f"# made by: {COMMAND}; width in L, speeds and differences over alpha^2 L/T\n")
-    lines = csv.writer(text, lineterminator="\n")
-    lines.writerow(field.name for field in fields(Row))
-    for row in table:
-        lines.writerow(f"{v + 0.0:.{DIGITS}g}" if isinstance(v, float) else v for v in astuple(row))
-    return output.write_bytes(path, text.getvalue().encode())
+    words = "width in L, speeds and differences over alpha^2 L/T"
+    return write_rows(path, table, COMMAND, words, DIGITS)
 
 
 def main(arguments: Sequence[str] | None = None) -> None:

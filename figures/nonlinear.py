@@ -10,11 +10,9 @@ L/T make dry, mixed and viscous crawling. The bar is the same growth in one dime
 """
 
 import argparse
-import csv
-import io
 import warnings
 from collections.abc import Sequence
-from dataclasses import astuple, dataclass, fields
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -25,8 +23,10 @@ from fem_check.shell.effects.koiter import Membrane
 from fem_check.shell.material import Material
 from fem_check.shell.scene import Scene
 from figures import output
+from figures.records import write_rows
 from linear_theory.errors import ViscousRegimeWarning
 from linear_theory.line.finite import line_cycle_speed
+from linear_theory.records import read_rows
 from linear_theory.sheet import Sheet
 from linear_theory.waves import SineWave
 
@@ -104,25 +104,13 @@ def sheet_speed(alpha: float, friction: str, rtol: float) -> Speed:
 
 
 def write(speeds: Sequence[Speed], path: Path = PATH) -> Path:
-    """The speeds as a table, after a line that tells how it was made."""
-    text = io.StringIO()
-    text.write(f"# made by: {COMMAND}; speeds and errors in L/T\n")
-    rows = csv.writer(text, lineterminator="\n")
-    rows.writerow(field.name for field in fields(Speed))
-    for speed in speeds:
-        rows.writerow(f"{v:.{DIGITS}g}" if isinstance(v, float) else v for v in astuple(speed))
-    return output.write_bytes(path, text.getvalue().encode())
+    """The rows as a table, after a line that tells how it was made."""
+    return write_rows(path, speeds, COMMAND, "speeds and errors in L/T", DIGITS)
 
 
 def read(path: Path = PATH) -> list[Speed]:
-    """The speeds of a table. Raises FileNotFoundError, naming the command that makes it."""
-    if not path.exists():
-        raise FileNotFoundError(f"{path}: not there; `{COMMAND}` makes it")
-    lines = [line for line in path.read_text().splitlines() if not line.startswith("#")]
-    return [
-        Speed(row["body"], row["friction"], *(float(row[f.name]) for f in fields(Speed)[2:]))
-        for row in csv.DictReader(lines)
-    ]
+    """The rows of a table. Raises FileNotFoundError, naming the command that makes it."""
+    return read_rows(path, Speed, COMMAND)
 
 
 def select(speeds: Sequence[Speed], body: str, friction: str = "coulomb") -> tuple[np.ndarray, ...]:

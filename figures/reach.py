@@ -22,7 +22,8 @@ from numpy.typing import NDArray
 from scipy.interpolate import PchipInterpolator
 
 from figures import output, style
-from figures.reach_table import DATA, REACHES, SHARES, SPEEDS, Point, Reach, curve, read
+from figures.reach_table import COMMAND, DATA, REACHES, SHARES, SPEEDS, Point, Reach, curve
+from linear_theory.records import read_rows
 
 Array = NDArray[np.float64]
 
@@ -158,7 +159,10 @@ def write(
 def main(arguments: Sequence[str] | None = None) -> None:
     """Draw and write the map."""
     options = style.options("figures.reach", main.__doc__, 0.0, "has no effect: all is read", arguments)
-    points, reaches = read(Point, DATA / SPEEDS), read(Reach, DATA / REACHES)
+    points, reaches = (
+        read_rows(DATA / SPEEDS, Point, COMMAND),
+        read_rows(DATA / REACHES, Reach, COMMAND),
+    )
     for path in write(points, reaches, options.out, options.formats):
         print(path)
 

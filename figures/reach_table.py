@@ -10,14 +10,11 @@ sheet. Some minutes of computing.
 """
 
 import argparse
-import csv
-import io
 import itertools
 import math
 from collections.abc import Sequence
-from dataclasses import astuple, dataclass, fields
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -37,10 +34,10 @@ from figures.model_error_table import (
     leading_of,
     strip_ratio,
 )
+from figures.records import write_rows
 from linear_theory.sheet import Sheet
 
 Array = NDArray[np.float64]
-Line = TypeVar("Line", "Point", "Reach")
 
 DATA = Path(__file__).parent / "data"
 SPEEDS, REACHES = "reach_speeds.csv", "reach.csv"
@@ -62,6 +59,9 @@ FIT_ALPHA = 0.3
 FITS = ((1, 2, 3), (1, 2), (0, 1, 2))
 """Powers of alpha^2 that are fitted to V/alpha^2 - V_2, of which the power 0 takes up an error of the
 mesh that is the same at all alpha."""
+
+DIGITS = 6
+"""Significant digits written."""
 
 SHARES = (0.01, 0.05, 0.1)
 """Of the speed, up to which a theory reaches."""
@@ -207,23 +207,9 @@ def reaches(table: Sequence[Point]) -> list[Reach]:
     return [reach(list(group)) for _, group in sheets]
 
 
-def write(lines: Sequence[Point] | Sequence[Reach], path: Path, digits: int = 6) -> Path:
+def write(lines: Sequence[Point] | Sequence[Reach], path: Path) -> Path:
     """Lines as a table, after one that tells how it was made."""
-    text = io.StringIO()
-    text.write(f"# made by: {COMMAND}; width in L, speeds and coefficients in L/T\n")
-    rows = csv.writer(text, lineterminator="\n")
-    rows.writerow(field.name for field in fields(lines[0]))
-    rows.writerows([f"{v + 0.0:.{digits}g}" for v in astuple(line)] for line in lines)
-    return output.write_bytes(path, text.getvalue().encode())
-
-
-def read(kind: type[Line], path: Path) -> list[Line]:
-    """Lines of a table. Raises FileNotFoundError, naming the command that makes it."""
-    if not path.exists():
-        raise FileNotFoundError(f"{path}: not there; `{COMMAND}` makes it")
-    lines = [line for line in path.read_text().splitlines() if not line.startswith("#")]
-    rows: list[dict[str, Any]] = [dict(row) for row in csv.DictReader(lines)]
-    return [kind(**{f.name: float(row[f.name]) for f in fields(kind)}) for row in rows]
+    return write_rows(path, lines, COMMAND, "width in L, speeds and coefficients in L/T", DIGITS)
 
 
 def main(arguments: Sequence[str] | None = None) -> None:

@@ -11,11 +11,9 @@ shapes not affected by friction; "stepped", through time, with friction 1e-4 of 
 """
 
 import argparse
-import csv
-import io
 import warnings
 from collections.abc import Callable, Sequence
-from dataclasses import astuple, dataclass, fields
+from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -31,6 +29,7 @@ from fem_check.shell.material import Material
 from fem_check.shell.scene import Scene
 from fem_check.shell.stepping.simulation import simulate
 from figures import output
+from figures.records import write_rows
 from linear_theory import (
     CrawlSpeed,
     RitzField,
@@ -42,6 +41,7 @@ from linear_theory import (
     line_balance,
     ritz_field,
 )
+from linear_theory.records import read_rows
 
 PATH = Path(__file__).parent / "data" / "regimes.csv"
 COMMAND = "python -m figures.regimes_table"
@@ -169,24 +169,13 @@ def compute(rtol: float = RTOL) -> list[Row]:
 
 def write(rows: Sequence[Row], path: Path = PATH) -> Path:
     """The rows as a table, after a line that tells how it was made."""
-    text = io.StringIO()
-    text.write(f"# made by: {COMMAND}; alpha = {ALPHA:g}; slip: v0/(alpha L/T), coefficient: V/alpha^2")
-    text.write(" and its error in L/T\n")
-    table = csv.writer(text, lineterminator="\n")
-    table.writerow(field.name for field in fields(Row))
-    for r in rows:
-        table.writerow(f"{v:.{DIGITS}g}" if isinstance(v, float) else v for v in astuple(r))
-    return output.write_bytes(path, text.getvalue().encode())
+    words = f"alpha = {ALPHA:g}; slip: v0/(alpha L/T), coefficient: V/alpha^2 and its error in L/T"
+    return write_rows(path, rows, COMMAND, words, DIGITS)
 
 
 def read(path: Path = PATH) -> list[Row]:
     """The rows of a table. Raises FileNotFoundError, naming the command that makes it."""
-    if not path.exists():
-        raise FileNotFoundError(f"{path}: not there; `{COMMAND}` makes it")
-    lines = [line for line in path.read_text().splitlines() if not line.startswith("#")]
-    return [
-        Row(r["model"], *(float(r[f.name]) for f in fields(Row)[1:])) for r in csv.DictReader(lines)
-    ]
+    return read_rows(path, Row, COMMAND)
 
 
 def main(arguments: Sequence[str] | None = None) -> None:

@@ -10,14 +10,11 @@ of the speeds plus a tenth of the step of the extrapolation.
 """
 
 import argparse
-import csv
 import functools
-import io
 import itertools
 from collections.abc import Iterator, Sequence
-from dataclasses import astuple, dataclass, fields, replace
+from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import skfem
@@ -27,7 +24,9 @@ from fem_check.shell.effects.koiter import Membrane
 from fem_check.shell.material import Material
 from fem_check.shell.scene import Scene
 from figures import output
+from figures.records import write_rows
 from linear_theory.friction import LOADS
+from linear_theory.records import read_rows
 from linear_theory.second_field import AREAS, GROWTH_LAWS
 from linear_theory.second_order import second_order
 from linear_theory.sheet import Sheet
@@ -205,27 +204,12 @@ def compute(chosen: Sequence[Case], rtol: float = RTOL) -> list[Row]:
 
 def write(rows: Sequence[Row], path: Path = PATH) -> Path:
     """The rows as a table, after a line that tells how it was made."""
-    text = io.StringIO()
-    text.write(f"# made by: {COMMAND}; width in L, coefficients and errors in L/T\n")
-    table = csv.writer(text, lineterminator="\n")
-    table.writerow(field.name for field in fields(Row))
-    for line in rows:
-        table.writerow(f"{v + 0.0:.{DIGITS}g}" if isinstance(v, float) else v for v in astuple(line))
-    return output.write_bytes(path, text.getvalue().encode())
+    return write_rows(path, rows, COMMAND, "width in L, coefficients and errors in L/T", DIGITS)
 
 
 def read(path: Path = PATH) -> list[Row]:
     """The rows of a table. Raises FileNotFoundError, naming the command that makes it."""
-    if not path.exists():
-        raise FileNotFoundError(f"{path}: not there; `{COMMAND}` makes it")
-    lines = [line for line in path.read_text().splitlines() if not line.startswith("#")]
-    return [_parsed(line) for line in csv.DictReader(lines)]
-
-
-def _parsed(line: dict[str, str]) -> Row:
-    words = {"wave", "growth_law", "area", "load"}
-    values: dict[str, Any] = {k: v if k in words else float(v) for k, v in line.items()}
-    return Row(**values)
+    return read_rows(path, Row, COMMAND)
 
 
 def main(arguments: Sequence[str] | None = None) -> None:

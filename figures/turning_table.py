@@ -8,10 +8,8 @@ back on it, but its force is 1e-4 of the stiffness, and its slip speed 2 % of th
 """
 
 import argparse
-import csv
-import io
 from collections.abc import Sequence
-from dataclasses import astuple, dataclass, fields
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -24,8 +22,10 @@ from fem_check.shell.material import Material
 from fem_check.shell.scene import Scene
 from fem_check.shell.stepping.simulation import simulate
 from figures import output
+from figures.records import write_rows
 from linear_theory.field_wave import FieldWave
 from linear_theory.path import Poses
+from linear_theory.records import read_rows
 from linear_theory.sheet import Sheet
 
 Array = NDArray[np.float64]
@@ -116,24 +116,13 @@ def stepped(name: str, periods: int, steps: int) -> Poses:
 
 def write(table: Sequence[Row], path: Path = PATH) -> Path:
     """The rows as a table, after a line that tells how it was made."""
-    text = io.StringIO()
-    text.write(f"# made by: {COMMAND}; alpha = {ALPHA:g}, lengths in L, angles in radians\n")
-    lines = csv.writer(text, lineterminator="\n")
-    lines.writerow(field.name for field in fields(Row))
-    for row in table:
-        lines.writerow(f"{v:.{DIGITS}g}" if isinstance(v, float) else v for v in astuple(row))
-    return output.write_bytes(path, text.getvalue().encode())
+    words = f"alpha = {ALPHA:g}, lengths in L, angles in radians"
+    return write_rows(path, table, COMMAND, words, DIGITS)
 
 
 def read(path: Path = PATH) -> list[Row]:
     """The rows of a table. Raises FileNotFoundError, naming the command that makes it."""
-    if not path.exists():
-        raise FileNotFoundError(f"{path}: not there; `{COMMAND}` makes it")
-    lines = [line for line in path.read_text().splitlines() if not line.startswith("#")]
-    return [
-        Row(row["wave"], int(row["period"]), *(float(row[f.name]) for f in fields(Row)[2:]))
-        for row in csv.DictReader(lines)
-    ]
+    return read_rows(path, Row, COMMAND)
 
 
 def main(arguments: Sequence[str] | None = None) -> None:

@@ -11,10 +11,9 @@ and D varies slowly with width, Poisson ratio and alpha. Between points of the t
 at the points around is taken, times a factor of safety.
 """
 
-import csv
 import functools
 import math
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -23,6 +22,7 @@ from numpy.typing import NDArray
 from linear_theory import validation
 from linear_theory.field import Wave
 from linear_theory.friction import LOADS
+from linear_theory.records import read_rows
 from linear_theory.second_source import AREAS, GROWTH_LAWS
 from linear_theory.sheet import Sheet
 from linear_theory.waves import TravellingWave
@@ -173,11 +173,4 @@ def _grid(rows: list[Row]) -> _Grid:
 
 def read(path: Path = PATH) -> list[Row]:
     """The rows of a table. Raises FileNotFoundError, naming the command that makes it."""
-    if not path.exists():
-        raise FileNotFoundError(f"{path}: not there; `{COMMAND}` makes it")
-    lines = [line for line in path.read_text().splitlines() if not line.startswith("#")]
-    kinds = {"growth_law": str, "area": str, "load": str, "count": int}
-    return [
-        Row(**{f.name: kinds.get(f.name, float)(line[f.name]) for f in fields(Row)})
-        for line in csv.DictReader(lines)
-    ]
+    return read_rows(path, Row, COMMAND)

@@ -9,10 +9,11 @@ import numpy as np
 import pytest
 
 from figures import reach, reach_table
-from figures.reach_table import DATA, REACHES, SHARES, SPEEDS, Point, Reach, read
+from figures.reach_table import COMMAND, DATA, REACHES, SHARES, SPEEDS, Point, Reach
 from linear_theory import Sheet, SineWave, crawl_speed, line_cycle_speed
+from linear_theory.records import read_rows
 
-POINTS, ROWS = read(Point, DATA / SPEEDS), read(Reach, DATA / REACHES)
+POINTS, ROWS = read_rows(DATA / SPEEDS, Point, COMMAND), read_rows(DATA / REACHES, Reach, COMMAND)
 
 
 def sheet_of(ratio, theory=None, error: float = 0.0, alphas=(0, *reach_table.ALPHAS)) -> list[Point]:
@@ -127,6 +128,6 @@ def test_the_figure_writes_the_same_bytes(tmp_path):
 
 def test_an_absent_table_is_reported_with_its_command(tmp_path):
     with pytest.raises(FileNotFoundError, match=r"python -m figures\.reach_table"):
-        read(Point, tmp_path / SPEEDS)
-    again = read(Point, reach_table.write(POINTS[:3], tmp_path / SPEEDS))
+        read_rows(tmp_path / SPEEDS, Point, COMMAND)
+    again = read_rows(reach_table.write(POINTS[:3], tmp_path / SPEEDS), Point, COMMAND)
     assert again == POINTS[:3]
