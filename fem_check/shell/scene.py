@@ -24,6 +24,7 @@ from fem_check.shell.effects.loads import DeadLoad
 from fem_check.shell.growth import GROWTH_LAWS, metric_factor
 from fem_check.shell.potential import Potential
 from fem_check.shell.rates import Step
+from fem_check.shell.region import Region
 from fem_check.shell.rest_state import CURVATURE_FORMS, MEASURES, RestState, grown_state
 from fem_check.shell.shape_functions import is_global
 from linear_theory import validation
@@ -56,9 +57,7 @@ class Scene:
     Raises ValueError, naming the argument, for values out of range, for effects that contradict each
     other or the sheet, and for effects that miss what they need (friction without load).
 
-    >>> from fem_check import Scene
-    >>> from fem_check.shell.effects.koiter import Bending, Membrane
-    >>> from fem_check.shell.material import Material
+    >>> from fem_check import Bending, Material, Membrane, Scene
     >>> from linear_theory import Sheet, SineWave
     >>> material = Material(thickness=0.03, poisson=0.5)
     >>> stretching, bending = Membrane(material), Bending(material)
@@ -125,9 +124,9 @@ class Scene:
         """c at points of the undeformed sheet."""
         return np.asarray(self.wave.value(x, y, t, self.sheet.length))
 
-    def rest(self, t: float, amplitude: float = 1.0) -> RestState:
-        """Rest state at time t at the interior points, of growth `amplitude` times the wave."""
-        region = self.discretisation().interior
+    def rest(self, t: float, amplitude: float = 1.0, region: Region | None = None) -> RestState:
+        """Rest state at time t of growth `amplitude` times the wave, at the interior points or others."""
+        region = self.discretisation().interior if region is None else region
         x, y = region.parameters.reshape(2, -1)
         return grown_state(
             region,

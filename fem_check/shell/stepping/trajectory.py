@@ -56,11 +56,7 @@ class Trajectory:
     resumed_at: time of the snapshot that the run went on from, NaN if none. mesh_error: see
     `SpeedErrors`. seconds: spent, in this process.
 
-    >>> from fem_check import Scene, simulate
-    >>> from fem_check.shell.effects.friction import Friction
-    >>> from fem_check.shell.effects.gravity import Gravity
-    >>> from fem_check.shell.effects.koiter import Membrane
-    >>> from fem_check.shell.material import Material
+    >>> from fem_check import Friction, Gravity, Material, Membrane, Scene, simulate
     >>> from linear_theory import Sheet, SineWave
     >>> effects = [Membrane(Material(0.03, 0.5)), Gravity(3e-6), Friction(1.0, slip_speed=0.005)]
     >>> scene = Scene(Sheet(), SineWave(), alpha=0.1, effects=effects, cells=(1, 2))
