@@ -83,8 +83,9 @@ def track(name: str, rtol: float, stepped: Sequence[Row]) -> Track:
     )
     for speed in speeds:
         if not speed.converged:
-            raise RuntimeError(f"{name}: error {speed.error:.2g} of {speed.mean:.4g} misses {rtol:g}")
-    theory, nonlinear = (rigid_path(s, PERIODS[name], samples=1, sheet=SHEET) for s in speeds)
+            found = f"errors {speed.rigid_error} of {speed.rigid_mean}"
+            raise RuntimeError(f"{name}: {found} miss {rtol:g}")
+    theory, nonlinear = (rigid_path(s, PERIODS[name], samples=1) for s in speeds)
     return Track(name, theory, nonlinear, tuple(stepped), outline(name), growth(name))
 
 

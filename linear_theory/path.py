@@ -26,7 +26,6 @@ from numpy.typing import NDArray
 from scipy.interpolate import CubicHermiteSpline
 
 from linear_theory import validation
-from linear_theory.sheet import Sheet
 from linear_theory.speed import CrawlSpeed
 from linear_theory.time_grid import TimeGrid
 
@@ -112,29 +111,31 @@ class Path(Poses):
         return float(np.linalg.norm(self.step) * arc_over_chord / self.period)
 
 
-def rigid_path(
-    speed: CrawlSpeed, periods: int = 1, samples: int = 16, sheet: Sheet | None = None
-) -> Path:
+def rigid_path(speed: CrawlSpeed, periods: int = 1, samples: int = 16) -> Path:
     """The path that the rigid motion of one period makes when it is repeated.
 
     speed: of `crawl_speed`, `field_speed` or `cycle_speed`; where `rigid` is None the motion is mirror
     symmetric and its path straight. The path starts at speed.times[0], and with `periods` periods of
-    `samples` equal intervals it has N = periods samples + 1 times. sheet: the one that crawls, Sheet()
-    unless given; only an error estimate needs it, that of the rotation: the error of the speed over the
-    radius of gyration.
+    `samples` equal intervals it has N = periods samples + 1 times.
 
-    The quadrature in time is compared with one that is coarser. `speed.error`, the estimate for V_y,
-    stands for the errors of V_x, too, which were not controlled on their own: where V_y is nearly zero
-    it may be too small, and a sheet is better turned so that it crawls along y.
+    The mean velocities and their errors are those of the speed. To d adds what comes of turning within
+    the period, (R(theta) - 1)(V_x, V_y); its quadrature in time is compared with one that is coarser.
 
-    Raises ValueError for numbers below 1 and for a speed whose times are not those of a solver: panels
-    of five equidistant times, neighbours sharing their ends. A sheet at rest (alpha = 0) has one time
-    only.
+    Raises ValueError for numbers below 1, for a speed whose times are not those of a solver: panels of
+    five equidistant times, neighbours sharing their ends, and for one with `rigid` but without
+    rigid_mean and rigid_error. A sheet at rest (alpha = 0) has one time only.
+
+    >>> import numpy as np
+    >>> from linear_theory import FieldWave, Sheet, crawl_speed, rigid_path
+    >>> lopsided = FieldWave(lambda x, y, t: (1 + 2 * x) * np.sin(2 * np.pi * (y - t)), period=1.0)
+    >>> path = rigid_path(crawl_speed(Sheet(), lopsided, alpha=0.25, rtol=1e-2), periods=10)
+    >>> print(f"turns left by {path.turn:.2f} rad a period, on a circle of radius {path.radius:.1f} L")
+    turns left by 0.08 rad a period, on a circle of radius 1.4 L
     """
     start = time.perf_counter()
     periods = validation.integer("periods", periods, 1)
     samples = validation.integer("samples", samples, 1)
-    cycle = _one_period(_checked_grid(speed), speed, Sheet() if sheet is None else sheet)
+    cycle = _one_period(_checked_grid(speed), speed)
     shares = np.arange(samples) / samples
     whole = np.append(np.repeat(np.arange(periods), samples), periods)
     share = np.append(np.tile(shares, periods), 0.0)
@@ -226,38 +227,45 @@ def _checked_grid(speed: CrawlSpeed) -> TimeGrid:
     return TimeGrid(closed)
 
 
-def _one_period(grid: TimeGrid, speed: CrawlSpeed, sheet: Sheet) -> _Cycle:
+def _one_period(grid: TimeGrid, speed: CrawlSpeed) -> _Cycle:
     """The motion through one period and its errors."""
     times, length = grid.times, grid.lengths.sum()
-    v_x, v_y, omega = _closed_velocities(grid, speed)
+    rigid, mean_errors = _closed_velocities(grid, speed)
+    along, omega = rigid[0] + 1j * rigid[1], rigid[2]
     heading = _integral(grid, omega)
-    velocity = (v_x + 1j * v_y) * np.exp(1j * heading)
+    velocity = along * np.exp(1j * heading)
     place = _integral(grid, velocity)
     poses = np.stack([place.real, place.imag, heading], 1)
     rates = np.stack([velocity.real, velocity.imag, omega], 1)
     inner, inner_turn = _inner_errors(times, poses, rates)
-    turn_error, step_error = 0.0, length * speed.error
-    if speed.rigid is not None:
-        gyration = math.hypot(sheet.length, sheet.width) / math.sqrt(12)
-        errors = [length * _mean_error(grid, rate) for rate in rates.T]
-        turn_error = errors[2] + step_error / gyration
-        # a wrong heading within the period turns the ways there
-        turned = inner_turn * float(grid.mean(abs(velocity))[0]) * length
-        step_error = math.hypot(errors[0], errors[1]) + math.sqrt(2) * step_error + turned
-    spline = CubicHermiteSpline(times, poses, rates)
-    return _Cycle(spline, step_error, turn_error, inner, inner_turn, float(abs(place).max()))
+    mean_error = math.hypot(mean_errors[0], mean_errors[1])
+    # a wrong heading within the period turns the ways there
+    wrong_way = inner_turn * float(grid.mean(abs(along))[0])
+    turning = grid.error(np.stack([(velocity - along).real, (velocity - along).imag]))
+    return _Cycle(
+        spline=CubicHermiteSpline(times, poses, rates),
+        step_error=length * (mean_error + wrong_way + turning),
+        turn_error=length * mean_errors[2],
+        inner=inner,
+        inner_turn=inner_turn,
+        swing=float(abs(place).max()),
+    )
 
 
-def _closed_velocities(grid: TimeGrid, speed: CrawlSpeed) -> Array:
-    """V_x, V_y, Omega at all times of the grid, (3, times); the mean of V_y is the speed's own.
+def _closed_velocities(grid: TimeGrid, speed: CrawlSpeed) -> tuple[Array, Array]:
+    """V_x, V_y, Omega at all times of the grid, (3, times), and the errors of their means, (3,).
 
-    It may know better than the values, of which a part has exactly no mean.
+    The means are the speed's own: it knows better than the values, of which a part has exactly none.
     """
-    nothing = np.zeros_like(speed.velocity)
-    rigid = np.stack([nothing, speed.velocity, nothing]) if speed.rigid is None else speed.rigid
+    if speed.rigid is None:
+        rigid = np.multiply.outer([0.0, 1.0, 0.0], speed.velocity)
+        mean, error = np.array([0.0, speed.mean, 0.0]), np.array([0.0, speed.error, 0.0])
+    elif speed.rigid_mean is None or speed.rigid_error is None:
+        raise ValueError("speed.rigid: must come with rigid_mean and rigid_error")
+    else:
+        rigid, mean, error = speed.rigid, speed.rigid_mean, speed.rigid_error
     rigid = np.concatenate([rigid, rigid[:, :1]], axis=1)
-    rigid[1] += speed.mean - grid.mean(rigid[1])[0]
-    return rigid
+    return rigid + (mean - grid.means(rigid)[0])[:, None], error
 
 
 def _integral(grid: TimeGrid, values: NDArray[np.inexact]) -> NDArray[np.inexact]:
@@ -266,19 +274,6 @@ def _integral(grid: TimeGrid, values: NDArray[np.inexact]) -> NDArray[np.inexact
     inside = panels @ _CUMULATIVE.T * (grid.lengths / 4)[:, None]
     before = np.concatenate([[0.0], np.cumsum(inside[:, -1])])
     return np.append((before[:-1, None] + inside[:, :-1]).ravel(), before[-1])
-
-
-def _mean_error(grid: TimeGrid, values: Array) -> float:
-    """Estimated error of the mean of values (times,).
-
-    Where the second half of the period has the times of the first one, the mean of both is compared: of
-    half-period antisymmetric terms, which are larger by 1/alpha, nothing is left.
-    """
-    count = grid.times.size // 2
-    first, second = grid.times[: count + 1], grid.times[count:]
-    if count % 4 == 0 and np.allclose(second - second[0], first - first[0], SAME, 0.0):
-        return TimeGrid(first).mean((values[: count + 1] + values[count:]) / 2)[1]
-    return grid.mean(values)[1]
 
 
 def _inner_errors(times: Array, poses: Array, rates: Array) -> tuple[float, float]:

@@ -12,6 +12,7 @@ from linear_theory.balance import Balance, RigidMotion
 from linear_theory.field import LinearField, Wave
 from linear_theory.friction import FrictionLaw, check_load, load_rate
 from linear_theory.motion import CellGrid, Motion
+from linear_theory.rigid import RigidNorm
 from linear_theory.sheet import Sheet
 from linear_theory.time_grid import TimeGrid, first_grid
 from linear_theory.waves import TravellingWave
@@ -29,8 +30,8 @@ class Period(NamedTuple):
     """One period of motion.
 
     times (T,); orders (2, 3, T): V_x, V_y, Omega of q_0 and q_1, and rigid (3, T), of both together;
-    mean of V_y and its estimated error, absolute; means, mean_errors (2, 3): of `orders`, and what
-    times and cells do to them;
+    rigid_mean, rigid_error (3,): their means and estimated errors, absolute; means, mean_errors (2, 3):
+    of `orders`, and what times and cells do to them;
     fastest: the largest speed against the ground; sticks: whether at some time a share of the sheet is
     at rest.
     """
@@ -38,12 +39,22 @@ class Period(NamedTuple):
     times: Array
     orders: Array
     rigid: Array
-    mean: float
-    error: float
+    rigid_mean: Array
+    rigid_error: Array
     means: Array
     mean_errors: Array
     fastest: float
     sticks: bool
+
+    @property
+    def mean(self) -> float:
+        """Mean of V_y."""
+        return float(self.rigid_mean[1])
+
+    @property
+    def error(self) -> float:
+        """Estimate of its error, absolute."""
+        return float(self.rigid_error[1])
 
     @property
     def first_order(self) -> float:
@@ -127,15 +138,20 @@ class Crawl:
         wave = self.field.wave
         return wave.reversal_time if isinstance(wave, TravellingWave) and self.field.mirrored else None
 
+    @property
+    def norm(self) -> RigidNorm:
+        """By which motions and their errors are judged."""
+        return RigidNorm(self.field.sheet, self.field.mirrored)
+
     def counted(self, motion: RigidMotion) -> Array:
-        """V_y at each time without what is known to have no mean, (times,)."""
-        second = self.alpha**2 * motion.remainder[:, 1]
-        return second if self.starts_at_second_order else self.alpha * motion.leading[:, 1] + second
+        """V_x, V_y, Omega at each time without what is known to have no mean, (3, times)."""
+        second = self.alpha**2 * motion.remainder.T
+        return second if self.starts_at_second_order else self.alpha * motion.leading.T + second
 
-    def quadrature_errors(self, times: Array, motion: RigidMotion) -> tuple[float, Array]:
-        """Largest change of the counted V_y and of q_0, q_1 (2, 3) by a Newton step on finer cells.
+    def quadrature_errors(self, times: Array, motion: RigidMotion) -> tuple[Array, Array]:
+        """Largest change of the counted motion (3,) and of q_0, q_1 (2, 3) by finer cells.
 
-        At three times; none of a q_0 that has no mean.
+        One Newton step at three times; none of a q_0 that has no mean.
         """
         some = np.unique((np.array([0.07, 0.41, 0.77]) * times.size).astype(int))
         finer = replace(self, resolution=self.resolution.finer())
@@ -143,10 +159,10 @@ class Crawl:
         orders = abs(np.stack([step.leading, step.remainder])).max(1)
         if self.starts_at_second_order:
             orders[0] = 0.0
-        return float(abs(self.counted(step)).max()), orders
+        return abs(self.counted(step)).max(1), orders
 
     def field_error(self, motion: RigidMotion) -> float:
-        """What the error of the deformation does to V.
+        """What the error of the deformation does to V_x, V_y and g Omega each (see `RigidNorm`).
 
         The missing short waves push back and forth and hardly matter in the balance: met over widths
         from 0.1 L to 2 L were factors up to 0.05 (sines) and 0.004 (pulses) where 0.2 and 0.02 stand.
@@ -191,21 +207,23 @@ def average(crawl: Crawl, rtol: float, atol: float) -> Period:
         crawl, grid.times, rtol, atol
     )
     while True:
-        mean, time_error = grid.mean(crawl.counted(motion))
-        tolerance = 0.5 * max(rtol * abs(mean), atol)
-        if time_error <= tolerance or grid.times.size > _MOST_TIMES:
+        mean, time_error = grid.means(crawl.counted(motion))
+        speeds = crawl.norm.speeds(crawl.counted(motion))
+        tolerance = 0.5 * crawl.norm.tolerance(mean, rtol, atol)
+        if grid.error(speeds) <= tolerance or grid.times.size > _MOST_TIMES:
             break
-        grid, added = grid.refined(crawl.counted(motion), tolerance)
+        grid, added = grid.refined(speeds, tolerance)
         known = Known(grid.times[~added], motion)
         motion = _joined(motion, crawl.balance(grid.times[added], known), added)
+    field_error = crawl.norm.each(crawl.field_error(motion))
     means, errors = _means(crawl, grid, motion)
     times, orders = _whole_period(crawl, grid.times, np.stack([motion.leading.T, motion.remainder.T]))
     return Period(
         times=times,
         orders=orders,
         rigid=crawl.alpha * (orders[0] + crawl.alpha * orders[1]),
-        mean=mean,
-        error=time_error + quadrature_error + crawl.field_error(motion) + 1e-13 * abs(mean),
+        rigid_mean=mean,
+        rigid_error=time_error + quadrature_error + field_error + 1e-13 * abs(mean),
         means=means,
         mean_errors=errors + quadrature_errors,
         fastest=abs(crawl.alpha) * motion.fastest,
@@ -216,22 +234,22 @@ def average(crawl: Crawl, rtol: float, atol: float) -> Period:
 def _means(crawl: Crawl, grid: TimeGrid, motion: RigidMotion) -> tuple[Array, Array]:
     """Of q_0 and q_1, (2, 3), and the errors of the quadrature in time; none where symmetry says 0."""
     orders = np.stack([motion.leading.T, motion.remainder.T])
-    found = np.array([[grid.mean(values) for values in order] for order in orders])
+    means, errors = np.stack([grid.means(order) for order in orders], axis=1)
     if crawl.starts_at_second_order:
-        found[0] = 0.0
-    return found[..., 0], found[..., 1]
+        means[0] = errors[0] = 0.0
+    return means, errors
 
 
 def _with_fine_cells(
     crawl: Crawl, times: Array, rtol: float, atol: float
-) -> tuple[Crawl, RigidMotion, tuple[float, Array]]:
+) -> tuple[Crawl, RigidMotion, tuple[Array, Array]]:
     """Refine the cells until they meet their share of the tolerance at the first times."""
     known = None
     for last in (False, False, True):
         motion = crawl.balance(times, known)
         errors = crawl.quadrature_errors(times, motion)
-        size = abs(crawl.counted(motion).mean())
-        if last or errors[0] <= 0.3 * max(rtol * size, atol):
+        tolerance = 0.3 * crawl.norm.tolerance(crawl.counted(motion).mean(1), rtol, atol)
+        if last or crawl.norm.size(errors[0]) <= tolerance:
             break
         crawl, known = replace(crawl, resolution=crawl.resolution.finer()), Known(times, motion)
     return crawl, motion, errors

@@ -34,6 +34,7 @@ from linear_theory.balance import RigidMotion
 from linear_theory.field import Wave
 from linear_theory.friction import LOADS, FrictionLaw
 from linear_theory.period import Crawl, Period, average, changes_sign, first_resolution
+from linear_theory.rigid import RigidNorm
 from linear_theory.second_field import AREAS, GROWTH_LAWS, SecondOrderField, second_order_field
 from linear_theory.sheet import Sheet
 from linear_theory.speed import CrawlSpeed
@@ -73,6 +74,11 @@ class SecondOrder(NamedTuple):
     rigid_first, rigid_second (3,): coefficients of the means of V_x, V_y (these are first and second
     again) and of Omega (1/time, anticlockwise), in the frame of the body, see the module's head;
     rigid_first_error, rigid_second_error (3,): their errors. V_x and Omega are 0 for mirrored motions.
+
+    >>> from linear_theory import Sheet, SineWave, second_order
+    >>> found = second_order(Sheet(), SineWave(), rtol=1e-2)
+    >>> print(f"V = {found.first:.0f} alpha + {found.second:.2f} alpha^2, in L/T")
+    V = 0 alpha + 1.53 alpha^2, in L/T
     """
 
     first: float
@@ -85,6 +91,14 @@ class SecondOrder(NamedTuple):
     rigid_second: Array
     rigid_first_error: Array
     rigid_second_error: Array
+
+    def rigid_mean(self, alpha: float) -> Array:
+        """Means of V_x, V_y, Omega at one alpha, (3,)."""
+        return np.asarray(alpha * self.rigid_first + alpha**2 * self.rigid_second)
+
+    def rigid_error(self, alpha: float) -> Array:
+        """Their errors, (3,)."""
+        return np.asarray(abs(alpha) * self.rigid_first_error + alpha**2 * self.rigid_second_error)
 
 
 class Model(NamedTuple):
@@ -111,8 +125,8 @@ class _Coefficients(Crawl):
     field: SecondOrderField
 
     def counted(self, motion: RigidMotion) -> Array:
-        """alpha^2 q_1, (times,)."""
-        return np.asarray(self.alpha**2 * motion.remainder[:, 1])
+        """alpha^2 q_1, (3, times)."""
+        return np.asarray(self.alpha**2 * motion.remainder.T)
 
     def field_error(self, motion: RigidMotion) -> float:
         """What the errors of u_1 and u_2 do to V_2."""
@@ -140,10 +154,18 @@ def second_order(
     "coulomb", "viscous", or "tanh" with slip_speed.
     slip_speed: length per time *and unit |alpha|*, since what stays fixed as alpha -> 0 is its ratio to
     the speeds. `crawl_speed(order=2, alpha=a, slip_speed=s)` takes a speed and looks s/|a| up here.
-    rtol: of `second`, whose error is to be below max(rtol |second|, 0.01 rtol L/T); a miss shows in
-    second_error. All else comes with the same cells and times.
+    rtol: of `second`, whose error is to be below max(rtol |second|, 0.01 rtol L/T); where the motion is
+    not mirror symmetric, of the size of rigid_second (see `rigid.RigidNorm`). A miss shows in the
+    errors. All else comes with the same cells and times.
 
     Raises ValueError for bad input.
+
+    >>> from linear_theory import Sheet, SineWave, second_order
+    >>> for growth_law in ("exp", "metric"):
+    ...     found = second_order(Sheet(), SineWave(), growth_law, rtol=3e-2)
+    ...     print(f"{growth_law}: V = {found.second:.1f} alpha^2 L/T", found.second_error < 0.05)
+    exp: V = 1.5 alpha^2 L/T True
+    metric: V = 2.1 alpha^2 L/T True
     """
     start, rtol = time.perf_counter(), validation.tolerance(rtol)
     model = checked_model(growth_law, area, load, FrictionLaw(friction, slip_speed))
@@ -204,9 +226,8 @@ def field_errors(field: SecondOrderField, period: Period) -> Array:
     """
     fastest = period.fastest / TINY_ALPHA
     first = 0.0 if changes_sign(field.wave, field.sheet) else FIRST_SHARE * field.error * fastest
-    radius = math.hypot(field.sheet.width, field.sheet.length) / math.sqrt(12)
-    modes = [0.0, 1.0, 0.0] if field.mirrored else [1.0, 1.0, 1 / radius]
-    return np.multiply.outer([first, _second_field_error(field, fastest)], modes)
+    norm = RigidNorm(field.sheet, field.mirrored)
+    return np.stack([norm.each(first), norm.each(_second_field_error(field, fastest))])
 
 
 def _second_field_error(field: SecondOrderField, fastest: float) -> float:
@@ -239,22 +260,22 @@ def second_order_speed(
     atol = 1e-3 * rtol * alpha**2 * unit if atol is None else validation.positive("atol", atol)
     check_growth(growth_law, alpha, wave, sheet)
     period = leading_period(field, load, model.law, rtol)
-    found = speed_at(alpha, coefficients(field, period, model, start), period)
+    both, norm = coefficients(field, period, model, start), RigidNorm(sheet, field.mirrored)
     return replace(
-        found,
-        converged=found.error <= max(rtol * abs(found.mean), atol),
+        speed_at(alpha, both, period, field.mirrored),
+        converged=norm.meets(both.rigid_mean(alpha), both.rigid_error(alpha), rtol, atol),
         slip_ratio=law.slip_ratio(abs(alpha) * period.fastest / TINY_ALPHA),
-        rigid=None if field.mirrored else found.rigid,
         seconds=time.perf_counter() - start,
     )
 
 
-def speed_at(alpha: float, found: SecondOrder, period: Period) -> CrawlSpeed:
+def speed_at(alpha: float, found: SecondOrder, period: Period, mirrored: bool) -> CrawlSpeed:
     """What coefficients say at one alpha, without any judgement of it."""
     rigid = alpha * period.orders[0] + alpha**2 * period.orders[1]
+    mean, error = found.rigid_mean(alpha), found.rigid_error(alpha)
     return CrawlSpeed(
-        mean=alpha * found.first + alpha**2 * found.second,
-        error=abs(alpha) * found.first_error + alpha**2 * found.second_error,
+        mean=float(mean[1]),
+        error=float(error[1]),
         model_error=math.nan,
         converged=False,
         times=period.times,
@@ -265,7 +286,9 @@ def speed_at(alpha: float, found: SecondOrder, period: Period) -> CrawlSpeed:
         first_order=found.first,
         second_order=found.second,
         sticks=period.sticks,
-        rigid=rigid,
+        rigid=None if mirrored else rigid,
+        rigid_mean=None if mirrored else mean,
+        rigid_error=None if mirrored else error,
     )
 
 

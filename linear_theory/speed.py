@@ -35,10 +35,12 @@ class CrawlSpeed:
 
     mean: V averaged over one period; error: estimate of its numerical error, absolute;
     model_error: distance to the nonlinear sheet, absolute, NaN where it is not known;
-    converged: whether error met the tolerance that was asked for.
+    converged: whether error met the tolerance that was asked for; where rigid_error is given, that.
     times (T,), velocity (T,): V_y(t) over one period.
     rigid: (3, T), V_x, V_y and the rate of rotation Omega about the origin (anticlockwise) in the frame
     of the body (see `second_order`), for motions that are not mirror symmetric in x; None otherwise.
+    rigid_mean, rigid_error: (3,), their means and the estimates of their numerical errors, absolute;
+    V_y again has mean and error. None for mirror symmetric motions.
     first_order, second_order: V_1 and V_2 of V = V_1 alpha + V_2 alpha**2 + ..., within this model;
     NaN where they were not computed.
     slip_ratio: slip speed of the friction law over the largest speed relative to the ground: dry
@@ -47,6 +49,13 @@ class CrawlSpeed:
     sticks: whether at some time part of the sheet is at rest and a range of forces is balanced,
     so that V is the value that the regularised law selects.
     seconds: time spent, set-up and solution; model: what is assumed, in words.
+
+    >>> from linear_theory import Sheet, SineWave, crawl_speed
+    >>> speed = crawl_speed(Sheet(), SineWave(), alpha=0.25, rtol=1e-3)
+    >>> print(f"V = {speed.mean:.3f} L/T along the wave, converged {speed.converged}")
+    V = 0.106 L/T along the wave, converged True
+    >>> print(f"friction is {speed.regime}; {speed.model}")
+    friction is dry; small strain (AirySeries), current load, coulomb friction
     """
 
     mean: float
@@ -62,6 +71,8 @@ class CrawlSpeed:
     second_order: float = np.nan
     sticks: bool = False
     rigid: Array | None = None
+    rigid_mean: Array | None = None
+    rigid_error: Array | None = None
 
     @property
     def regime(self) -> Regime:

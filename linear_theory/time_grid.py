@@ -32,9 +32,21 @@ class TimeGrid(NamedTuple):
         share = self.lengths / self.lengths.sum()
         return float(share @ (_panels(values) @ _BOOLE)), float(self._errors(values).sum())
 
+    def means(self, values: Array) -> tuple[Array, Array]:
+        """Means of values (n, times), and their estimated errors, (n,) each."""
+        means, errors = zip(*map(self.mean, values), strict=True)
+        return np.array(means), np.array(errors)
+
+    def error(self, values: Array) -> float:
+        """Estimated error of the mean of values (n, times), of all n together."""
+        return float(self._joint_errors(values).sum())
+
     def refined(self, values: Array, tolerance: float) -> tuple["TimeGrid", NDArray[np.bool_]]:
-        """The grid with the worst panels cut in two, and which of its times are new."""
-        errors = self._errors(values)
+        """The grid with the worst panels cut in two, and which of its times are new.
+
+        values: (times,), or (n, times) for the error of all n together.
+        """
+        errors = self._joint_errors(np.atleast_2d(values))
         cut = errors > min(tolerance / errors.size, errors.max() / 2)
         panels = _panels(self.times)
         middles = (panels[:, 1:] + panels[:, :-1]) / 2
@@ -42,6 +54,10 @@ class TimeGrid(NamedTuple):
         new = np.arange(times.size) >= self.times.size
         order = np.argsort(times)
         return TimeGrid(times[order]), new[order]
+
+    def _joint_errors(self, values: Array) -> Array:
+        """Of values (n, times) that are components of a vector, (panels,)."""
+        return np.asarray(np.hypot.reduce([self._errors(component) for component in values]))
 
     def _errors(self, values: Array) -> Array:
         share = self.lengths / self.lengths.sum()

@@ -40,16 +40,27 @@ def theory(
 ) -> Path:
     """Path in linear theory."""
     speed = crawl_speed(sheet, FieldWave(growth, 1.0), alpha, rtol=rtol)
-    return rigid_path(speed, periods, samples=1, sheet=sheet)
+    return rigid_path(speed, periods, samples=1)
 
 
 def made_up(rigid: Callable[[Array], Array], panels: int = 6, period: float = 1.0) -> CrawlSpeed:
     """A speed with V_x, V_y, Omega (3, T) given as functions of time over the period."""
     times = np.linspace(0, period, 4 * panels + 1)
     values = rigid(times / period)
-    mean, _ = TimeGrid(times).mean(values[1])
+    means, errors = TimeGrid(times).means(values)
     return CrawlSpeed(
-        mean, 0.0, np.nan, True, times[:-1], values[1, :-1], 0.0, "made up", 0.0, rigid=values[:, :-1]
+        mean=float(means[1]),
+        error=float(errors[1]),
+        model_error=np.nan,
+        converged=True,
+        times=times[:-1],
+        velocity=values[1, :-1],
+        seconds=0.0,
+        model="made up",
+        slip_ratio=0.0,
+        rigid=values[:, :-1],
+        rigid_mean=means,
+        rigid_error=errors,
     )
 
 

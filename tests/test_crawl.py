@@ -243,6 +243,66 @@ def test_oblique_wave_turned_by_symmetry():
     assert left.rigid[0].mean() == pytest.approx(-right.rigid[0].mean(), abs=tolerance)
 
 
+def along(x_share):
+    """A sine along x or along y as a function of x, y, t: nothing is known of its symmetries."""
+    return FieldWave(lambda x, y, t: np.sin(2 * np.pi * (x_share * x + (1 - x_share) * y - t)), 1.0)
+
+
+def means_off(speed, exact):
+    """Distances of V_x, V_y, Omega; the errors of both together; the norm of errors over that of V."""
+    units = [1, 1, np.hypot(PAPER.length, PAPER.width) / np.sqrt(12)]
+    share = np.linalg.norm(units * speed.rigid_error) / np.linalg.norm(units * speed.rigid_mean)
+    off = abs(speed.rigid_mean - exact.rigid_mean)
+    return off, speed.rigid_error + exact.rigid_error, share
+
+
+@pytest.mark.parametrize("rtol", [1e-2, 1e-3])
+def test_a_square_crawls_along_x_as_along_y(rtol):
+    square = Sheet(width=1.0)
+    exact = crawl_speed(square, SINE, 0.1, rtol=3e-5)
+    for x_share in (0, 1):
+        speed = crawl_speed(square, along(x_share), 0.1, rtol=rtol)
+        forward, aside = speed.rigid_mean[[1 - x_share, x_share]]
+        error, error_aside = speed.rigid_error[[1 - x_share, x_share]]
+        assert speed.converged
+        assert error <= rtol * forward
+        assert abs(forward - exact.mean) <= error + exact.error
+        assert abs(forward - exact.mean) < 0.1 * rtol * forward  # what it does to be within rtol
+        assert abs(aside) <= error_aside
+        assert abs(speed.rigid_mean[2]) <= speed.rigid_error[2]
+        assert (speed.mean, speed.error) == (speed.rigid_mean[1], speed.rigid_error[1])
+
+
+@pytest.mark.parametrize("profile", [SINE, TravellingWave(np.array([0.5, 0.3]), np.zeros(2))])
+def test_errors_of_all_components_are_honest(profile):
+    wave = FieldWave(lambda x, y, t: (1 + x / PAPER.width) * profile.value(x, y, t), 1.0)
+    exact = crawl_speed(PAPER, wave, 0.1, rtol=2e-3)
+    for rtol in (3e-2, 1e-2):
+        speed = crawl_speed(PAPER, wave, 0.1, rtol=rtol)
+        off, errors, share = means_off(speed, exact)
+        assert np.all(off <= errors)
+        assert speed.converged
+        assert share <= rtol
+        assert abs(speed.rigid_mean[2]) > 10 * speed.rigid_error[2]  # it does turn
+
+
+def test_rotation_alone_is_resolved():
+    """Of a wave that runs up on the right and down on the left side nothing but turning is left."""
+    wave = FieldWave(lambda x, y, t: np.sin(2 * np.pi * (y - np.sign(x) * t)) * 16 * x**2, 1.0)
+    exact, speed = (crawl_speed(PAPER, wave, 0.1, rtol=r) for r in (2e-3, 1e-2))
+    off, errors, share = means_off(speed, exact)
+    assert np.all(off <= errors)
+    assert speed.converged
+    assert share <= 1e-2
+    assert np.all(abs(speed.rigid_mean[:2]) <= speed.rigid_error[:2])
+    assert speed.rigid_mean[2] > 50 * speed.rigid_error[2]
+
+
+def test_mirrored_motions_have_one_component():
+    speed = crawl_speed(PAPER, SINE, 0.1, rtol=1e-2)
+    assert speed.rigid is speed.rigid_mean is speed.rigid_error is None
+
+
 def test_standing_still_costs_nothing():
     speed = crawl_speed(PAPER, SINE, 0.0)
     assert speed.mean == 0
@@ -278,6 +338,16 @@ def test_a_tolerance_that_is_missed_is_flagged(monkeypatch):
     speed = crawl_speed(PAPER, SINE, 1e-3, rtol=1e-5)
     assert not speed.converged
     assert speed.error > 1e-5 * abs(speed.mean)
+
+
+def test_sideways_motion_at_few_times_is_flagged(monkeypatch):
+    square = Sheet(width=1.0)
+    exact = crawl_speed(square, SINE, 0.1, rtol=1e-4)
+    monkeypatch.setattr("linear_theory.period._MOST_TIMES", 8)
+    speed = crawl_speed(square, along(1), 0.1, rtol=1e-3)
+    off = abs(speed.rigid_mean[0] - exact.mean)
+    assert not speed.converged
+    assert 1e-3 * exact.mean < off <= speed.rigid_error[0] + exact.error
 
 
 @pytest.mark.parametrize(

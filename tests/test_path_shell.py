@@ -33,7 +33,7 @@ def scene(growth: Growth, *effects: object, alpha: float = 0.1, **options: objec
 def nonlinear(growth: Growth, slip: float | None, alpha: float = 0.1) -> Path:
     law = {} if slip is None else {"friction": "tanh", "slip_speed": slip}
     still = scene(growth, cells=(4, 8), element=skfem.ElementQuadBFS(), alpha=alpha)
-    return rigid_path(cycle_speed(still, rtol=3e-3, **law), sheet=PAPER)
+    return rigid_path(cycle_speed(still, rtol=3e-3, **law))
 
 
 def test_the_nonlinear_sheet_turns_more_sharply() -> None:

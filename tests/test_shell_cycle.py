@@ -134,6 +134,29 @@ def test_error_estimate_is_honest(scene: Scene, options: dict, tolerances: tuple
         assert speed.error <= 0.05 * abs(speed.mean)  # an estimate that says nothing is honest too
 
 
+@pytest.mark.parametrize("rtol", [1e-2, 5e-3])
+def test_a_square_crawls_along_x_as_along_y(rtol: float) -> None:
+    square = Sheet(width=1.0)
+    exact = cycle_speed(planar(0.1, SINE, square, cells=(8, 8)), rtol=1e-3)
+    right = FieldWave(lambda x, y, t: np.sin(2 * np.pi * (x - t)), 1)
+    speed = cycle_speed(planar(0.1, right, square, cells=(6, 6)), rtol=rtol)
+    assert speed.converged
+    off = abs(speed.rigid_mean - [exact.mean, 0, 0])
+    assert np.all(off <= speed.rigid_error + np.array([exact.error, 0, 0]))
+    assert speed.rigid_error[0] <= rtol * exact.mean
+    assert (speed.mean, speed.error) == (speed.rigid_mean[1], speed.rigid_error[1])
+
+
+def test_errors_of_sideways_motion_and_rotation_are_honest() -> None:
+    unequal = FieldWave(lambda x, y, t: (1 + 2 * x) * np.sin(2 * np.pi * (y + x / 2 - t)), 1)
+    exact = cycle_speed(planar(0.3, unequal, cells=(8, 16)), rtol=3e-3)
+    speed = cycle_speed(planar(0.3, unequal, cells=(4, 8)), rtol=1e-2)
+    off = abs(speed.rigid_mean - exact.rigid_mean)
+    assert np.all(off <= speed.rigid_error + exact.rigid_error)
+    assert np.all(abs(speed.rigid_mean) > 10 * speed.rigid_error)  # none is 0 by symmetry
+    assert speed.converged
+
+
 def test_elements_of_every_kind_agree() -> None:
     triangles = skfem.MeshTri.init_tensor(np.linspace(-0.25, 0.25, 3), np.linspace(-0.5, 0.5, 5))
     speeds = [
@@ -167,7 +190,7 @@ def test_symmetry_is_used_and_not_needed() -> None:
     """The same wave as a function of x, y, t: whole sheet, whole period, three unknowns."""
     general = cycle_speed(planar(0.2, FieldWave(SINE.value, 1)))
     special = cycle_speed(planar(0.2))
-    assert special.rigid is None
+    assert special.rigid is special.rigid_mean is special.rigid_error is None
     assert general.mean == pytest.approx(special.mean, abs=general.error + special.error)
     # sideways motion and rotation vanish by symmetry; 1e-3 alpha^2 is the tolerance
     assert np.abs(general.rigid[[0, 2]]).max() < 1e-3 * 0.2**2

@@ -17,6 +17,7 @@ from fem_check.shell.cycle.motion import CycleMotion, is_mirrored
 from fem_check.shell.cycle.shapes import Shapes
 from linear_theory.balance import Balance, RigidMotion
 from linear_theory.friction import FrictionLaw
+from linear_theory.rigid import RigidNorm
 from linear_theory.time_grid import TimeGrid, first_grid
 from linear_theory.waves import TravellingWave
 
@@ -40,14 +41,14 @@ class Period(NamedTuple):
     """Balanced motion through one period, V in length per time.
 
     grid: times of one quarter or half of the period; leading: (2, times, 3), V_x, V_y, Omega at the
-    times of the grid and half a period later; mean of V_y and its error, without that of the phases
-    and of the mesh; fastest: largest speed against the ground; sticks: see `CrawlSpeed`.
+    times of the grid and half a period later; mean, error (3,): of V_x, V_y, Omega, without the errors
+    of the phases and of the mesh; fastest: largest speed against the ground; sticks: see `CrawlSpeed`.
     """
 
     grid: TimeGrid
     leading: Array
-    mean: float
-    error: float
+    mean: Array
+    error: Array
     fastest: float
     sticks: bool
 
@@ -79,6 +80,11 @@ class CycleBalance:
         halvings = math.ceil(3.4 * digits)  # the last cell has the area 10^-digits of the first
         return cls(shapes, load, law, order, halvings, 0.02 * 10**-digits, is_mirrored(shapes))
 
+    @cached_property
+    def norm(self) -> RigidNorm:
+        """By which motions and their errors are judged."""
+        return RigidNorm(self.shapes.scene.sheet, self.mirrored)
+
     @property
     def reversal_time(self) -> float | None:
         """t_0 with V(t_0 - t) = V(t), where the wave and the sheet have that symmetry.
@@ -91,18 +97,20 @@ class CycleBalance:
         return wave.reversal_time if is_mirrored(self.shapes, axis=1) else None
 
     def average(self, rtol: float, atol: float) -> Period:
-        """Mean of V_y over a period at as many times as the tolerance needs."""
-        grid = self._first_grid()
+        """Mean motion over a period at as many times as the tolerance needs."""
+        grid, most = self._first_grid(), TIMES_PER_PHASE * len(self.shapes.states)
         found = self.balance(grid.times)
         while True:
             values = _paired(found.leading)
-            mean, time_error = grid.mean(values)
-            goal = TIME_SHARE * max(rtol * abs(mean), atol)
-            if time_error <= goal or grid.times.size > TIMES_PER_PHASE * len(self.shapes.states):
+            mean, time_error = grid.means(values)
+            goal = TIME_SHARE * self.norm.tolerance(mean, rtol, atol)
+            speeds = self.norm.speeds(values)
+            if grid.error(speeds) <= goal or grid.times.size > most:
                 break
-            grid, added = grid.refined(values, goal)
+            grid, added = grid.refined(speeds, goal)
             found = _joined(found, self.balance(grid.times[added]), added)
-        error = time_error + self._quadrature_error(grid, found.leading) + 1e-12 * found.fastest
+        roundoff = self.norm.each(1e-12 * found.fastest)
+        error = time_error + self._quadrature_error(grid, found.leading) + roundoff
         sticks = bool(found.rest.max() > STICKING)
         return Period(grid, found.leading, mean, error, found.fastest, sticks)
 
@@ -119,8 +127,8 @@ class CycleBalance:
             max(fastest),
         )
 
-    def change(self, grid: TimeGrid, leading: Array) -> float:
-        """Change of the mean by one Newton step from a motion found with other shapes or cells."""
+    def change(self, grid: TimeGrid, leading: Array) -> Array:
+        """Change of the mean motion (3,) by one Newton step from one with other shapes or cells."""
         times, start = self._with_partners(grid.times), leading.reshape(-1, 3)
         nothing = np.zeros((LOT, 3))
         steps = [
@@ -129,7 +137,11 @@ class CycleBalance:
             .leading
             for i in range(0, times.size, LOT)
         ]
-        return grid.mean(_paired(np.concatenate(steps).reshape(leading.shape)))[0]
+        return self.mean(grid, np.concatenate(steps).reshape(leading.shape))
+
+    def mean(self, grid: TimeGrid, leading: Array) -> Array:
+        """Mean V_x, V_y, Omega (3,) of motions (2, times, 3) at the times of the grid and later."""
+        return grid.means(_paired(leading))[0]
 
     def whole_period(self, period: Period) -> tuple[Array, Array]:
         """Times (T,) of one period in rising order from about 0 on, and V_x, V_y, Omega, (3, T)."""
@@ -148,13 +160,13 @@ class CycleBalance:
             return first_grid(0.0, length / 2, 4)
         return first_grid(reversal / 2, reversal / 2 + length / 4, 2)
 
-    def _quadrature_error(self, grid: TimeGrid, leading: Array) -> float:
-        """Largest change of the paired V at three times by one Newton step on finer cells."""
+    def _quadrature_error(self, grid: TimeGrid, leading: Array) -> Array:
+        """Largest change (3,) of the paired motion at three times by one Newton step on finer cells."""
         some = np.unique((np.array([0.07, 0.41, 0.77]) * grid.times.size).astype(int))
         finer = replace(self, order=self.order + 2, halvings=self.halvings + 6)
         start = leading[:, some].reshape(-1, 3)
         step = finer._balance(self._with_partners(grid.times[some])).correction(start, 0 * start)
-        return float(abs(_paired(step.leading.reshape(2, -1, 3))).max())
+        return np.asarray(abs(_paired(step.leading.reshape(2, -1, 3))).max(1))
 
     def _with_partners(self, times: Array) -> Array:
         """Times, then those half a period later."""
@@ -170,8 +182,8 @@ class CycleBalance:
 
 
 def _paired(leading: Array) -> Array:
-    """Mean of V_y at a time and half a period later, (times,)."""
-    return np.asarray(leading[:, :, 1].mean(0))
+    """Mean of V_x, V_y, Omega at a time and half a period later, (3, times)."""
+    return np.asarray(leading.mean(0).T)
 
 
 def _joined(found: RigidMotion, more: RigidMotion, added: NDArray[np.bool_]) -> RigidMotion:

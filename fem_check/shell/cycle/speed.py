@@ -51,7 +51,8 @@ def cycle_speed(
     or "ground" (reaction of the ground that the scene names); None means "ground" where the scene has
     a Ground and "current" otherwise. friction: "coulomb", "tanh" with its slip_speed (length/time), or
     "viscous"; a Friction among the scene's effects is not used. rtol, atol: the result is converged
-    where error <= max(rtol |mean|, atol), atol = 1e-3 rtol alpha^2 L/T unless given.
+    where error <= max(rtol |mean|, atol), atol = 1e-3 rtol alpha^2 L/T unless given; of a motion that
+    is not mirror symmetric the sizes of rigid_error and rigid_mean count (see `rigid.RigidNorm`).
 
     Phases and times are added until they meet the tolerance. The mesh is the scene's; its error is
     estimated from another mesh (`other_mesh`) and can leave a result unconverged.
@@ -61,6 +62,14 @@ def cycle_speed(
     Raises ValueError for bad input, ConvergenceError where a shape is not found, UnresolvedError where
     the shapes change too fast for the largest number of phases. Warns (ViscousRegimeWarning) where
     friction = "tanh" acts as viscous: see `CrawlSpeed.regime`.
+
+    >>> from fem_check import Material, Membrane, Scene, cycle_speed
+    >>> from linear_theory import Sheet, SineWave
+    >>> stretching = Membrane(Material(thickness=0.03, poisson=0.5))
+    >>> scene = Scene(Sheet(), SineWave(), alpha=0.25, effects=[stretching], cells=(2, 4))
+    >>> speed = cycle_speed(scene, load="current", rtol=1e-2)
+    >>> print(f"V = {speed.mean:.3f} L/T, converged {speed.converged}")
+    V = 0.091 L/T, converged True
     """
     found = Cycle(scene).speed(load, friction, slip_speed, rtol, atol)
     warn_if_viscous(found, slip_speed)
@@ -99,10 +108,10 @@ class Cycle:
         error = period.error + phase_error + self._mesh_error(balance, period)
         times, rigid = balance.whole_period(period)
         return CrawlSpeed(
-            mean=period.mean,
-            error=error,
+            mean=float(period.mean[1]),
+            error=float(error[1]),
             model_error=0.0 if _is_target(scene) else math.nan,
-            converged=error <= max(rtol * abs(period.mean), atol),
+            converged=balance.norm.meets(period.mean, error, rtol, atol),
             times=times,
             velocity=rigid[1],
             seconds=time.perf_counter() - start,
@@ -111,6 +120,8 @@ class Cycle:
             first_order=0.0 if _starts_at_second_order(scene) else math.nan,
             sticks=period.sticks,
             rigid=None if balance.mirrored else rigid,
+            rigid_mean=None if balance.mirrored else period.mean,
+            rigid_error=None if balance.mirrored else error,
         )
 
     @cached_property
@@ -119,13 +130,12 @@ class Cycle:
         mesh, gain = other_mesh(self.scene.discretisation().mesh)
         return KeptShapes(replace(self.scene, cells=None, mesh=mesh)), gain
 
-    def _mesh_error(self, balance: CycleBalance, period: Period) -> float:
-        """What the mesh does to the mean, from the speed on another mesh at the same times."""
+    def _mesh_error(self, balance: CycleBalance, period: Period) -> Array:
+        """What the mesh does to the mean motion, from the speed on another mesh at the same times."""
         kept, gain = self._compared
         shapes = kept.at(len(balance.shapes.states))
         other = replace(balance, shapes=shapes, mirrored=is_mirrored(shapes)).balance(period.grid.times)
-        mean, _ = period.grid.mean(other.leading[:, :, 1].mean(0))
-        return abs(mean - period.mean) / gain
+        return np.asarray(abs(balance.mean(period.grid, other.leading) - period.mean) / gain)
 
 
 class KeptShapes:
@@ -144,7 +154,7 @@ class KeptShapes:
 
 def _with_enough_phases(
     kept: KeptShapes, load: str, law: FrictionLaw, rtol: float, atol: float
-) -> tuple[CycleBalance, Period, float]:
+) -> tuple[CycleBalance, Period, Array]:
     """Double the phases until the interpolation between them takes its share of the tolerance."""
     count = FIRST_PHASES
     while True:
@@ -157,13 +167,14 @@ def _with_enough_phases(
             if last:
                 raise
         else:
-            if last or error <= PHASE_SHARE * max(rtol * abs(period.mean), atol):
+            goal = PHASE_SHARE * balance.norm.tolerance(period.mean, rtol, atol)
+            if last or balance.norm.size(error) <= goal:
                 return balance, period, error
         count *= 2
 
 
-def _phase_error(balance: CycleBalance, period: Period) -> float:
-    """What the interpolation between phases does to the mean.
+def _phase_error(balance: CycleBalance, period: Period) -> Array:
+    """What the interpolation between phases does to the mean motion, (3,).
 
     The change by leaving out every second phase, reduced by the ratio of the harmonics beyond the
     phases, for which twice the highest ones stand, to those that were left out.
@@ -171,7 +182,7 @@ def _phase_error(balance: CycleBalance, period: Period) -> float:
     change = abs(replace(balance, shapes=balance.shapes.thinned()).change(period.grid, period.leading))
     speeds = _speeds_of_harmonics(balance.shapes)
     lost, beyond = np.linalg.norm(speeds[speeds.size // 2 - 1 :]), 2 * speeds[-2:].max()
-    return float(change * min(1.0, beyond / lost)) if lost > 0 else 0.0
+    return np.asarray(change * (min(1.0, beyond / lost) if lost > 0 else 0.0))
 
 
 def _speeds_of_harmonics(shapes: Shapes) -> Array:

@@ -1,0 +1,54 @@
+"""How large a rigid motion is: sideways, along and turning, in one unit.
+
+A rotation Omega moves the points of the sheet with the root mean square Omega g, g the radius of
+gyration, g^2 = (W^2 + L^2)/12. With it a motion has the size
+
+    |V| = (V_x^2 + V_y^2 + (g Omega)^2)^(1/2),
+
+the root mean square of the velocities of all points. Tolerances are shares of that size: what V_y is
+next to V_x depends on how the axes lie, and where a wave runs along x it is 0.
+"""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from linear_theory.sheet import Sheet
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class RigidNorm:
+    """Size of the motions of a sheet; of mirror symmetric ones V_y alone counts."""
+
+    sheet: Sheet
+    mirrored: bool
+
+    @property
+    def radius(self) -> float:
+        """Radius of gyration."""
+        return math.hypot(self.sheet.width, self.sheet.length) / math.sqrt(12)
+
+    def speeds(self, motion: ArrayLike) -> Array:
+        """V_x, V_y, g Omega of a motion V_x, V_y, Omega (3, ...), or V_y alone, (1, ...)."""
+        v_x, v_y, omega = np.asarray(motion, float)
+        return np.stack([v_y] if self.mirrored else [v_x, v_y, self.radius * omega])
+
+    def size(self, motion: ArrayLike) -> float:
+        """|V| of one motion (3,)."""
+        return float(np.hypot.reduce(self.speeds(motion)))
+
+    def each(self, speed: float) -> Array:
+        """V_x, V_y and Omega that have that size each, (3,); 0 where symmetry makes them 0."""
+        return speed * np.array([0.0, 1.0, 0.0] if self.mirrored else [1.0, 1.0, 1 / self.radius])
+
+    def tolerance(self, mean: ArrayLike, rtol: float, atol: float) -> float:
+        """That of a mean motion (3,)."""
+        return max(rtol * self.size(mean), atol)
+
+    def meets(self, mean: ArrayLike, error: ArrayLike, rtol: float, atol: float) -> bool:
+        """Whether errors (3,) of a mean motion (3,) are within the tolerance."""
+        return self.size(error) <= self.tolerance(mean, rtol, atol)
