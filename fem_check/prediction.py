@@ -1,7 +1,6 @@
 """The answer to a tolerance: the cheapest level whose numerical and model error meet it together."""
 
 import math
-import sys
 import time
 import warnings
 from dataclasses import dataclass, replace
@@ -28,6 +27,12 @@ class Prediction:
     is unknown (never so for method = "auto"). level: a key of `levels.LEVELS`; reason: why this one and
     none of those before it, in words. converged: whether `error` meets the tolerance that was asked
     for. seconds: of all that was tried.
+
+    >>> from fem_check import predict
+    >>> from linear_theory import Sheet, SineWave
+    >>> found = predict(Sheet(), SineWave(), alpha=0.25, rtol=0.2)
+    >>> print(f"V = {found.mean:.2f} +- {found.error:.2f} L/T: {found.reason}")
+    V = 0.10 +- 0.01 L/T: strip is near enough
     """
 
     speed: CrawlSpeed
@@ -82,13 +87,17 @@ def predict(
     A tolerance that the last level misses shows in `converged`.
 
     Raises ValueError for bad input and what the level that is asked for raises. Warns as `crawl_speed`.
+
+    >>> from fem_check import predict
+    >>> from linear_theory import Sheet, SineWave
+    >>> found = predict(Sheet(), SineWave(), alpha=0.05, rtol=0.1)
+    >>> print(f"V = {found.mean:.4f} L/T by {found.level}, converged {found.converged}")
+    V = 0.0038 L/T by second order, converged True
     """
     start = time.perf_counter()
     question = Question(sheet, wave, alpha, growth_law, area, load, friction, slip_speed)
     rtol = validation.tolerance(rtol)
-    if atol is None:  # positive even without growth
-        atol = max(1e-3 * rtol * question.alpha**2 * question.unit, sys.float_info.min)
-    goal = Goal(rtol, validation.positive("atol", atol))
+    goal = Goal(rtol, validation.absolute_tolerance(atol, rtol, question.alpha, question.unit))
     if validation.choice("method", method, METHODS) == "auto":
         found = _cheapest(question, goal)
     else:

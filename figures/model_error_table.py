@@ -7,10 +7,9 @@ that are in the file already. Sine waves, every growth law, area measure and loa
 The nonlinear sheet is planar, its shapes static and not affected by friction. Rows of alpha = 0 hold
 the limits of V/alpha^2, for the nonlinear sheet V_2.
 
-Where no static shape is found the table holds nan, and larger alphas are not tried. Wide sheets then
-turn inside out at the middle of a side, where c = -1: the stretching energy (eq. 1a) does not resist
-strong compression. The alpha at which they do falls with the size of the elements, by an eighth from 8
-to 16 elements across for W = L.
+Where no stable static shape is found the table holds nan, and larger alphas are not tried: at the
+middle of the long sides of a wide sheet, where c = -1, the stretching energy (eq. 1a) does not resist
+the compression (see `fem_check.shell.statics.ellipticity`).
 """
 
 import argparse

@@ -5,9 +5,9 @@
 Colours and full lines: by how much V_2 alpha^2 differs from the speed V of the nonlinear sheet,
 relative to V. Dashed: the narrow strip at finite strain, exact in its width but for the width itself.
 Default model (growth law exp, energy per grown area, current load, dry friction, one sine wave), nu =
-1/2. Grey: no static shape of the sheet was found. The speeds are read from the table that `python -m
-figures.reach_table` writes, figures/data/reach_speeds.csv; between them splines, over alpha and over
-the logarithm of the width.
+1/2. Grey: no static shape, or none that is stable against short wrinkles of its edges. The speeds are
+read from the table that `python -m figures.reach_table` writes, figures/data/reach_speeds.csv; between
+them splines, over alpha and over the logarithm of the width.
 """
 
 from collections.abc import Sequence
@@ -89,7 +89,7 @@ def draw(found: Map, largest: float) -> Figure:
     axes.set_yticks(ticks, [f"{w:g}" for w in ticks])
     axes.set_yticks([], minor=True)
     axes.annotate(
-        "no static\nshape found",
+        "no stable\nshape",
         (0.98, 0.93),
         xycoords="axes fraction",
         ha="right",

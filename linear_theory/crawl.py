@@ -58,7 +58,8 @@ def crawl_speed(
     growth_law, area and load where it was measured (`model_error.model_error`), else NaN.
 
     Raises ValueError for bad input, among it an alpha so large that the area element
-    1 + alpha tr(strain) is not positive somewhere (order 1) or that lengths vanish (order 2).
+    1 + alpha tr(strain) is not positive somewhere (order 1) or that lengths vanish (order 2), and
+    NotConvergedError where the wave, one that jumps, asks more of the deformation than fits in memory.
     Warns (ViscousRegimeWarning) where friction = "tanh" acts as viscous: see `CrawlSpeed.regime`.
 
     >>> from linear_theory import Sheet, SineWave, crawl_speed
@@ -137,7 +138,7 @@ def _field_speed(
     validation.choice("load", load, LOADS)
     law = FrictionLaw(friction, slip_speed)
     unit = field.sheet.length / field.wave.period
-    atol = 1e-3 * rtol * alpha**2 * unit if atol is None else validation.positive("atol", atol)
+    atol = validation.absolute_tolerance(atol, rtol, alpha, unit)
     if alpha == 0:
         return _at_rest(field, load, law)
     crawl = Crawl(field, alpha, load, law, first_resolution(rtol))

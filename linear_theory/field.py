@@ -40,13 +40,15 @@ class LinearField(ABC):
     Points x, y (units of length, inside the sheet) and times t broadcast. Vectors have (x, y) and
     symmetric tensors (xx, yy, xy) on the first axis. The displacement has zero mean and zero mean
     rotation over the reference area. `seconds` is what setting up and solving took. `mirrored` tells
-    whether the motion is mirror symmetric in x.
+    whether the motion is mirror symmetric in x. `numbers` is how many are solved for anew at each time
+    that a motion asks for: none where one basis serves all times.
     """
 
     sheet: Sheet
     wave: Wave
     seconds: float
     mirrored: bool = False
+    numbers: int = 0
     _kept: tuple[object, tuple[Array, Array, Array, Array]] | None = None
 
     @property

@@ -7,6 +7,7 @@ cancels in the balance of a sheet that friction does not deform.
 import math
 import warnings
 from dataclasses import dataclass
+from decimal import ROUND_DOWN, Context
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,6 +22,9 @@ Array = NDArray[np.float64]
 
 LOADS = ("current", "grown", "material")
 LAWS = ("coulomb", "tanh", "viscous")
+
+FAR = 1e3
+"""Slip speeds from rest at which tanh is 1 to rounding, and its slope 0, by far."""
 
 
 @dataclass(frozen=True)
@@ -71,7 +75,7 @@ class FrictionLaw:
             return np.zeros_like(r)
         if self.name == "coulomb":
             return -(r**-3)
-        x = r / self.width
+        x = self._argument(r)
         sech2 = 1 - np.tanh(x) ** 2
         # x sech^2 x - tanh x, which is -2/3 x^3 for small x, where it would cancel
         series = x**3 * (-2 / 3 + x * x * (8 / 15 - x * x * 34 / 105))
@@ -83,13 +87,16 @@ class FrictionLaw:
             return np.zeros_like(before)
         if self.name == "coulomb":
             return -slope / (before * after)
-        s = self.width
-        t, t_after = np.tanh(before / s), np.tanh(after / s)
-        change = np.tanh(step * slope / s) / step * (1 - t * t_after)
+        t, t_after = np.tanh(self._argument(before)), np.tanh(self._argument(after))
+        change = np.tanh(self._argument(step * slope)) / step * (1 - t * t_after)
         return np.asarray((change * before - t * slope) / (before * after))
 
     def _force(self, r: Array) -> Array:
-        return np.ones_like(r) if self.name == "coulomb" else np.tanh(r / self.width)
+        return np.ones_like(r) if self.name == "coulomb" else np.tanh(self._argument(r))
+
+    def _argument(self, r: Array) -> Array:
+        """r/width, of "tanh", without overflow where that is 1 to rounding anyway."""
+        return np.asarray(np.clip(r, -FAR * self.width, FAR * self.width) / self.width)
 
 
 def warn_if_viscous(found: CrawlSpeed, slip_speed: float | None) -> None:
@@ -133,5 +140,10 @@ def check_load(motion: Motion, rate: Array, alpha: float) -> None:
     limit = -1 / everywhere.min() if alpha > 0 else -1 / everywhere.max()
     raise ValueError(
         f"alpha = {alpha:g}: the area element 1 + alpha tr(strain) would be {lowest.min():.3g} at "
-        f"x = {x:.3g}, y = {y:.3g}; must be {'<' if alpha > 0 else '>'} {limit:.4g}"
+        f"x = {x:.3g}, y = {y:.3g}; must be {'<' if alpha > 0 else '>'} {_towards_zero(limit)}"
     )
+
+
+def _towards_zero(limit: float, digits: int = 4) -> str:
+    """A limit in so many digits that never promise more than it allows."""
+    return f"{float(Context(prec=digits, rounding=ROUND_DOWN).create_decimal(limit)):g}"

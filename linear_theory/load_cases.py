@@ -106,8 +106,12 @@ class Snapshots:
 
     def growths(self, x: Array, y: Array) -> Array:
         """Growth of each case, (2 T, *broadcast(x, y).shape)."""
-        functions = (self.wave.value, self.wave.rate)
-        return np.stack([f(x, y, t, self.length) for f in functions for t in self.times])
+        rates = [self.wave.rate(x, y, t, self.length) for t in self.times]
+        return np.concatenate([self.values(x, y), np.stack(rates)])
+
+    def values(self, x: Array, y: Array) -> Array:
+        """c at each of the times, (T, *broadcast(x, y).shape); rates may cost much more."""
+        return np.stack([self.wave.value(x, y, t, self.length) for t in self.times])
 
     def samples(self) -> Array:
         """Amplitudes at the times, (2 T, T)."""

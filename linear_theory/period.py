@@ -20,6 +20,7 @@ from linear_theory.waves import TravellingWave
 Array = NDArray[np.float64]
 
 _MOST_TIMES = 4096
+_MOST_WORK = 8_000_000  # numbers at all times together (see `Crawl.work`), some tens of seconds
 _LOT = 10_000  # points balanced together, which halving makes ten times as many: they fit in the cache
 _PROBES = 11  # points per direction, and times per half period, at which a wave is seen to change sign
 _FAINT = 0.1  # harmonics below this share of the largest are left to the check of the quadrature
@@ -138,6 +139,15 @@ class Crawl:
         wave = self.field.wave
         return wave.reversal_time if isinstance(wave, TravellingWave) and self.field.mirrored else None
 
+    @cached_property
+    def work(self) -> int:
+        """Numbers per time: points to balance, and what is solved for to know the deformation."""
+        return int(self._motion(np.zeros(1)).area.size) + self.field.numbers
+
+    def affords(self, times: Array) -> bool:
+        """Whether these are few enough."""
+        return self.work * times.size <= _MOST_WORK
+
     @property
     def norm(self) -> RigidNorm:
         """By which motions and their errors are judged."""
@@ -201,7 +211,10 @@ class Known(NamedTuple):
 
 
 def average(crawl: Crawl, rtol: float, atol: float) -> Period:
-    """Rigid motion through a period at as many times and as finely as the tolerance needs."""
+    """Rigid motion through a period at as many times and as finely as the tolerance needs.
+
+    What would be too much work is left out, which shows in the error.
+    """
     grid = _first_grid(crawl)
     crawl, motion, (quadrature_error, quadrature_errors) = _with_fine_cells(
         crawl, grid.times, rtol, atol
@@ -210,9 +223,11 @@ def average(crawl: Crawl, rtol: float, atol: float) -> Period:
         mean, time_error = grid.means(crawl.counted(motion))
         speeds = crawl.norm.speeds(crawl.counted(motion))
         tolerance = 0.5 * crawl.norm.tolerance(mean, rtol, atol)
-        if grid.error(speeds) <= tolerance or grid.times.size > _MOST_TIMES:
+        finer, added = grid.refined(speeds, tolerance)
+        met = grid.error(speeds) <= tolerance
+        if met or grid.times.size > _MOST_TIMES or not crawl.affords(finer.times):
             break
-        grid, added = grid.refined(speeds, tolerance)
+        grid = finer
         known = Known(grid.times[~added], motion)
         motion = _joined(motion, crawl.balance(grid.times[added], known), added)
     field_error = crawl.norm.each(crawl.field_error(motion))
@@ -249,9 +264,10 @@ def _with_fine_cells(
         motion = crawl.balance(times, known)
         errors = crawl.quadrature_errors(times, motion)
         tolerance = 0.3 * crawl.norm.tolerance(crawl.counted(motion).mean(1), rtol, atol)
-        if last or crawl.norm.size(errors[0]) <= tolerance:
+        finer = replace(crawl, resolution=crawl.resolution.finer())
+        if last or crawl.norm.size(errors[0]) <= tolerance or not finer.affords(times):
             break
-        crawl, known = replace(crawl, resolution=crawl.resolution.finer()), Known(times, motion)
+        crawl, known = finer, Known(times, motion)
     return crawl, motion, errors
 
 

@@ -257,7 +257,7 @@ def second_order_speed(
     model = checked_model(growth_law, area, load, law.scaled(abs(alpha) or 1.0))
     field = second_order_field(sheet, wave, growth_law, area, field_tolerance(rtol))
     unit = sheet.length / wave.period
-    atol = 1e-3 * rtol * alpha**2 * unit if atol is None else validation.positive("atol", atol)
+    atol = validation.absolute_tolerance(atol, rtol, alpha, unit)
     check_growth(growth_law, alpha, wave, sheet)
     period = leading_period(field, load, model.law, rtol)
     both, norm = coefficients(field, period, model, start), RigidNorm(sheet, field.mirrored)

@@ -36,7 +36,7 @@ class Source:
     """P of a sheet under a wave, from the gradients of u_1.
 
     gradients: (cases, k, j, degree x + 1, degree y + 1), du_k/dx_j of the load cases in orthonormal
-    Legendre polynomials; square, weight: k and m.
+    Legendre polynomials; square, weight: k and m; finer: with half as many points again.
     """
 
     sheet: Sheet
@@ -44,6 +44,7 @@ class Source:
     gradients: Array
     square: float
     weight: float
+    finer: bool = False
 
     def moments(self, times: Array, amplitudes: Array) -> Array:
         """Integrals of P_kj p_i p_j over [-1, 1]^2 at times (T,), (T, 2, 2, degrees x, degrees y).
@@ -89,15 +90,16 @@ class Source:
         return np.asarray(resting - self.weight * growth * stress - turned)
 
     def _grid(self) -> "_GaussGrid":
-        return _GaussGrid(self.sheet, (self.gradients.shape[-2] - 1, self.gradients.shape[-1] - 1))
+        across, along = self.gradients.shape[-2:]
+        return _GaussGrid(self.sheet, (across - 1, along - 1), 1.5 if self.finer else 1.0)
 
 
 class _GaussGrid:
-    """Gauss points for products of three polynomials of these degrees (across, along)."""
+    """Gauss points for products of three polynomials of these degrees (across, along), times `more`."""
 
-    def __init__(self, sheet: Sheet, degree: tuple[int, int]) -> None:
+    def __init__(self, sheet: Sheet, degree: tuple[int, int], more: float) -> None:
         self.sheet = sheet
-        counts = [3 * d // 2 + 2 + EXTRA_POINTS for d in degree]
+        counts = [int(more * (3 * d // 2 + 2 + EXTRA_POINTS)) for d in degree]
         (self.x, self._weight_x), (self.y, self._weight_y) = (legendre.gauss(n) for n in counts)
         self._across, self._along = (
             legendre.orthonormal(d + 1, at) for d, at in zip(degree, (self.x, self.y), strict=True)

@@ -1,6 +1,8 @@
 """Input checks: every message names the argument, its value and the allowed range."""
 
+import math
 import operator
+import sys
 from collections.abc import Collection
 
 import numpy as np
@@ -72,6 +74,20 @@ def tolerance(value: object) -> float:
     if not SMALLEST_RTOL <= number < 1:
         raise ValueError(f"rtol = {number:g}: must be in [{SMALLEST_RTOL:g}, 1)")
     return number
+
+
+def absolute_tolerance(atol: object, rtol: float, alpha: float, unit: float) -> float:
+    """The absolute tolerance of a speed, > 0: the one given, or 1e-3 rtol alpha^2 L/T.
+
+    unit: L/T. Speeds are of the size alpha^2 L/T at least, so that an alpha for which that is no
+    number is refused here.
+    """
+    size = alpha * alpha * unit
+    if not math.isfinite(size):
+        raise ValueError(f"alpha = {alpha:g}: alpha^2 L/T must be finite")
+    if atol is not None:
+        return positive("atol", atol)
+    return max(1e-3 * rtol * size, sys.float_info.min)
 
 
 def choice(name: str, value: object, allowed: Collection[str]) -> str:

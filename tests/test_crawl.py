@@ -363,6 +363,8 @@ def test_sideways_motion_at_few_times_is_flagged(monkeypatch):
         ({"alpha": np.nan}, ["alpha", "nan"]),
         ({"alpha": 1j}, ["alpha", "1j"]),
         ({"alpha": np.array([0.1, 0.2])}, ["alpha", "single"]),
+        ({"alpha": 1.4e154, "load": "material"}, ["alpha = 1.4e+154", "finite"]),
+        ({"alpha": -1e200, "order": 2, "atol": 1.0}, ["alpha = -1e+200", "finite"]),
         ({"alpha": 0.9}, ["alpha = 0.9", "x =", "y =", "< 0.437"]),
         ({"alpha": -0.9}, ["alpha = -0.9", "> -0.437"]),
     ],

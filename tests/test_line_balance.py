@@ -118,6 +118,15 @@ def test_tanh_tends_to_dry_friction(name):
         assert abs(blunt.mean - dry) <= unit * width + blunt.error + line_balance(wave, 0.3).error
 
 
+@pytest.mark.parametrize("slip_speed", [5e-324, 1e-320, 1e-200])
+@pytest.mark.parametrize("name", ["skewed", "turning median"])
+def test_subnormal_slip_speeds_are_dry(name, slip_speed):
+    for wave in (WAVES[name], Anonymous(WAVES[name])):
+        dry = line_balance(wave, 0.3)
+        blunt = line_balance(wave, 0.3, friction="tanh", slip_speed=slip_speed)
+        assert abs(blunt.mean - dry.mean) <= blunt.error + dry.error
+
+
 def test_loads_current_and_grown_are_one_on_a_line():
     wave = WAVES["skewed"]
     assert line_balance(wave, 0.3, "grown").mean == line_balance(wave, 0.3, "current").mean
@@ -274,6 +283,7 @@ def test_missed_tolerance_is_said(monkeypatch):
 
 BAD = [
     (lambda: line_balance(SineWave(), 1.0), r"alpha = 1: alpha c = -1 at the phase 4\.712.* < 1"),
+    (lambda: line_balance(SineWave(), 1.4e154), r"alpha = 1\.4e\+154: alpha\^2 L/T must be finite"),
     (lambda: line_balance(SineWave(), -1.5), r"alpha = -1\.5.*> -1"),
     (lambda: line_balance(Anonymous(SineWave()), 1.5), r"alpha = 1\.5: .* at S = "),
     (lambda: line_balance(SineWave(), np.nan), "alpha contains nan"),

@@ -11,8 +11,10 @@ from fem_check.shell.material import Material
 from fem_check.shell.scene import Scene
 from linear_theory import FieldWave, Sheet, SineWave, TravellingWave, crawl_speed, second_order
 from linear_theory.friction import FrictionLaw
+from linear_theory.load_cases import mixed_norms
 from linear_theory.period import Resolution, changes_sign
-from linear_theory.second_field import second_order_field
+from linear_theory.ritz import ritz_field
+from linear_theory.second_field import SecondOrderField, second_order_field
 from linear_theory.second_order import TINY_ALPHA, _Coefficients
 
 SHEET, K = Sheet(width=0.5, poisson=0.3), 2 * np.pi
@@ -206,3 +208,26 @@ def test_slip_speed_of_coefficients_is_per_unit_alpha():
 def test_growth_by_which_lengths_vanish(alpha, law, bound):
     with pytest.raises(ValueError, match=bound):
         crawl_speed(SHEET, WAVES["unequal"], alpha, order=2, growth_law=law, rtol=1e-1)
+
+
+@pytest.mark.parametrize(
+    "shape",
+    [
+        lambda x, y, t: abs(np.sin(np.pi * (y + x - t))),
+        lambda x, y, t: np.sign(np.sin(2 * np.pi * (x + y - t))),
+    ],
+)
+def test_points_too_few_for_the_source_are_in_the_error_of_second_order(monkeypatch, shape):
+    """u_2 of the same polynomials, its source by many points."""
+    wave = FieldWave(shape, 1.0)
+    first = ritz_field(SHEET, wave, degree=(9, 21))
+    found = SecondOrderField(first)
+    monkeypatch.setattr("linear_theory.second_source.EXTRA_POINTS", 200)
+    fine = SecondOrderField(first)
+    rates = found._times.rates(found._times.phases)
+    size, missed = (
+        mixed_norms(p, rates) for p in (found._polynomials, found._polynomials - fine._polynomials)
+    )
+    true = float((missed / size).max())
+    assert 0.05 < true <= found.second_aliased <= 5 * true
+    assert found.second_aliased <= found.second_error

@@ -57,7 +57,7 @@ def line_balance(
     alpha, rtol = validation.real("alpha", alpha), validation.tolerance(rtol)
     growth = Growth.of(growth_law, load, body)
     law = FrictionLaw(friction, slip_speed)
-    atol = 1e-3 * rtol * alpha**2 / wave.period if atol is None else validation.positive("atol", atol)
+    atol = validation.absolute_tolerance(atol, rtol, alpha, 1 / wave.period)
     if isinstance(wave, TravellingWave):
         answer = travelling_balance(wave, alpha, law, growth)
     else:

@@ -27,6 +27,7 @@ from linear_theory.friction import FrictionLaw
 from linear_theory.line.growth import Growth
 from linear_theory.line.result import REST_PART, REST_SPEED, Balance
 from linear_theory.line.roots import EPS, bracketed_newton
+from linear_theory.line.tanh_level import NARROWEST
 
 Array = NDArray[np.float64]
 
@@ -210,13 +211,14 @@ def _viscous_coefficient(c: Array, rate: Array, growth: Growth) -> Array:
 
 def _tanh_speed(velocity: Array, weight: Array, slip_speed: float, guess: Array) -> Array:
     """V with int w tanh((V + v)/v0) = 0, v = `velocity` linear on each cell."""
+    fastest = abs(velocity).max(axis=1)
+    slip_speed = max(slip_speed, NARROWEST * float(fastest.max()))
 
     def balance(speed: Array) -> tuple[Array, Array]:
         x = (speed[:, None] + velocity) / slip_speed
         value, slope = _mean_tanh(x[:, :-1], x[:, 1:])
         return np.sum(weight * value, axis=1), np.sum(weight * slope, axis=1) / slip_speed
 
-    fastest = abs(velocity).max(axis=1)
     return bracketed_newton(balance, -fastest, fastest, guess, atol=EPS * float(fastest.max()))
 
 

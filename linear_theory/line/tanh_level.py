@@ -26,6 +26,10 @@ Array = NDArray[np.float64]
 SATURATED = 20.0
 """|tanh(x)| = 1 to rounding beyond this."""
 
+NARROWEST = 1e-290
+"""Least slip speed, relative to the range of speeds: by a smaller one, or a subnormal one, a division
+would overflow. It changes q by as much at most."""
+
 
 def tanh_level(body: Body, width: float, guess: float) -> Level:
     """q for a slip speed of `width`."""
@@ -36,7 +40,9 @@ def tanh_level(body: Body, width: float, guess: float) -> Level:
     def balance(level: Array, finer: float = 1.0) -> tuple[Array, Array]:
         return _balance(body, float(level), width, finer)
 
-    coarse = 0.0 if symmetric else 4 * EPS * (body.range[1] - body.range[0])
+    span = body.range[1] - body.range[0]
+    width = max(width, NARROWEST * span)
+    coarse = NARROWEST * span if symmetric else 4 * EPS * span
     level = float(bracketed_newton(balance, *body.range, guess, atol=coarse))
     miss, slope = balance(np.array(level), finer=0.5)
     noise = 0.0 if symmetric else 4 * EPS * _weight(body)

@@ -16,6 +16,7 @@ FASTEST = 0.4  # ratio of neighbours below which an extrapolation would trust to
 SAFETY = 3.5  # measured on 590 fields of 60 sheets and waves: estimate/error is 1.5 or more
 FLAT = 1e-6  # a sheet whose displacement is this small for a moment has no relative error then
 ROUNDOFF = 3e-14
+GAUSS_NOISE = 8e-15  # rounding of moments by Gauss points, of the largest, per degree; met: half of it
 
 
 def degrees(sheet: Sheet, order: int, corner: float) -> Pair:
@@ -47,12 +48,17 @@ def first_degrees(sheet: Sheet, order: int, rtol: float) -> Pair:
     return degrees(sheet, order, corner)
 
 
-def raised_degrees(degree: Pair, tails: tuple[float, float], rtol: float) -> Pair:
-    """Degrees for the next attempt where the tails (across, along) are above rtol."""
+def raised_degrees(degree: Pair, tails: tuple[float, float], aliased: float, rtol: float) -> Pair:
+    """Degrees for the next attempt where the tails (across, along) are above rtol.
+
+    aliased: their part that Gauss points too few for c make, which for fronts of growth falls like
+    1/degree only.
+    """
 
     def raised(degree: int, tail: float) -> int:
         excess = math.sqrt(2) * tail / rtol
-        return degree if excess <= 1 else odd(degree * min(max(1.1 * excess ** (1 / 6), 1.2), 2.0))
+        factor = max(1.1 * excess ** (1 / 6), 1.2, aliased / rtol)
+        return degree if excess <= 1 else odd(degree * min(factor, 2.0))
 
     return raised(degree[0], tails[0]), raised(degree[1], tails[1])
 
@@ -67,14 +73,12 @@ def relative_tails(
     """Estimated L2 norm of what higher degrees (across, along) would add, over that of u, (2, times).
 
     coefficients: of u, (cases, 2, degree x + 1, degree y + 1), orthonormal polynomials;
-    missed: likewise what the degrees leave out of the integral of c across and along the sheet, which
-    is what a wave that is not resolved does to u; amplitudes: (cases, times). As poisson nears -1,
-    shear is much stiffer than dilation and the energy a worse judge of the displacement.
+    missed: (cases, ...) each, what else is missed for want of degrees across and along the sheet: the
+    part of the integral of c that they leave out, which is what a wave that is not resolved does to u;
+    amplitudes: (cases, times). As poisson nears -1, shear is much stiffer than dilation and the energy
+    a worse judge of the displacement.
     """
     safety = SAFETY / math.sqrt(1 + poisson)
-    total = mixed_norms(coefficients, amplitudes)
-    floor = FLAT * total.max(initial=0.0)
-    total = np.maximum(total, floor if floor > 0 else 1.0)
     tails = []
     for axis in (0, 1):
         shells = np.moveaxis(coefficients, axis + 2, 1)
@@ -83,8 +87,28 @@ def relative_tails(
             mixed_norms(shells[:, -4:-2], amplitudes),
         )
         tail = _extrapolated(last, before, shells.shape[1] - 1, resolving[axis])
-        tails.append((safety * tail + mixed_norms(missed[axis], amplitudes)) / total)
-    return np.stack(tails)
+        tails.append(safety * tail + mixed_norms(missed[axis], amplitudes))
+    return np.stack(tails) / _size(coefficients, amplitudes)
+
+
+def beyond_rounding(finer: Array, moments: Array) -> Array:
+    """Change of moments (cases, ..., degrees x, degrees y) by more points; 0 where rounding does it."""
+    change = finer - moments
+    largest = abs(moments).max(axis=tuple(range(1, moments.ndim)), keepdims=True)
+    noise = GAUSS_NOISE * max(moments.shape[-2:])
+    return np.where(abs(change) > noise * largest, change, 0.0)
+
+
+def relative(part: Array, coefficients: Array, amplitudes: Array) -> Array:
+    """L2 norm of a part of u over that of u, (times,); both (cases, ...)."""
+    return np.asarray(mixed_norms(part, amplitudes) / _size(coefficients, amplitudes))
+
+
+def _size(coefficients: Array, amplitudes: Array) -> Array:
+    """L2 norm of u, (times,), positive."""
+    total = mixed_norms(coefficients, amplitudes)
+    floor = FLAT * total.max(initial=0.0)
+    return np.maximum(total, floor if floor > 0 else 1.0)
 
 
 def _extrapolated(last: Array, before: Array, degree: int, resolving: int) -> Array:

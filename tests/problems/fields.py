@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from fem_check.outline import Outline
 from fem_check.plane_stress import plane_stress_field
 from linear_theory import FieldWave, Sheet, SineWave, TravellingWave, airy_series, ritz_field
+from linear_theory.errors import NotConvergedError
 from linear_theory.field import LinearField, Wave
 from tests.problems.line import samples
 from tests.problems.problem import Outcome, Problem, case, family
@@ -113,13 +114,15 @@ def notched() -> Outcome:
     return Outcome(size + true, size, found.error * size, exact.error * size, error=true)
 
 
-def jumping() -> Outcome:
-    """Growth +-1 by finite elements, whose mesh the fronts cross anywhere."""
-    wave = FieldWave(lambda x, y, t: np.where(np.sin(2 * np.pi * (y - t)) > 0, 1.0, -1.0) + 0 * x, 1.0)
+FRONT = FieldWave(lambda x, y, t: np.where(np.sin(2 * np.pi * (y - t)) > 0, 1.0, -1.0) + 0 * x, 1.0)
+"""Growth +-1, a front of which runs along the sheet."""
+
+
+def jumping(solve: Callable[[], LinearField]) -> Outcome:
+    """FRONT by elements whose mesh it crosses anywhere, or by polynomials over all of the sheet."""
     # 101 harmonics: what follows makes 1e-4 of the displacement, which falls like 1/k^2
     series = TravellingWave(np.zeros(101), _square(101))
-    found = plane_stress_field(Sheet(), wave, size=0.125)
-    return compared(found, airy_series(Sheet(), series, 1e-4), 20)
+    return compared(solve(), airy_series(Sheet(), series, 1e-4), 20)
 
 
 def _square(harmonics: int) -> Array:
@@ -269,7 +272,24 @@ PROBLEMS: tuple[Problem, ...] = family(
         "rough",
         "a front of growth that no mesh line follows",
         "Airy series of 101 harmonics",
-        jumping,
+        lambda: jumping(lambda: plane_stress_field(Sheet(), FRONT, size=0.125)),
+    ),
+    case(
+        "field: growth that jumps by Ritz",
+        "rough",
+        "Gauss points see a front within their distance only, and polynomials ring",
+        "Airy series of 101 harmonics",
+        lambda: jumping(lambda: ritz_field(Sheet(), FRONT, rtol=0.1)),
+    ),
+    case(
+        "field: growth that jumps by Ritz, rtol = 0.01",
+        "rough",
+        "the same, with a tolerance that would take thousands of degrees",
+        "degrees that fit in memory",
+        lambda: jumping(lambda: ritz_field(Sheet(), FRONT, rtol=1e-2)),
+        expected="refused",
+        limit=r"rtol = 0\.01: would need degrees",
+        raises=NotConvergedError,
     ),
     case(
         "field: narrow pulse",
