@@ -125,7 +125,7 @@ class Scene:
         return np.asarray(self.wave.value(x, y, t, self.sheet.length))
 
     def rest(self, t: float, amplitude: float = 1.0, region: Region | None = None) -> RestState:
-        """Rest state at time t of growth `amplitude` times the wave, at the interior points or others."""
+        """Rest state at time t of `amplitude` times the wave, at interior points unless given."""
         region = self.discretisation().interior if region is None else region
         x, y = region.parameters.reshape(2, -1)
         return grown_state(

@@ -15,9 +15,11 @@ from fem_check.shell.discretisation import Discretisation
 from fem_check.shell.effects.effect import Effect
 from fem_check.shell.effects.gravity import Gravity
 from fem_check.shell.effects.ground import Ground
+from fem_check.shell.effects.koiter import Membrane
 from fem_check.shell.potential import Potential
 from fem_check.shell.scene import Scene
-from fem_check.shell.statics.equilibrium import ConvergenceError, Equilibrium
+from fem_check.shell.statics.ellipticity import Ellipticity
+from fem_check.shell.statics.equilibrium import ConvergenceError, Equilibrium, UnstableError
 from fem_check.shell.statics.newton import Minimiser
 from fem_check.shell.statics.ramp import follow_mode, ramp
 from fem_check.shell.supports import Supports
@@ -50,7 +52,8 @@ class Shapes:
     """Static shapes of a scene at equidistant phases t = 0, T/N, ... of one period T.
 
     states: (N, size), displacement unknowns of `discretisation`; iterations: of Newton's method, all
-    together; buckled: phases (of N) at which a buckled state was met and left; seconds: time spent.
+    together; buckled: phases (of N) at which a buckled state was met and left; seconds: time spent;
+    reserve: least one of stability against short waves, see `ellipticity.Reserve`, inf in space.
     """
 
     scene: Scene
@@ -59,6 +62,7 @@ class Shapes:
     iterations: int
     buckled: int
     seconds: float
+    reserve: float = np.inf
 
     @property
     def times(self) -> Array:
@@ -114,7 +118,8 @@ def cycle_of_shapes(scene: Scene, count: int = 16, known: Shapes | None = None) 
     starts of the new ones. Friction and inertia do not act on a static shape and are left out.
 
     Raises ValueError for an odd count, ConvergenceError (with its last state) where a shape is not
-    found, NotPeriodicError where shapes of a sheet that buckles do not repeat.
+    found, NotPeriodicError where shapes of a sheet that buckles do not repeat, UnstableError where a
+    planar sheet is compressed so much that finer meshes would not have its shape, see `ellipticity`.
     """
     if validation.integer("count", count, 4) % 2:
         raise ValueError(f"count = {count}: must be even")
@@ -136,8 +141,7 @@ def _between(solver: "_Solver", count: int, known: Shapes) -> Shapes:
     times = phases(solver.scene.period, count)[1::2]
     for i, (t, guess) in enumerate(zip(times, known.at(times), strict=True)):
         states[2 * i + 1] = solver.shape(t, guess, states[2 * i]).state
-    iterations, buckled = solver.iterations + known.iterations, solver.buckled + known.buckled
-    return Shapes(solver.scene, solver.discretisation, states, iterations, buckled, 0.0)
+    return solver.shapes(states, known)
 
 
 def _closed(solver: "_Solver", count: int) -> Shapes:
@@ -165,7 +169,9 @@ class _Solver:
         motions = "xyz" if scene.find(Ground) is None else "xy"
         supports = Supports(self.discretisation).anchor(motions=motions)
         self.minimiser = Minimiser(supports, TOLERANCE, check_stability=self.may_buckle)
+        self.ellipticity = None if self.may_buckle else _ellipticity(scene)
         self.iterations = self.buckled = 0
+        self.reserve = np.inf
 
     def first(self) -> Array:
         """The shape at t = 0, growth ramped up from the undeformed sheet at its static depth."""
@@ -175,16 +181,24 @@ class _Solver:
 
         push = PUSH * self.scene.sheet.length if self.may_buckle else 0.0
         start = static_depth(self.scene)
-        return self._count(ramp(self.minimiser, problem, start, follow=push)).state
+        return self._count(
+            ramp(self.minimiser, problem, start, follow=push, report=self._require_at_start)
+        ).state
 
     def period(self, count: int, state: Array) -> Shapes:
         """Shapes at `count` phases from the first one on."""
         states = [state]
         for t in phases(self.scene.period, count)[1:]:
             states.append(self.shape(float(t), extrapolated(states[-EXTRAPOLATED:]), states[-1]).state)
-        return Shapes(
-            self.scene, self.discretisation, np.array(states), self.iterations, self.buckled, 0.0
-        )
+        return self.shapes(np.array(states))
+
+    def shapes(self, states: Array, known: Shapes | None = None) -> Shapes:
+        """The states with what they took, and what the known ones among them took."""
+        iterations, buckled, reserve = self.iterations, self.buckled, self.reserve
+        if known is not None:
+            iterations, buckled = iterations + known.iterations, buckled + known.buckled
+            reserve = min(reserve, known.reserve)
+        return Shapes(self.scene, self.discretisation, states, iterations, buckled, 0.0, reserve)
 
     def shape(self, t: float, guess: Array, before: Array) -> Equilibrium:
         """The shape at time t next to a guess, or to the one before where the guess does not serve."""
@@ -194,6 +208,7 @@ class _Solver:
         except ConvergenceError as error:
             text = f"t = {t:g}: no shape next to the one before, as where a sheet snaps over: {error}"
             raise ConvergenceError(text, error.state, t) from error
+        self._require_stable(result.state, t)
         return self._count(result)
 
     def _next(self, potential: Potential, guess: Array, before: Array) -> Equilibrium:
@@ -209,9 +224,29 @@ class _Solver:
         self.buckled += 1
         return follow_mode(self.minimiser, potential, result, PUSH * self.scene.sheet.length)
 
+    def _require_at_start(self, share: float, result: Equilibrium) -> None:
+        self._require_stable(result.state, 0.0, share)
+
+    def _require_stable(self, state: Array, t: float, share: float = 1.0) -> None:
+        """Raise UnstableError where a planar shape at time t is beyond the stability of its energy."""
+        if self.ellipticity is None:
+            return
+        reserve = self.ellipticity.reserve(state, lambda r: self.scene.rest(t, share, r))
+        self.reserve = min(self.reserve, reserve.value)
+        if reserve.value > 0:
+            return
+        x, y = reserve.place
+        where = f"x = {x:.3g}, y = {y:.3g}, t = {t:.3g}" + f", {share:.3g} of the growth" * (share < 1)
+        text = f"the sheet is compressed beyond the stability of its energy at {where}: {reserve.words}"
+        raise UnstableError(text, state, t)
+
     def _count(self, result: Equilibrium) -> Equilibrium:
         self.iterations += result.iterations
         return result
+
+
+def _ellipticity(scene: Scene) -> Ellipticity:
+    return Ellipticity(scene.discretisation(), scene.find(Membrane).material.poisson)
 
 
 def static_effects(scene: Scene) -> tuple[Effect, ...]:

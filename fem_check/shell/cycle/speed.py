@@ -55,13 +55,17 @@ def cycle_speed(
     is not mirror symmetric the sizes of rigid_error and rigid_mean count (see `rigid.RigidNorm`).
 
     Phases and times are added until they meet the tolerance. The mesh is the scene's; its error is
-    estimated from another mesh (`other_mesh`) and can leave a result unconverged.
+    estimated from another mesh (`other_mesh`) and can leave a result unconverged. So can growth so
+    strong that finer meshes would not have the shape (UnstableError where this mesh has not either),
+    and so small that alpha^2 drowns in roundoff, 1e-15 L/T (alpha < 3e-7 at rtol = 1e-2): the way to
+    such speeds is `linear_theory.crawl_speed` with order = 2.
     model_error is 0 for a scene that only stretches in the plane, which is the target: the nonlinear
     sheet of the stated growth law, area measure and load; NaN for other scenes.
 
-    Raises ValueError for bad input, ConvergenceError where a shape is not found, UnresolvedError where
-    the shapes change too fast for the largest number of phases. Warns (ViscousRegimeWarning) where
-    friction = "tanh" acts as viscous: see `CrawlSpeed.regime`.
+    Raises ValueError for bad input, ConvergenceError where a shape is not found or not stable (see
+    `cycle_of_shapes`), UnresolvedError where the shapes change too fast for the largest number of
+    phases. Warns (ViscousRegimeWarning) where friction = "tanh" acts as viscous: see
+    `CrawlSpeed.regime`.
 
     >>> from fem_check import Material, Membrane, Scene, cycle_speed
     >>> from linear_theory import Sheet, SineWave
@@ -99,9 +103,7 @@ class Cycle:
         rtol, law = validation.tolerance(rtol), FrictionLaw(friction, slip_speed)
         load = checked_load(scene, load)
         unit = scene.sheet.length / scene.period
-        atol = (
-            1e-3 * rtol * scene.alpha**2 * unit if atol is None else validation.positive("atol", atol)
-        )
+        atol = validation.absolute_tolerance(atol, rtol, scene.alpha, unit)
         if scene.alpha == 0 and (scene.planar or scene.curvature_coupling == 0):
             return _at_rest(scene, load, law)
         balance, period, phase_error = _with_enough_phases(self._shapes, load, law, rtol, atol)
@@ -111,7 +113,7 @@ class Cycle:
             mean=float(period.mean[1]),
             error=float(error[1]),
             model_error=0.0 if _is_target(scene) else math.nan,
-            converged=balance.norm.meets(period.mean, error, rtol, atol),
+            converged=self._stable(balance) and balance.norm.meets(period.mean, error, rtol, atol),
             times=times,
             velocity=rigid[1],
             seconds=time.perf_counter() - start,
@@ -137,6 +139,13 @@ class Cycle:
         other = replace(balance, shapes=shapes, mirrored=is_mirrored(shapes)).balance(period.grid.times)
         return np.asarray(abs(balance.mean(period.grid, other.leading) - period.mean) / gain)
 
+    def _stable(self, balance: CycleBalance) -> bool:
+        """Whether finer meshes would have these shapes, from the reserve of stability on two meshes."""
+        kept, gain = self._compared
+        own = balance.shapes.reserve
+        change = kept.at(len(balance.shapes.states)).reserve - own
+        return math.isinf(own) or own > abs(change) / gain
+
 
 class KeptShapes:
     """Shapes of a scene at FIRST_PHASES, or that times a power of two, each found once."""
@@ -155,7 +164,10 @@ class KeptShapes:
 def _with_enough_phases(
     kept: KeptShapes, load: str, law: FrictionLaw, rtol: float, atol: float
 ) -> tuple[CycleBalance, Period, Array]:
-    """Double the phases until the interpolation between them takes its share of the tolerance."""
+    """Double the phases until the interpolation between them takes its share of the tolerance.
+
+    Or until it is below the noise of the shapes, which more phases do not reduce.
+    """
     count = FIRST_PHASES
     while True:
         last = count >= MOST_PHASES
@@ -167,7 +179,7 @@ def _with_enough_phases(
             if last:
                 raise
         else:
-            goal = PHASE_SHARE * balance.norm.tolerance(period.mean, rtol, atol)
+            goal = max(PHASE_SHARE * balance.norm.tolerance(period.mean, rtol, atol), balance.noise)
             if last or balance.norm.size(error) <= goal:
                 return balance, period, error
         count *= 2

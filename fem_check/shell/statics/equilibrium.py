@@ -16,6 +16,10 @@ class ConvergenceError(RuntimeError):
         self.state, self.parameter = state, parameter
 
 
+class UnstableError(ConvergenceError):
+    """A minimum for its mesh alone: waves too short for that mesh would lower the energy."""
+
+
 @dataclass(frozen=True, eq=False)
 class Equilibrium:
     """A state in which the free unknowns carry no force.

@@ -26,6 +26,10 @@ SUFFICIENT_DECREASE = 1e-4
 ROUNDOFF = 1e-12
 """Relative error of an energy: smaller decreases cannot be seen in it."""
 
+UNSEEN = 1e-6
+"""Relative error of the energy of strains of 1e-10, which are differences of lengths of order 1. Where
+a step promises less, the energy may deceive, and one that halves the forces counts as downhill too."""
+
 CONTRACTION = 0.2
 """A kept factor serves as long as each correction is at most this share of the one before."""
 
@@ -175,11 +179,19 @@ class _Search:
             return False
         energy, gradient = self.potential.energy_and_gradient(trial)
         allowed = self.energy + SUFFICIENT_DECREASE * slope + ROUNDOFF * abs(self.energy)
-        if not energy <= allowed and -slope > ROUNDOFF * max(abs(self.energy), abs(energy)):
+        unseen = -slope <= ROUNDOFF * max(abs(self.energy), abs(energy))
+        force = gradient[self.minimiser.sparsity.order]
+        if not energy <= allowed and not unseen and not self._relaxed(force, slope):
             return False
         self.state, self.energy, self.directors = trial, energy, directors
-        self.gradient = gradient[self.minimiser.sparsity.order]
+        self.gradient = force
         return True
+
+    def _relaxed(self, force: Array, slope: float) -> bool:
+        """Whether a step at the bottom of the energy halves the forces."""
+        assert self.current is not None
+        flat = self.current.shift == 0 and -slope <= UNSEEN * abs(self.energy)
+        return bool(flat and 4 * (force @ force) <= self.gradient @ self.gradient)
 
     @property
     def shifted(self) -> bool:
