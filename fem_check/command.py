@@ -16,6 +16,8 @@ from typing import Any, NoReturn
 import numpy as np
 
 from fem_check.prediction import METHODS, Prediction, predict
+from fem_check.shell.cycle.motion import UnresolvedError
+from fem_check.shell.statics.equilibrium import ConvergenceError
 from linear_theory.errors import NotConvergedError
 from linear_theory.friction import LAWS, LOADS
 from linear_theory.second_field import AREAS, GROWTH_LAWS
@@ -39,8 +41,8 @@ def main(arguments: Sequence[str] | None = None) -> NoReturn:
         found = answer(options)
     except ValueError as problem:
         parser().error(str(problem))
-    except (NotConvergedError, ArithmeticError) as problem:
-        sys.exit(f"sheetcrawl: {problem}")
+    except (NotConvergedError, ConvergenceError, UnresolvedError) as problem:
+        sys.exit(f"sheetcrawl: {problem}")  # status 1
     print(json.dumps(record(found), indent=1) if options.json else words(found))
     sys.exit(MET if found.converged else MISSED)
 

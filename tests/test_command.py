@@ -102,6 +102,13 @@ def test_bad_arguments_get_one_line_and_status_2(capsys, arguments, named):
     assert named in err
 
 
+def test_a_sheet_without_a_stable_shape_is_no_traceback(capsys):
+    status, out, _ = run(capsys, "--alpha", "0.5", "--rtol", "1e-3")
+    assert out == ""
+    assert status.startswith("sheetcrawl: ")  # as `sys.exit` takes it: printed, and status 1
+    assert "stability" in status
+
+
 def test_runs_as_a_program():
     done = subprocess.run(
         [sys.executable, "-m", "fem_check", "--alpha", "0", "--json"], capture_output=True, text=True
