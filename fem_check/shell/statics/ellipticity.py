@@ -12,8 +12,8 @@ G = (1 - nu)/2, that is
     sqrt(q_11 q_22) + sqrt(q_12 q_21) > (nu + G) l_1 l_2
 
 On a free edge, wrinkles that decay into the sheet must cost energy (Agmon; M. A. Biot, Appl. Sci. Res.
-A 12:168, 1963, for rubber): the surface impedance of Y. B. Fu and A. Mielke, SIAM J. Appl. Math.
-62:1907, 2002, must be positive definite. No force acts across the edge, so that the stretch l along it
+A 12:168, 1963, for rubber): the surface impedance (A. Mielke and Y. B. Fu, Math. Mech. Solids 9, 2004)
+must be positive definite. No force acts across the edge, so that the stretch l along it
 gives the one across, m^2 = 1 - nu (l^2 - 1), and its determinant is positive as long as
 
     m (3 l^2 - 1) > (1 - l^2) sqrt(l^2 - (1 - nu^2) (1 - l^2)/2)
