@@ -66,7 +66,7 @@ PATIENCE = 0.2
 """Seconds for the repeats of one measurement."""
 
 PERIOD_ALPHA, PERIOD_COUPLING, PERIOD_SLIP = 0.02, 2.0, 0.0035
-"""A bilayer (beta = 100 alpha) that bends without snapping over, and a slip speed at which it is dry."""
+"""A bilayer (beta = 100 alpha) that bends without snapping over, and a slip speed that makes it dry."""
 
 PERIODS: tuple[tuple[tuple[int, int], int | None], ...] = (
     ((3, 6), 64),
