@@ -1,5 +1,6 @@
 """A scene stepped through time: growth ramped up from rest, then whole periods of its wave."""
 
+import os
 import sys
 import time
 from collections.abc import Callable
@@ -23,10 +24,6 @@ Array = NDArray[np.float64]
 MESH_MARGIN = 2
 """The mesh's error is this multiple of the difference to a mesh 1.5 times coarser. The elastic part is
 far below it; in dry friction it is the quadrature of a force that jumps, which falls unevenly."""
-
-
-class RunInterrupted(KeyboardInterrupt):
-    """A simulation that was stopped by Ctrl-C: what is kept of it, and how it goes on."""
 
 
 def simulate(
@@ -59,7 +56,7 @@ def simulate(
     snapshot that is damaged or of another scene or run, for a place where none can be written, and for
     a wave or ground whose function can be known again neither by its content nor by a name;
     ConvergenceError (with the last state and its time as `parameter`) where steps become too small;
-    RunInterrupted, a KeyboardInterrupt, after Ctrl-C, saying what is kept. Warns (ViscousRegimeWarning)
+    KeyboardInterrupt after Ctrl-C, with a line that says what is kept. Warns (ViscousRegimeWarning)
     where Friction, regularised dry friction, acts as viscous: see `CrawlSpeed.regime`.
 
     >>> from fem_check import Friction, Gravity, Material, Membrane, Scene, simulate
@@ -82,8 +79,9 @@ def simulate(
         run.finish(target, (_printed if progress is True else progress) or None)
         difference = _mesh_error(run) if mesh_error else np.nan
     except KeyboardInterrupt:
-        # from None: where in a step it struck tells the user nothing.
-        raise RunInterrupted(_interrupted(run, target)) from None
+        # Not a class of its own, for which Python would not end as a process ends that was interrupted;
+        # from None, since where in a step it struck tells the user nothing.
+        raise KeyboardInterrupt(_interrupted(run, target)) from None
     found = replace(
         run.trajectory(),
         seconds=time.perf_counter() - begin,
@@ -98,7 +96,7 @@ def simulate(
 def _target(path: Path, scene: Scene, settings: Settings, every: int) -> Target:
     """Where the snapshots of a run go; refused before the work where there can be none."""
     check_path(path)
-    if not path.exists():
+    if not os.path.exists(path):
         check_writable(path)
     return Target(path, run_fingerprint(path, scene, settings), every)
 

@@ -37,14 +37,14 @@ _PHASES = (0.0, 0.1234, 0.5678)
 
 
 class SnapshotError(ValueError):
-    """A snapshot that cannot be made, or gone on from: truncated, altered, of another version or run."""
+    """A snapshot that cannot be written, or not be gone on from: damaged, altered or of another run."""
 
 
 def check_path(path: Path) -> None:
     """Raise SnapshotError if there can be no snapshot at a path."""
-    if path.is_dir():
+    if os.path.isdir(path):  # not path.is_dir(), which fails for names that are too long
         raise SnapshotError(f"snapshot = {path}: must be a file, is a folder")
-    if not path.parent.is_dir():
+    if not os.path.isdir(path.parent):
         raise SnapshotError(f"snapshot = {path}: must be in a folder that exists; make {path.parent}")
 
 

@@ -140,7 +140,8 @@ class Trajectory:
         The largest over the sheet, of a cubic through kept states against the motion by all steps; the
         error of the steps themselves is that of `errors`. Raises ValueError outside of the kept times.
         """
-        return interpolation_error(self.times, self.probes, self.stored_times, self._within(t))
+        t = self._within(t)
+        return interpolation_error(self.times, self.probes, self.buckled, self.stored_times, t)
 
     def shape(self, t: float, rtol: float | None = SEEN) -> Array:
         """Unknowns (size,) at time t: those of a kept state, or by a cubic through the four nearest.
@@ -163,8 +164,8 @@ class Trajectory:
         if error > rtol * motion + ROUNDOFF * size:
             raise ValueError(
                 f"t = {t:g}: lies between kept states; there positions are known to {error:.2g}, more "
-                f"than rtol = {rtol:g} of the motion, {motion:.2g}. Take one of stored_times or a larger "
-                "rtol, or simulate with a smaller keep_every or smaller steps"
+                f"than rtol = {rtol:g} of the motion, {motion:.2g}. Take one of stored_times, or a "
+                "larger rtol, or simulate with a smaller keep_every or smaller steps"
             )
 
     def _within(self, t: float) -> float:
