@@ -29,3 +29,7 @@ class ViscousRegimeWarning(UserWarning):
     >>> print(f"{seen[0].category.__name__}: friction is {speed.regime}, V = {speed.mean:.4f} L/T")
     ViscousRegimeWarning: friction is viscous, V = 0.0317 L/T
     """
+
+
+class Unidentifiable(ValueError):
+    """A value without a content that could be known again, in another process or at another time."""

@@ -24,10 +24,13 @@ class FieldWave:
 
     value: takes arrays x, y (units of length) and t that broadcast, returns c, dimensionless, of
     their common shape (or one that broadcasts to it); period in units of time, c must repeat after
-    it. rate: dc/dt likewise; left out, it is a central difference of eighth order (see STEP).
+    it. rate: dc/dt likewise; left out, it is a central difference of eighth order (see STEP). name:
+    what the functions are known by where a wave is to be known again, as in a snapshot of a run, and
+    their code does not tell (see `identity.content_key`); another function must have another name.
 
     Raises ValueError for a period that is not finite and positive, a value or rate that cannot be
-    called, and, once they are called, for results that are not finite, real and of that shape.
+    called, a name that is no text, and, once they are called, for results that are not finite, real and
+    of that shape.
 
     >>> import numpy as np
     >>> from linear_theory import FieldWave
@@ -36,10 +39,18 @@ class FieldWave:
     [-6.283185  6.283185]
     """
 
-    def __init__(self, value: Growth, period: float, rate: Growth | None = None) -> None:
+    def __init__(
+        self, value: Growth, period: float, rate: Growth | None = None, *, name: str | None = None
+    ) -> None:
         self._value = _function("value", value)
         self._rate = None if rate is None else _function("rate", rate)
         self._period = validation.positive("period", period)
+        self.name = None if name is None else validation.label("name", name)
+
+    def identified_by(self) -> object:
+        """What its content key is made of."""
+        functions = (self._value, self._rate) if self.name is None else self.name
+        return functions, self.period
 
     @property
     def period(self) -> float:

@@ -95,3 +95,10 @@ def choice(name: str, value: object, allowed: Collection[str]) -> str:
     if not isinstance(value, str) or value not in allowed:
         raise ValueError(f"{name} = {value!r}: must be one of {', '.join(map(repr, allowed))}")
     return value
+
+
+def label(name: str, value: object) -> str:
+    """Text by which something is known; not empty."""
+    if not isinstance(value, str) or not value:
+        raise ValueError(f"{name} = {value!r}: must be text, not empty")
+    return value
