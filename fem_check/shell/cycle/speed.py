@@ -19,6 +19,7 @@ from fem_check.shell.cycle.balance import CycleBalance, Period
 from fem_check.shell.cycle.motion import UnresolvedError, checked_load, is_mirrored
 from fem_check.shell.cycle.shapes import Shapes, cycle_of_shapes, static_effects
 from fem_check.shell.effects.koiter import Membrane
+from fem_check.shell.places import distinct
 from fem_check.shell.scene import Scene
 from linear_theory import validation
 from linear_theory.friction import FrictionLaw, warn_if_viscous
@@ -199,8 +200,8 @@ def _phase_error(balance: CycleBalance, period: Period) -> Array:
 
 def _speeds_of_harmonics(shapes: Shapes) -> Array:
     """Size of the velocity of each harmonic 1 ... K, (K,), any unit."""
-    count = len(shapes.states) // 2
-    size = np.linalg.norm(shapes.harmonics[1:], axis=1)
+    count, sheet = len(shapes.states) // 2, shapes.discretisation
+    size = np.linalg.norm(shapes.harmonics[1:] / np.repeat(sheet.units, sheet.components), axis=1)
     return np.hypot(size[:count], size[count:]) * np.arange(1, count + 1)
 
 
@@ -210,7 +211,7 @@ def other_mesh(mesh: Any) -> tuple[Any, float]:
     Of a grid of rectangles one with half as many lines, which costs a quarter; of any other mesh its
     refinement, which costs more than the speed itself.
     """
-    lines = [np.unique(np.round(p, 12)) for p in mesh.p]
+    lines = [distinct(p)[0] for p in mesh.p]
     counts = np.array([line.size - 1 for line in lines])
     if (
         mesh.t.shape[0] != 4
