@@ -66,20 +66,20 @@ Level = Callable[[Question, float, float], CrawlSpeed]
 
 def strip(question: Question, rtol: float, atol: float) -> CrawlSpeed:
     """The narrow strip, as long as the sheet."""
-    q, length = question, question.sheet.length
-    slip = None if q.slip_speed is None else q.slip_speed / length
+    q = question
     found = line_balance(
-        q.wave, q.alpha, q.load, q.friction, slip, rtol, atol / length, q.growth_law, "strip"
+        q.wave,
+        q.alpha,
+        q.load,
+        q.friction,
+        q.slip_speed,
+        rtol,
+        atol,
+        q.growth_law,
+        "strip",
+        length=q.sheet.length,
     )
-    return replace(
-        found,
-        mean=length * found.mean,
-        error=length * found.error,
-        model_error=distance("strip", q),
-        velocity=length * found.velocity,
-        first_order=length * found.first_order,
-        second_order=length * found.second_order,
-    )
+    return replace(found, model_error=distance("strip", q))
 
 
 def first_order(question: Question, rtol: float, atol: float) -> CrawlSpeed:

@@ -33,7 +33,7 @@ Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
 SAME = 1e-6
-"""Relative difference of time steps that count as equal; times are kept to 1e-12 of the period."""
+"""Relative difference of time steps that count as equal; times have the roundoff of the period."""
 
 _NODES = np.arange(5.0)
 _POWERS = np.arange(5)

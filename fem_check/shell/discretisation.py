@@ -10,9 +10,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from fem_check.shell import mesh_checks
 from fem_check.shell.region import Region
-from fem_check.shell.shape_functions import edge_frame
+from fem_check.shell.shape_functions import edge_frame, is_global
 from fem_check.shell.surface import Flat, Surface
 from linear_theory import validation
+from linear_theory.units import power_of_two
 
 Array = NDArray[np.float64]
 Where = Callable[[Array], NDArray[np.bool_]]
@@ -82,6 +83,22 @@ class Discretisation:
             for row in numbers:
                 places[:, row] = points
         return places
+
+    @cached_property
+    def units(self) -> Array:
+        """Units of the scalar degrees of freedom over that of length, (scalars,): 1, 1/size, 1/size^2.
+
+        Those of values, first and second derivatives by the parameters; size: about that of the mesh.
+        Comparisons between degrees of freedom need them, else they depend on the unit of length.
+        """
+        size = power_of_two(float(np.ptp(self.mesh.p, axis=1).max()))
+        dofs, names = self._dofs, self.element.dofnames
+        rows = [*dofs.nodal_dofs, *dofs.facet_dofs, *dofs.interior_dofs]
+        units = np.ones(self.scalars)
+        for name, row in zip(names, rows, strict=True):
+            derivative = name.removeprefix("u").removeprefix("_") if is_global(self.element) else ""
+            units[row] = size ** -len(derivative)
+        return units
 
     def zeros(self) -> Array:
         """The undeformed state, (size,)."""

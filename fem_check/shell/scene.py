@@ -4,6 +4,7 @@ What a scene does not name is neither built nor evaluated. Where no effect needs
 the scene is planar: two displacement components on continuous elements and first derivatives only.
 """
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -40,6 +41,9 @@ sheet as many as make them about square, and at least twice as many to a wavelen
 distances between points of the 2 : 1 sheet at alpha = 0.25 are right to 7e-5 of the length."""
 
 PLANAR_DEGREE = 5
+
+SAME = 1e-12
+"""Difference of two descriptions of one material that is roundoff."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -236,5 +240,6 @@ def _check_materials(effects: Sequence[Effect], sheet: Sheet) -> None:
             raise ValueError(f"effects: materials {materials[0]} and {material} must be the same")
         for name in ("thickness", "poisson"):
             mine, theirs = getattr(material, name), getattr(sheet, name)
-            if not np.isclose(mine, theirs, rtol=1e-12):
+            none = 0.0 if name == "thickness" else SAME  # a length has no size but its own
+            if not math.isclose(mine, theirs, rel_tol=SAME, abs_tol=none):
                 raise ValueError(f"effects: material has {name} = {mine:g}, the sheet has {theirs:g}")

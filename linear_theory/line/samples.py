@@ -52,7 +52,10 @@ class Snapshot(NamedTuple):
 def sampled_balance(
     wave: Wave, alpha: float, law: FrictionLaw, growth: Growth, rtol: float, atol: float
 ) -> Balance:
-    """Speed of a general wave; raises ValueError if a sampled strain is out of the range of the law."""
+    """Speed of a general wave on |y| <= 1/2, the length of the body being 1.
+
+    Raises ValueError if a sampled strain is out of the range of the law.
+    """
     period = float(wave.period)
     cells = times = FEWEST
     space = time = math.inf
@@ -127,7 +130,7 @@ def _check_strain(alpha: float, c: Array, times: Array, y: Array, growth: Growth
     worst = growth.misplaced(alpha * c)
     if worst is not None:
         row, column = np.unravel_index(worst, c.shape)
-        place = f"S = {y[column] + 0.5:.4g}, t = {times[row, 0]:.4g}"
+        place = f"S = {y[column] + 0.5:.4g} length, t = {times[row, 0]:.4g}"
         raise growth.refusal(alpha, float(alpha * c[row, column]), place)
 
 

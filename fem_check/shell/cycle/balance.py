@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from fem_check.shell.cycle.contact import Contact
 from fem_check.shell.cycle.motion import CycleMotion, is_mirrored
 from fem_check.shell.cycle.shapes import Shapes
+from fem_check.shell.places import ROUNDOFF, distinct
 from linear_theory.balance import Balance, RigidMotion
 from linear_theory.rigid import RigidNorm
 from linear_theory.time_grid import TimeGrid, first_grid
@@ -160,8 +161,10 @@ class CycleBalance:
         if self.reversal_time is not None:
             times = np.concatenate([times, self.reversal_time - times])
             rigid = np.concatenate([rigid, rigid], axis=1)
-        times, first = np.unique(np.round(np.mod(times / length, 1), 12) % 1, return_index=True)
-        return times * length, rigid[:, first]
+        share = np.mod(times / length, 1)
+        share[share > 1 - ROUNDOFF] = 0.0  # the end of a period is the start of the next
+        _, first = np.unique(distinct(share)[1], return_index=True)
+        return share[first] * length, rigid[:, first]
 
     def _first_grid(self) -> TimeGrid:
         """Half a period, or the half of that which tells the rest where V(t_0 - t) = V(t)."""

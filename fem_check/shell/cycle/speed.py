@@ -22,6 +22,7 @@ from fem_check.shell.cycle.motion import UnresolvedError, is_mirrored
 from fem_check.shell.cycle.shapes import Shapes, cycle_of_shapes, static_effects
 from fem_check.shell.effects.friction import Friction
 from fem_check.shell.effects.koiter import Membrane
+from fem_check.shell.places import distinct
 from fem_check.shell.scene import Scene
 from linear_theory import validation
 from linear_theory.friction import warn_if_viscous
@@ -209,8 +210,8 @@ def _phase_error(balance: CycleBalance, period: Period) -> Array:
 
 def _speeds_of_harmonics(shapes: Shapes) -> Array:
     """Size of the velocity of each harmonic 1 ... K, (K,), any unit."""
-    count = len(shapes.states) // 2
-    size = np.linalg.norm(shapes.harmonics[1:], axis=1)
+    count, sheet = len(shapes.states) // 2, shapes.discretisation
+    size = np.linalg.norm(shapes.harmonics[1:] / np.repeat(sheet.units, sheet.components), axis=1)
     return np.hypot(size[:count], size[count:]) * np.arange(1, count + 1)
 
 
@@ -220,7 +221,7 @@ def other_mesh(mesh: Any) -> tuple[Any, float]:
     Of a grid of rectangles one with half as many lines, which costs a quarter; of any other mesh its
     refinement, which costs more than the speed itself.
     """
-    lines = [np.unique(np.round(p, 12)) for p in mesh.p]
+    lines = [distinct(p)[0] for p in mesh.p]
     counts = np.array([line.size - 1 for line in lines])
     if (
         mesh.t.shape[0] != 4

@@ -60,6 +60,8 @@ class Minimiser:
         self.iterations = validation.integer("iterations", self.iterations, 1)
         self.sparsity = Sparsity(self.supports.discretisation, self.supports.free)
         self.region = self.supports.discretisation.interior
+        units = np.repeat(self.supports.discretisation.units, self.sparsity.components)
+        self.units = units[self.sparsity.order]
         self.orientation = Orientation(self.region)
 
     def minimise(self, potential: Potential, start: Array, patience: int = 1) -> Equilibrium:
@@ -111,8 +113,8 @@ class Minimiser:
 
     def _scale(self, values: Array) -> Array:
         """What shifts of the diagonal are multiples of, (n,)."""
-        diagonal = np.abs(values[self.sparsity.diagonal])
-        return np.asarray(np.maximum(diagonal, 1e-12 * diagonal.max()))
+        diagonal = np.abs(values[self.sparsity.diagonal]) * self.units**2
+        return np.asarray(np.maximum(diagonal, 1e-12 * diagonal.max()) / self.units**2)
 
     def _shifted(self, values: Array, shift: float) -> Array:
         shifted = values.copy()
@@ -203,7 +205,8 @@ class _Search:
         """Whether a step at the bottom of the energy halves the forces."""
         assert self.current is not None
         flat = self.current.shift == 0 and -slope <= UNSEEN * abs(self.energy)
-        return bool(flat and 4 * (force @ force) <= self.gradient @ self.gradient)
+        after, before = ((f**2 / self.current.scale).sum() for f in (force, self.gradient))
+        return bool(flat and 4 * after <= before)
 
     @property
     def shifted(self) -> bool:
@@ -219,9 +222,10 @@ class _Search:
         self.minimiser.kept = here
         if here.shift == 0:
             return np.nan, None
-        lowest, direction = lowest_mode(sparsity, here.values, here.factor, here.shift, here.scale)
+        lowest, direction = lowest_mode(sparsity, here.factor, here.shift, here.scale)
         if lowest > -NEUTRAL:
             return np.nan, None
         mode = np.zeros_like(self.state)
-        mode[sparsity.order] = direction
+        lengths = direction / self.minimiser.units
+        mode[sparsity.order] = direction / lengths[np.abs(lengths).argmax()]
         return lowest, mode
