@@ -4,13 +4,14 @@ import time
 
 import numpy as np
 
-from linear_theory import validation
+from linear_theory import arguments, validation
 from linear_theory.field import Wave
 from linear_theory.friction import FrictionLaw, warn_if_viscous
 from linear_theory.line.growth import Growth
 from linear_theory.line.samples import sampled_balance
 from linear_theory.line.travelling import travelling_balance
 from linear_theory.speed import CrawlSpeed
+from linear_theory.threads import one_blas_thread
 from linear_theory.waves import TravellingWave
 
 
@@ -53,15 +54,16 @@ def line_balance(
     >>> print(f"V = {pulse.mean:.3f} L/T, {pulse.first_order:.1f} alpha L/T for small alpha")
     V = -0.022 L/T, -0.5 alpha L/T for small alpha
     """
-    start = time.perf_counter()
+    start, wave = time.perf_counter(), arguments.wave(wave)
     alpha, rtol = validation.real("alpha", alpha), validation.tolerance(rtol)
     growth = Growth.of(growth_law, load, body)
     law = FrictionLaw(friction, slip_speed)
     atol = validation.absolute_tolerance(atol, rtol, alpha, 1 / wave.period)
-    if isinstance(wave, TravellingWave):
-        answer = travelling_balance(wave, alpha, law, growth)
-    else:
-        answer = sampled_balance(wave, alpha, law, growth, rtol, atol)
+    with one_blas_thread:
+        if isinstance(wave, TravellingWave):
+            answer = travelling_balance(wave, alpha, law, growth)
+        else:
+            answer = sampled_balance(wave, alpha, law, growth, rtol, atol)
     found = CrawlSpeed(
         mean=answer.mean,
         error=answer.error,

@@ -17,6 +17,7 @@ from fem_check.shell.region import Region
 from fem_check.shell.scene import Scene
 from fem_check.triangles import quadrilateral_points
 from linear_theory import validation
+from linear_theory.errors import SheetcrawlError
 from linear_theory.friction import LOADS
 from linear_theory.motion import Motion
 from linear_theory.waves import TravellingWave
@@ -24,7 +25,7 @@ from linear_theory.waves import TravellingWave
 Array = NDArray[np.float64]
 
 
-class UnresolvedError(ArithmeticError):
+class UnresolvedError(SheetcrawlError, ArithmeticError):
     """The shapes are too few: between them the interpolated sheet is inverted or leaves the ground."""
 
 

@@ -25,6 +25,7 @@ from fem_check.shell.stepping.stepper import Stepper, StepResult
 from fem_check.shell.stepping.trajectory import Trajectory
 from linear_theory import validation
 from linear_theory.friction import warn_if_viscous
+from linear_theory.threads import one_blas_thread
 
 Array = NDArray[np.float64]
 
@@ -119,6 +120,7 @@ def simulate(
 class Run:
     """A simulation under way: everything that the next step depends on."""
 
+    @one_blas_thread
     def __init__(
         self,
         scene: Scene,
@@ -130,6 +132,8 @@ class Run:
         snapshot_every: int,
         keep_every: int,
     ) -> None:
+        hint = "its arguments are sheet, wave, alpha and effects"
+        scene = validation.instance("scene", scene, Scene, hint)
         periods = validation.integer("periods", periods, 1)
         if validation.real("ramp", ramp) < 0:
             raise ValueError(f"ramp = {ramp:g}: must be >= 0")
@@ -147,6 +151,7 @@ class Run:
         self.history = first_history(self.stepper, self.size.dt, velocity)
         self.moment = self._first_moment()
 
+    @one_blas_thread
     def finish(self, path: Path | None, report: Callable[[Progress], None] | None) -> None:
         """Steps to the end, with a snapshot after every so many if there is a path."""
         begin, before = time.perf_counter(), self.history.time

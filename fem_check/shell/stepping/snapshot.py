@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fem_check.shell.scene import Scene
+from linear_theory.errors import SheetcrawlError
 
 Array = NDArray[np.float64]
 
@@ -28,7 +29,7 @@ _DAMAGED = (
 _LABELS = ("version", "checksum", "fingerprint")
 
 
-class SnapshotError(ValueError):
+class SnapshotError(SheetcrawlError, ValueError):
     """A snapshot that cannot be gone on from: truncated, altered, of another version or another run."""
 
 
