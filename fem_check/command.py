@@ -108,7 +108,7 @@ def words(found: Prediction) -> str:
         f"V = {found.mean:.6g} length/time, error {found.error:.1g}"
         f" (numbers {speed.error:.1g}, model {speed.model_error:.1g})",
         f"level: {found.reason}",
-        f"model: {speed.model}; {speed.regime} friction; {speed.reach}",
+        f"model: {speed.model}; {speed.regime} friction",
         f"cost: {found.seconds:.2g} s",
     ]
     if not found.converged:

@@ -13,7 +13,7 @@ a_r = delta_1r cos wt, b_s = delta_1s sin wt) belong to cos(2 pi y/L - wt), not 
 """
 
 from dataclasses import dataclass, field
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -56,16 +56,24 @@ class TravellingWave:
     def __post_init__(self) -> None:
         for name in ("cosine", "sine"):
             array = np.array(validation.real_array(name, getattr(self, name)), float)
-            array.setflags(write=False)
             object.__setattr__(self, name, array)
         if self.cosine.ndim != 1 or self.cosine.shape != self.sine.shape or not self.cosine.size:
             raise ValueError(
                 f"cosine, sine have shapes {self.cosine.shape}, {self.sine.shape}: "
                 "must be one-dimensional, of one length >= 1"
             )
+        self._freeze()
         object.__setattr__(self, "count", validation.wave_count(self.count))
         object.__setattr__(self, "period", validation.positive("period", self.period))
         object.__setattr__(self, "mean", validation.real("mean", self.mean))
+
+    def _freeze(self) -> None:
+        for array in (self.cosine, self.sine):
+            array.setflags(write=False)
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        self.__dict__.update(state)
+        self._freeze()  # arrays come out of pickle as writeable
 
     def __eq__(self, other: object) -> bool:
         return self._key == other._key if isinstance(other, TravellingWave) else NotImplemented
