@@ -17,7 +17,7 @@ from fem_check.shell.cycle.speed import cycle_speed
 from fem_check.shell.effects.koiter import Membrane
 from fem_check.shell.material import Material
 from fem_check.shell.scene import Scene, default_cells
-from linear_theory import validation
+from linear_theory import arguments, validation
 from linear_theory.crawl import crawl_speed
 from linear_theory.field import Wave
 from linear_theory.friction import LOADS, FrictionLaw
@@ -48,6 +48,8 @@ class Question:
     slip_speed: float | None = None
 
     def __post_init__(self) -> None:
+        object.__setattr__(self, "sheet", arguments.sheet(self.sheet))
+        object.__setattr__(self, "wave", arguments.wave(self.wave))
         object.__setattr__(self, "alpha", validation.real("alpha", self.alpha))
         validation.choice("growth_law", self.growth_law, GROWTH_LAWS)
         validation.choice("area", self.area, AREAS)

@@ -18,11 +18,12 @@ from skfem import MeshTri
 from fem_check.outline import Outline
 from fem_check.plane_stress_solver import ELEMENTS, PlaneStressSolver
 from fem_check.triangles import TriangleFinder, quadrilateral_points
-from linear_theory import validation
+from linear_theory import arguments, validation
 from linear_theory.field import LinearField, Wave
 from linear_theory.load_cases import LoadCases, load_cases, mixed_norms
 from linear_theory.motion import CellGrid
 from linear_theory.sheet import Sheet
+from linear_theory.threads import one_blas_thread
 from linear_theory.waves import TravellingWave
 
 Array = NDArray[np.float64]
@@ -50,6 +51,7 @@ PHASES = np.arange(1, 17) * (np.sqrt(5) - 1) / 2 % 1
 FLAT = 1e-6  # a sheet whose displacement is this small for a moment has no relative error then
 
 
+@one_blas_thread
 def plane_stress_field(
     outline: Sheet | Outline | MeshTri,
     wave: Wave,
@@ -73,8 +75,9 @@ def plane_stress_field(
     >>> print(field.error < 1e-3, field.displacement(x=0.1, y=0.2, t=0.3).round(3))  # L per unit alpha
     True [-0.063 -0.135]
     """
-    if degree not in ELEMENTS:
-        raise ValueError(f"degree = {degree!r}: must be 2 or 4")
+    if degree not in tuple(ELEMENTS):
+        raise ValueError(f"degree = {validation.shown(degree)}: must be 2 or 4")
+    wave = arguments.wave(wave)
     sheet = _sheet(outline, poisson)
     coarse = _coarse_mesh(outline, 2 * _size(sheet, wave, size))
     while isinstance(outline, MeshTri) and size is not None and _longest_side(coarse) > 2 * size:
@@ -91,7 +94,7 @@ def _sheet(outline: Sheet | Outline | MeshTri, poisson: float | None) -> Sheet:
     elif isinstance(outline, Outline):
         width, length = outline.width, outline.length
     else:
-        raise ValueError(f"outline = {outline!r}: must be a Sheet, an Outline or a MeshTri")
+        validation.instance("outline", outline, (Sheet, Outline, MeshTri), "a Sheet needs no mesh")
     return Sheet(float(length), float(width), 0.5 if poisson is None else poisson)
 
 
@@ -175,6 +178,7 @@ class PlaneStressField(LinearField):
         return self._solver.mesh
 
     @cached_property
+    @one_blas_thread
     def error(self) -> float:
         """Estimated relative L2 error of the displacement over the sheet at the worst phase."""
         fine, coarse = self._solver, PlaneStressSolver(self._coarse, self.degree, self.sheet.poisson)

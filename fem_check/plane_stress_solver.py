@@ -11,9 +11,10 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse.linalg import splu
 from skfem import Basis, BilinearForm, ElementTriP2, ElementTriP4, ElementVector, LinearForm, MeshTri
 from skfem.helpers import ddot, div, eye, sym_grad, trace
+
+from fem_check.sparse_factor import SparseFactor
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
@@ -105,7 +106,7 @@ class PlaneStressSolver:
         return displacement, _symmetric(gradient)
 
     @cached_property
-    def _factor(self) -> tuple[Indices, Any]:
+    def _factor(self) -> tuple[Indices, SparseFactor]:
         """Free unknowns and the factors of their matrix.
 
         Three unknowns are held to stop rigid motions; growth exerts no net force or torque, so that
@@ -113,9 +114,7 @@ class PlaneStressSolver:
         """
         matrix = elastic_work.assemble(self._basis, poisson=self.poisson)
         free = np.setdiff1d(np.arange(self._basis.N), self._held())
-        options = {"SymmetricMode": True, "DiagPivotThresh": 0.0}
-        factor = splu(matrix[free][:, free].tocsc(), permc_spec="MMD_AT_PLUS_A", options=options)
-        return free, factor
+        return free, SparseFactor(matrix[free][:, free])
 
     def _held(self) -> Indices:
         """Both components at one vertex, the one across the line between them at the farthest."""

@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 from linear_theory import hooke, validation
 from linear_theory.motion import CellGrid, Motion
 from linear_theory.sheet import Sheet
+from linear_theory.threads import one_blas_thread
 
 Array = NDArray[np.float64]
 
@@ -76,18 +77,21 @@ class LinearField(ABC):
         """The field whose basis spans the motion at times t: itself, if its basis does so always."""
         return self
 
+    @one_blas_thread
     def displacement(self, x: ArrayLike, y: ArrayLike, t: ArrayLike) -> Array:
         """u, (2, ...), units of length. Raises ValueError for points outside the sheet."""
         x, y, t = self._checked(x, y, t)
         field = self._for_times(t)
         return combine(field._amplitudes(t), field._displacements(x, y))
 
+    @one_blas_thread
     def velocity(self, x: ArrayLike, y: ArrayLike, t: ArrayLike) -> Array:
         """du/dt in the frame of the mean motion, (2, ...), length per time."""
         x, y, t = self._checked(x, y, t)
         field = self._for_times(t)
         return combine(field._amplitude_rates(t), field._displacements(x, y))
 
+    @one_blas_thread
     def strain(self, x: ArrayLike, y: ArrayLike, t: ArrayLike) -> Array:
         """(xx, yy, xy) of the total strain, (3, ...), dimensionless."""
         x, y, t = self._checked(x, y, t)
@@ -100,6 +104,7 @@ class LinearField(ABC):
         growth = self.wave.value(x, y, t, self.sheet.length)
         return hooke.stress(strain, growth, self.sheet.poisson)
 
+    @one_blas_thread
     def motion(self, times: ArrayLike, grid: CellGrid, order: int) -> Motion:
         """The field at the Gauss points of cells, as the friction balance reads it.
 

@@ -43,9 +43,7 @@ class LoadCases(Protocol):
 
 
 def load_cases(wave: Wave, length: float) -> LoadCases:
-    """Those of a wave on a sheet of that length. Raises ValueError for what is no wave."""
-    if not all(hasattr(wave, name) for name in ("value", "rate", "period")):
-        raise ValueError(f"wave = {wave!r}: must be a TravellingWave or a FieldWave")
+    """Those of a wave on a sheet of that length."""
     if isinstance(wave, TravellingWave):
         return Harmonics(wave, length)
     return Snapshots(wave, length, np.linspace(0, wave.period, SAMPLES, endpoint=False))

@@ -27,6 +27,7 @@ from scipy.interpolate import CubicHermiteSpline
 
 from linear_theory import validation
 from linear_theory.speed import CrawlSpeed
+from linear_theory.threads import one_blas_thread
 from linear_theory.time_grid import TimeGrid
 
 Array = NDArray[np.float64]
@@ -111,6 +112,7 @@ class Path(Poses):
         return float(np.linalg.norm(self.step) * arc_over_chord / self.period)
 
 
+@one_blas_thread
 def rigid_path(speed: CrawlSpeed, periods: int = 1, samples: int = 16) -> Path:
     """The path that the rigid motion of one period makes when it is repeated.
 
@@ -215,9 +217,8 @@ def _powers(count: Array, angle: float) -> Complex:
 
 def _checked_grid(speed: CrawlSpeed) -> TimeGrid:
     """Panels of the whole period with its end. Raises ValueError where the times are none."""
-    if not isinstance(speed, CrawlSpeed):
-        raise ValueError(f"speed = {speed!r}: must be a CrawlSpeed")
-    times = speed.times
+    hint = "crawl_speed, field_speed and cycle_speed make one"
+    times = validation.instance("speed", speed, CrawlSpeed, hint).times
     if times.size < 4 or times.size % 4:
         raise ValueError(f"speed.times has {times.size} times: must be panels of four, 4 or more")
     closed = np.append(times, 2 * times[-1] - times[-2])

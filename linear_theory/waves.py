@@ -12,8 +12,8 @@ Sign convention: n > 0 runs towards +y. The printed amplitudes of the seed paper
 a_r = delta_1r cos wt, b_s = delta_1s sin wt) belong to cos(2 pi y/L - wt), not to this sine.
 """
 
-from dataclasses import dataclass
-from typing import NamedTuple
+from dataclasses import dataclass, field
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -37,6 +37,8 @@ class TravellingWave:
     cosine, sine: (harmonics,) dimensionless amplitudes; count: waves on the sheet, any non-zero
     integer (negative runs towards -y); period in units of time. Raises ValueError otherwise.
 
+    Waves of the same numbers are equal, a SineWave and the TravellingWave of its one harmonic, too.
+
     >>> from linear_theory import TravellingWave
     >>> pulse = TravellingWave(cosine=[1.0, 0.5], sine=[0.0, 0.0])
     >>> print(pulse.value(x=0.0, y=[0.0, 0.5], t=0.0).round(12))
@@ -54,16 +56,35 @@ class TravellingWave:
     def __post_init__(self) -> None:
         for name in ("cosine", "sine"):
             array = np.array(validation.real_array(name, getattr(self, name)), float)
-            array.setflags(write=False)
             object.__setattr__(self, name, array)
         if self.cosine.ndim != 1 or self.cosine.shape != self.sine.shape or not self.cosine.size:
             raise ValueError(
                 f"cosine, sine have shapes {self.cosine.shape}, {self.sine.shape}: "
                 "must be one-dimensional, of one length >= 1"
             )
+        self._freeze()
         object.__setattr__(self, "count", validation.wave_count(self.count))
         object.__setattr__(self, "period", validation.positive("period", self.period))
         object.__setattr__(self, "mean", validation.real("mean", self.mean))
+
+    def _freeze(self) -> None:
+        for array in (self.cosine, self.sine):
+            array.setflags(write=False)
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        self.__dict__.update(state)
+        self._freeze()  # arrays come out of pickle as writeable
+
+    def __eq__(self, other: object) -> bool:
+        return self._key == other._key if isinstance(other, TravellingWave) else NotImplemented
+
+    def __hash__(self) -> int:
+        return hash(self._key)
+
+    @property
+    def _key(self) -> tuple[object, ...]:
+        """All numbers of the wave."""
+        return *self.cosine.tolist(), *self.sine.tolist(), self.count, self.period, self.mean
 
     @classmethod
     def from_samples(cls, samples: ArrayLike, count: int = 1, period: float = 1.0) -> "TravellingWave":
@@ -88,6 +109,11 @@ class TravellingWave:
     def orders(self) -> NDArray[np.int64]:
         """r = |k count|, the number of full waves on the sheet of each harmonic."""
         return self.harmonics * abs(self.count)
+
+    @property
+    def moves(self) -> bool:
+        """Whether growth changes in time."""
+        return bool(np.any(self.cosine) or np.any(self.sine))
 
     @property
     def is_half_period_antisymmetric(self) -> bool:
@@ -119,14 +145,11 @@ class TravellingWave:
 
     def value(self, x: ArrayLike, y: ArrayLike, t: ArrayLike, length: float = 1.0) -> Array:
         """c at points of a sheet of that `length`; x, y, t broadcast (c does not depend on x)."""
-        x, y, t = np.broadcast_arrays(x, y, t)
-        return self.profile(2 * np.pi * (self.count * y / length - t / self.period))
+        return self.profile(self._phase(x, y, t, length))
 
     def rate(self, x: ArrayLike, y: ArrayLike, t: ArrayLike, length: float = 1.0) -> Array:
         """dc/dt at points of a sheet of that `length`; x, y, t broadcast."""
-        x, y, t = np.broadcast_arrays(x, y, t)
-        phase = 2 * np.pi * (self.count * y / length - t / self.period)
-        return -2 * np.pi / self.period * self.profile_slope(phase)
+        return -2 * np.pi / self.period * self.profile_slope(self._phase(x, y, t, length))
 
     def factors(self, t: ArrayLike) -> TimeFactors:
         """c = mean + sum_j even[j] cos(2 pi r_j y/L) + odd[j] sin(2 pi r_j y/L), r = `orders`."""
@@ -144,6 +167,11 @@ class TravellingWave:
         odd = rate * (p * np.cos(angle) - q * np.sin(angle))
         return TimeFactors(even, np.sign(self.count) * odd)
 
+    def _phase(self, x: ArrayLike, y: ArrayLike, t: ArrayLike, length: float) -> Array:
+        named = ("x", x), ("y", y), ("t", t)
+        _, y, t = np.broadcast_arrays(*(validation.real_array(name, v) for name, v in named))
+        return np.asarray(2 * np.pi * (self.count * y / length - t / self.period))
+
     def _phasors(self, t: ArrayLike) -> tuple[Array, Array, Array]:
         t = validation.real_array("t", t)
         angle = np.multiply.outer(2 * np.pi / self.period * self.harmonics, t)
@@ -151,6 +179,7 @@ class TravellingWave:
         return self.cosine.reshape(shape), self.sine.reshape(shape), angle
 
 
+@dataclass(frozen=True, eq=False, repr=False)
 class SineWave(TravellingWave):
     """c(y, t) = sin(2 pi count y/L - 2 pi t/period), the wave of the seed paper's section 3.1.
 
@@ -163,8 +192,16 @@ class SineWave(TravellingWave):
     [1. 1.]
     """
 
-    def __init__(self, count: int = 1, period: float = 1.0) -> None:
-        super().__init__(np.zeros(1), np.ones(1), count, period)
+    cosine: Array = field(init=False)
+    sine: Array = field(init=False)
+    count: int = 1
+    period: float = 1.0
+    mean: float = field(default=0.0, init=False)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "cosine", np.zeros(1))
+        object.__setattr__(self, "sine", np.ones(1))
+        super().__post_init__()
 
     def __repr__(self) -> str:
         return f"SineWave(count={self.count}, period={self.period:g})"

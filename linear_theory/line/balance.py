@@ -4,7 +4,7 @@ import time
 
 import numpy as np
 
-from linear_theory import validation
+from linear_theory import arguments, validation
 from linear_theory.field import Wave
 from linear_theory.field_wave import FieldWave
 from linear_theory.friction import FrictionLaw, warn_if_viscous
@@ -13,6 +13,7 @@ from linear_theory.line.result import Balance
 from linear_theory.line.samples import sampled_balance
 from linear_theory.line.travelling import travelling_balance
 from linear_theory.speed import CrawlSpeed
+from linear_theory.threads import one_blas_thread
 from linear_theory.waves import TravellingWave
 
 
@@ -71,13 +72,14 @@ def line_balance(
     V = 1.20 mm/s
     V = 1.20 mm/s
     """
-    start = time.perf_counter()
+    start, wave = time.perf_counter(), arguments.wave(wave)
     alpha, rtol = validation.real("alpha", alpha), validation.tolerance(rtol)
     growth = Growth.of(growth_law, load, body)
     law = FrictionLaw(friction, slip_speed)
     length = _checked_length(length, wave)
     atol = validation.absolute_tolerance(atol, rtol, alpha, length / wave.period)
-    answer = _in_lengths(wave, alpha, law.scaled(length), growth, rtol, atol / length, length)
+    with one_blas_thread:
+        answer = _in_lengths(wave, alpha, law.scaled(length), growth, rtol, atol / length, length)
     found = CrawlSpeed(
         mean=length * answer.mean,
         error=length * answer.error,

@@ -16,16 +16,15 @@ from fem_check.shell.growth import metric_factor
 from fem_check.shell.places import ROUNDOFF
 from fem_check.shell.region import Region
 from fem_check.triangles import quadrilateral_points
+from linear_theory.errors import SheetcrawlError
 from linear_theory.motion import Motion
 from linear_theory.waves import TravellingWave
 
 Array = NDArray[np.float64]
 
 
-class UnresolvedError(ArithmeticError):
+class UnresolvedError(SheetcrawlError, ArithmeticError):
     """The shapes are too few: between them the interpolated sheet is inverted or leaves the ground."""
-
-
 
 
 def is_mirrored(shapes: Shapes, axis: int = 0) -> bool:

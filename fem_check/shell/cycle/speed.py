@@ -27,6 +27,7 @@ from fem_check.shell.scene import Scene
 from linear_theory import validation
 from linear_theory.friction import warn_if_viscous
 from linear_theory.speed import CrawlSpeed
+from linear_theory.threads import one_blas_thread
 from linear_theory.waves import TravellingWave
 
 Array = NDArray[np.float64]
@@ -98,10 +99,12 @@ class Cycle:
     """
 
     def __init__(self, scene: Scene) -> None:
+        hint = "its arguments are sheet, wave, alpha and effects"
+        self.scene = validation.instance("scene", scene, Scene, hint)
         CYCLE.require(scene)
-        self.scene = scene
         self._shapes = KeptShapes(scene)
 
+    @one_blas_thread
     def speed(
         self,
         load: str | None = None,

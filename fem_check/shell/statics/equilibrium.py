@@ -5,10 +5,12 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from linear_theory.errors import SheetcrawlError
+
 Array = NDArray[np.float64]
 
 
-class ConvergenceError(RuntimeError):
+class ConvergenceError(SheetcrawlError, RuntimeError):
     """No minimum was found. `state` (size,): the last that was reached, at `parameter` of a ramp."""
 
     def __init__(self, message: str, state: Array, parameter: float = 1.0) -> None:

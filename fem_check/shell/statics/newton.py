@@ -14,6 +14,7 @@ from fem_check.shell.statics.sparsity import Sparsity
 from fem_check.shell.statics.stability import NEUTRAL, lowest_mode
 from fem_check.shell.supports import Supports
 from linear_theory import validation
+from linear_theory.threads import one_blas_thread
 
 Array = NDArray[np.float64]
 
@@ -64,6 +65,7 @@ class Minimiser:
         self.units = units[self.sparsity.order]
         self.orientation = Orientation(self.region)
 
+    @one_blas_thread
     def minimise(self, potential: Potential, start: Array, patience: int = 1) -> Equilibrium:
         """The minimum next to `start` (size,), within `patience` times the usual iterations.
 

@@ -25,6 +25,7 @@ from fem_check.shell.stepping.start import first_history
 from fem_check.shell.stepping.step_control import History, step_size
 from fem_check.shell.stepping.stepper import Stepper, StepResult
 from fem_check.shell.stepping.trajectory import Trajectory
+from linear_theory.threads import one_blas_thread
 
 Array = NDArray[np.float64]
 
@@ -79,6 +80,7 @@ class Landing(NamedTuple):
 class Run:
     """A scene on its way through time."""
 
+    @one_blas_thread
     def __init__(self, scene: Scene, settings: Settings) -> None:
         self.scene, self.settings, period = scene, settings, scene.period
         self.size = step_size(period, settings.rtol, settings.steps)
@@ -97,6 +99,7 @@ class Run:
         """Accepted so far."""
         return len(self.record.rows) - 1
 
+    @one_blas_thread
     def finish(self, target: Target | None, report: Callable[[Progress], None] | None) -> None:
         """Steps to the end, with a snapshot after every so many if there is a target for them."""
         begin, before = time.perf_counter(), self.history.time

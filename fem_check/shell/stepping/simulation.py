@@ -68,6 +68,8 @@ def simulate(
     V = 0.016 L/T, friction is dry
     """
     begin, run, target = time.perf_counter(), None, None
+    hint = "its arguments are sheet, wave, alpha and effects"
+    scene = validation.instance("scene", scene, Scene, hint)
     settings = Settings(periods, rtol, steps, ramp, velocity, keep_every)
     every = validation.integer("snapshot_every", snapshot_every, 1)
     try:

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from fem_check.shell.effects.ground import Ground
 from fem_check.shell.scene import Scene
 from fem_check.shell.stepping.settings import Settings
-from linear_theory.errors import Unidentifiable
+from linear_theory.errors import SheetcrawlError, Unidentifiable
 from linear_theory.identity import content_key
 
 Array = NDArray[np.float64]
@@ -37,7 +37,7 @@ _PHASES = (0.0, 0.1234, 0.5678)
 """Of the period; no usual wave repeats itself there."""
 
 
-class SnapshotError(ValueError):
+class SnapshotError(SheetcrawlError, ValueError):
     """A snapshot that cannot be written, or not be gone on from: damaged, altered or of another run."""
 
 
