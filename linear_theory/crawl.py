@@ -191,7 +191,8 @@ def friction_field(
     motion = Crawl(field, alpha, load, law, resolution).balance(np.array([t]))
     v_x, v_y, omega = alpha * (motion.leading + alpha * motion.remainder)[0]
     x, y = np.broadcast_arrays(validation.real_array("x", x), validation.real_array("y", y))
-    slip = alpha * field.velocity(x, y, t) + np.stack([v_x - omega * y, v_y + omega * x])
+    rigid = np.stack([v_x - omega * (y - field.centre[1]), v_y + omega * (x - field.centre[0])])
+    slip = alpha * field.velocity(x, y, t) + rigid
     speed = np.hypot(*slip)
     rate = load_rate(
         load, field.strain(x, y, t)[:2].sum(0), field.wave.value(x, y, t, field.sheet.length)

@@ -13,6 +13,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from fem_check.shell.cycle.frame import gyration
 from fem_check.shell.cycle.motion import CycleMotion, is_mirrored
 from fem_check.shell.cycle.shapes import Shapes
 from linear_theory.balance import Balance, RigidMotion
@@ -87,7 +88,7 @@ class CycleBalance:
     @cached_property
     def norm(self) -> RigidNorm:
         """By which motions and their errors are judged."""
-        return RigidNorm(self.shapes.scene.sheet, self.mirrored)
+        return RigidNorm(gyration(self.shapes.discretisation), self.mirrored)
 
     @property
     def noise(self) -> float:
