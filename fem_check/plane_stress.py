@@ -177,6 +177,22 @@ class PlaneStressField(LinearField):
         """The triangles."""
         return self._solver.mesh
 
+    @property
+    def centre(self) -> tuple[float, float]:
+        """x, y of the centre of mass of the outline."""
+        x, y = self._solver.centre_and_gyration[0].tolist()
+        return x, y
+
+    @property
+    def gyration(self) -> float:
+        """Radius of gyration of the outline about its centre of mass."""
+        return self._solver.centre_and_gyration[1]
+
+    def places(self, count: int) -> tuple[Array, Array]:
+        """x, y (n,) of about count^2 points in the triangles."""
+        every = max(1, self._solver.x.size // count**2)
+        return self._solver.x.ravel()[::every], self._solver.y.ravel()[::every]
+
     @cached_property
     @one_blas_thread
     def error(self) -> float:

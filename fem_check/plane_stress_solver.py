@@ -15,6 +15,7 @@ from skfem import Basis, BilinearForm, ElementTriP2, ElementTriP4, ElementVector
 from skfem.helpers import ddot, div, eye, sym_grad, trace
 
 from fem_check.sparse_factor import SparseFactor
+from linear_theory.rigid import centre_and_gyration
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
@@ -106,6 +107,11 @@ class PlaneStressSolver:
         return displacement, _symmetric(gradient)
 
     @cached_property
+    def centre_and_gyration(self) -> tuple[Array, float]:
+        """Centre of mass (2,) of the mesh and its radius of gyration."""
+        return centre_and_gyration(np.stack([self.x.ravel(), self.y.ravel()]), self.weights.ravel())
+
+    @cached_property
     def _factor(self) -> tuple[Indices, SparseFactor]:
         """Free unknowns and the factors of their matrix.
 
@@ -131,7 +137,7 @@ class PlaneStressSolver:
         component = np.zeros(basis.N, np.int64)
         for dofs in (basis.nodal_dofs, basis.facet_dofs, basis.interior_dofs):
             component[dofs[1::2]] = 1
-        x, y = basis.doflocs
+        x, y = basis.doflocs - self.centre_and_gyration[0][:, None]
         modes = np.stack([component == 0, component == 1, np.where(component == 0, -y, x)])
         means = [
             shift.assemble(basis, along=0),

@@ -5,8 +5,9 @@ With velocities per unit alpha, v = alpha v^, V = alpha q, and the load 1 + alph
     integral (1 + alpha e) f(|w|) w/|w| . R_j dA = 0,      w = v^ + sum_j q_j R_j,
 
 R_j the rigid velocities: (0, 1) for motions that are mirror symmetric in x, else (1, 0), (0, 1) and
-the rotation (-y, x). It is where the convex function int (1 + alpha e) F(|w|) dA, F' = f, is least.
-On a slope the load itself pulls, by `slope` times itself along -y: slope (0, 1) . R_j joins the sum.
+the rotation (-y, x), x and y counted from the centre of mass. It is where the convex function
+int (1 + alpha e) F(|w|) dA, F' = f, is least. On a slope the load itself pulls, by `slope` times itself
+along -y: slope (0, 1) . R_j joins the sum.
 
 For small alpha the mean of q is much smaller than q(t). Hence q = q_0 + alpha q_1: q_0 balances the
 load 1, and q_1 solves what is left, divided by alpha, with the difference quotient of f w/|w| written
@@ -71,7 +72,7 @@ class Units(NamedTuple):
     @classmethod
     def of(cls, motion: Motion) -> "Units":
         """Those in which the largest values of a motion lie between 1 and 2."""
-        values = motion.velocity, motion.position, motion.area
+        values = motion.velocity, motion.arms, motion.area
         return cls(*(power_of_two(float(abs(v).max(initial=0.0))) for v in values))
 
     @property
@@ -105,7 +106,7 @@ class Balance:
         area = np.broadcast_to(motion.area / units.area, rate.shape)
         channels = [*motion.velocity / units.speed, area, rate]
         if not motion.mirrored:
-            channels += [np.broadcast_to(p, rate.shape) for p in motion.position / units.length]
+            channels += [np.broadcast_to(p, rate.shape) for p in motion.arms / units.length]
         self._second = slice(0, 0) if motion.second is None else slice(len(channels), len(channels) + 2)
         if motion.second is not None:
             channels += [*motion.second / units.speed]
@@ -113,7 +114,7 @@ class Balance:
         self._shift = slice(0, 0) if displacement is None else slice(len(channels), len(channels) + 2)
         if displacement is not None:
             channels += [*displacement / units.length]
-        # v_x, v_y, area, e, then x, y if the sheet may turn, then v_2 and u if there are any
+        # v_x, v_y, area, e, then x, y from the centre if the sheet may turn, then v_2 and u if any
         self._values = np.stack(channels)
         self._scale = float(np.sqrt(np.mean(self._values[:2] ** 2))) or 1.0
         self._stages = [(halvings, tolerance)]

@@ -230,7 +230,8 @@ def _friction_field(
     if alpha != 0:
         motion = Crawl(field, alpha, load, law, first_resolution(rtol)).balance(np.array([t]))
         v_x, v_y, omega = alpha * (motion.leading + alpha * motion.remainder)[0]
-    slip = alpha * field.velocity(x, y, t) + np.stack([v_x - omega * y, v_y + omega * x])
+    rigid = np.stack([v_x - omega * (y - field.centre[1]), v_y + omega * (x - field.centre[0])])
+    slip = alpha * field.velocity(x, y, t) + rigid
     speed = np.hypot(*slip)
     rate = load_rate(
         load, field.strain(x, y, t)[:2].sum(0), field.wave.value(x, y, t, field.sheet.length)

@@ -7,6 +7,7 @@ A linear deformation is a sum of fixed fields times factors of time,
 and solvers differ only in the basis and in how they find it. All quantities are per unit alpha.
 """
 
+import math
 from abc import ABC, abstractmethod
 from typing import Protocol
 
@@ -51,6 +52,24 @@ class LinearField(ABC):
     mirrored: bool = False
     numbers: int = 0
     _kept: tuple[object, tuple[Array, Array, Array, Array]] | None = None
+
+    @property
+    def centre(self) -> tuple[float, float]:
+        """x, y of the centre of mass of the undeformed area, units of length; 0, 0 for rectangles.
+
+        The rigid motion of a sheet is that of this point and a rotation about it.
+        """
+        return 0.0, 0.0
+
+    @property
+    def gyration(self) -> float:
+        """Radius of gyration of the undeformed area about its centre of mass, units of length."""
+        return math.hypot(self.sheet.width, self.sheet.length) / math.sqrt(12)
+
+    def places(self, count: int) -> tuple[Array, Array]:
+        """x, y (broadcast) of points that cover the sheet, about count^2, to judge growth at."""
+        along = np.linspace(-0.5, 0.5, count)
+        return self.sheet.width * along[:, None], self.sheet.length * along
 
     @property
     @abstractmethod
@@ -121,6 +140,7 @@ class LinearField(ABC):
             dilation=np.tensordot(field._amplitudes(t).T, dilations, 1),
             growth=self.wave.value(position[0], position[1], growth_time, self.sheet.length),
             mirrored=self.mirrored and grid.half,
+            centre=self.centre,
         )
 
     def _on_cells(self, grid: CellGrid, order: int) -> tuple[Array, Array, Array, Array]:

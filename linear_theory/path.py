@@ -1,6 +1,6 @@
 """The path of a sheet that crawls and turns: the rigid motion of one period, repeated.
 
-The body frame moves and turns with the sheet as a whole. Its origin is the mean position of the sheet
+The body frame moves and turns with the sheet as a whole. Its origin is the centre of mass of the sheet
 and its axes are turned so that the mean rotation is zero, both means over the undeformed area: for
 small strains that of (du_y/dx - du_x/dy)/2, else the rotation in the mean deformation gradient.
 `CrawlSpeed.rigid` is the velocity of its origin along its own axes and its rate of rotation,
@@ -117,7 +117,8 @@ def rigid_path(speed: CrawlSpeed, periods: int = 1, samples: int = 16) -> Path:
     """The path that the rigid motion of one period makes when it is repeated.
 
     speed: of `crawl_speed`, `field_speed` or `cycle_speed`; where `rigid` is None the motion is mirror
-    symmetric and its path straight. The path starts at speed.times[0], and with `periods` periods of
+    symmetric and its path straight. The path is that of the centre of mass, from where it is at
+    speed.times[0] (which counts as 0, 0 wherever an outline lies), and with `periods` periods of
     `samples` equal intervals it has N = periods samples + 1 times.
 
     The mean velocities and their errors are those of the speed. To d adds what comes of turning within

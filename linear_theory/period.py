@@ -13,7 +13,6 @@ from linear_theory.field import LinearField, Wave
 from linear_theory.friction import FrictionLaw, check_load, load_rate
 from linear_theory.motion import CellGrid, Motion
 from linear_theory.rigid import RigidNorm
-from linear_theory.sheet import Sheet
 from linear_theory.time_grid import TimeGrid, first_grid
 from linear_theory.waves import TravellingWave
 
@@ -96,13 +95,14 @@ def shortest_waves(wave: Wave) -> int:
     return int(wave.orders[rates >= _FAINT * rates.max()][-1])
 
 
-def changes_sign(wave: Wave, sheet: Sheet) -> bool:
-    """Whether c(t + T/2) = -c(t); of a wave of any shape at points and times of a grid."""
+def changes_sign(field: LinearField) -> bool:
+    """Whether c(t + T/2) = -c(t); of a wave of any shape at points that cover the sheet and times."""
+    wave = field.wave
     if isinstance(wave, TravellingWave):
         return wave.is_half_period_antisymmetric
-    x, y = (s * np.linspace(-0.5, 0.5, _PROBES) for s in (sheet.width, sheet.length))
-    t = np.arange(2 * _PROBES)[:, None, None] * (wave.period / (2 * _PROBES))
-    values = wave.value(x[:, None], y, t, sheet.length)
+    x, y = np.broadcast_arrays(*field.places(_PROBES))
+    t = np.arange(2 * _PROBES)[:, None] * (wave.period / (2 * _PROBES))
+    values = wave.value(x.ravel(), y.ravel(), t, field.sheet.length)
     return bool(abs(values[:_PROBES] + values[_PROBES:]).max() <= 1e-12 * abs(values).max())
 
 
@@ -119,7 +119,7 @@ class Crawl:
     @cached_property
     def starts_at_second_order(self) -> bool:
         """Whether c(t + T/2) = -c(t), so that the leading q_0 has exactly no mean."""
-        return changes_sign(self.field.wave, self.field.sheet)
+        return changes_sign(self.field)
 
     def balance(self, times: Array, known: "Known | None" = None) -> RigidMotion:
         """Rigid motion at the given times, in lots; known: times before and after to start from."""
@@ -151,7 +151,7 @@ class Crawl:
     @property
     def norm(self) -> RigidNorm:
         """By which motions and their errors are judged."""
-        return RigidNorm(self.field.sheet, self.field.mirrored)
+        return RigidNorm(self.field.gyration, self.field.mirrored)
 
     def counted(self, motion: RigidMotion) -> Array:
         """V_x, V_y, Omega at each time without what is known to have no mean, (3, times)."""

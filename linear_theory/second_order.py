@@ -225,8 +225,8 @@ def field_errors(field: SecondOrderField, period: Period) -> Array:
     Nothing where symmetry makes them 0.
     """
     fastest = period.fastest / TINY_ALPHA
-    first = 0.0 if changes_sign(field.wave, field.sheet) else FIRST_SHARE * field.error * fastest
-    norm = RigidNorm(field.sheet, field.mirrored)
+    first = 0.0 if changes_sign(field) else FIRST_SHARE * field.error * fastest
+    norm = RigidNorm(field.gyration, field.mirrored)
     return np.stack([norm.each(first), norm.each(_second_field_error(field, fastest))])
 
 
@@ -261,7 +261,8 @@ def second_order_speed(
     atol = validation.absolute_tolerance(atol, rtol, alpha, unit)
     check_growth(growth_law, alpha, wave, sheet)
     period = leading_period(field, load, model.law, rtol)
-    both, norm = coefficients(field, period, model, start), RigidNorm(sheet, field.mirrored)
+    both = coefficients(field, period, model, start)
+    norm = RigidNorm(field.gyration, field.mirrored)
     fastest = abs(alpha) * period.fastest / TINY_ALPHA
     found = replace(
         speed_at(alpha, both, period, field.mirrored),

@@ -38,8 +38,9 @@ class CrawlSpeed:
     converged: whether error met the tolerance that was asked for; where rigid_error is given, that; and
     the theory reaches so far.
     times (T,), velocity (T,): V_y(t) over one period.
-    rigid: (3, T), V_x, V_y and the rate of rotation Omega about the origin (anticlockwise) in the frame
-    of the body (see `second_order`), for motions that are not mirror symmetric in x; None otherwise.
+    rigid: (3, T), V_x, V_y of the centre of mass of the undeformed area and the rate of rotation Omega
+    about it (anticlockwise) in the frame of the body (see `second_order`), for motions that are not
+    mirror symmetric in x; None otherwise.
     rigid_mean, rigid_error: (3,), their means and the estimates of their numerical errors, absolute;
     V_y again has mean and error. None for mirror symmetric motions.
     first_order, second_order: V_1 and V_2 of V = V_1 alpha + V_2 alpha**2 + ..., within this model;

@@ -186,10 +186,13 @@ def test_both_orders_of_theory_have_the_same_first_order():
 
 
 def test_a_wave_that_changes_sign_is_seen():
-    assert changes_sign(WAVES["oblique"], SHEET)
-    assert changes_sign(SINE, SHEET)
-    assert not changes_sign(WAVES["unequal"], SHEET)
-    assert not changes_sign(FieldWave(lambda x, y, t: oblique(x, y, t) + 1e-6, 1.0), SHEET)
+    def seen(wave):
+        return changes_sign(ritz_field(SHEET, wave, rtol=1e-1))
+
+    assert seen(WAVES["oblique"])
+    assert seen(SINE)
+    assert not seen(WAVES["unequal"])
+    assert not seen(FieldWave(lambda x, y, t: oblique(x, y, t) + 1e-6, 1.0))
 
 
 def test_slip_speed_of_coefficients_is_per_unit_alpha():

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fem_check.shell.cycle.contact import Contact
+from fem_check.shell.cycle.frame import gyration
 from fem_check.shell.cycle.motion import CycleMotion, is_mirrored
 from fem_check.shell.cycle.shapes import Shapes
 from fem_check.shell.places import ROUNDOFF, distinct
@@ -87,7 +88,7 @@ class CycleBalance:
     @cached_property
     def norm(self) -> RigidNorm:
         """By which motions and their errors are judged."""
-        return RigidNorm(self.shapes.scene.sheet, self.mirrored)
+        return RigidNorm(gyration(self.shapes.discretisation), self.mirrored)
 
     @property
     def noise(self) -> float:
