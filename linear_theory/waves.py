@@ -13,7 +13,7 @@ a_r = delta_1r cos wt, b_s = delta_1s sin wt) belong to cos(2 pi y/L - wt), not 
 """
 
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -24,6 +24,20 @@ Array = NDArray[np.float64]
 
 
 EPS = float(np.finfo(float).eps)
+
+
+class Wave(Protocol):
+    """What a solution needs to know of c(x, y, t): its values, its rate and its period."""
+
+    @property
+    def period(self) -> float:
+        """Units of time."""
+
+    def value(self, x: ArrayLike, y: ArrayLike, t: ArrayLike, length: float = 1.0) -> Array:
+        """Growth c on a sheet of that length."""
+
+    def rate(self, x: ArrayLike, y: ArrayLike, t: ArrayLike, length: float = 1.0) -> Array:
+        """Its time derivative."""
 
 
 class TimeFactors(NamedTuple):
