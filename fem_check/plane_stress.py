@@ -20,11 +20,11 @@ from fem_check.plane_stress_solver import ELEMENTS, PlaneStressSolver
 from fem_check.triangles import TriangleFinder, quadrilateral_points
 from linear_theory import arguments, validation
 from linear_theory.field import LinearField, Wave
-from linear_theory.load_cases import LoadCases, load_cases, mixed_norms
+from linear_theory.load_cases import SAMPLES, LoadCases, load_cases, mixed_norms, phases
 from linear_theory.motion import CellGrid
 from linear_theory.sheet import Sheet
 from linear_theory.threads import one_blas_thread
-from linear_theory.waves import TravellingWave
+from linear_theory.wave_survey import POINTS, SEED, WaveSurvey, waves_along
 
 Array = NDArray[np.float64]
 
@@ -44,9 +44,6 @@ is of no account."""
 ROUGH_GAIN = 0.5
 """Takes the place of GAIN where growth is not resolved: two meshes then sample a front at places that
 have nothing to do with each other."""
-
-PHASES = np.arange(1, 17) * (np.sqrt(5) - 1) / 2 % 1
-"""Of the period, at which growth is judged: a front lies on the lines of a mesh at no two of them."""
 
 FLAT = 1e-6  # a sheet whose displacement is this small for a moment has no relative error then
 
@@ -101,8 +98,7 @@ def _sheet(outline: Sheet | Outline | MeshTri, poisson: float | None) -> Sheet:
 def _size(sheet: Sheet, wave: Wave, size: float | None) -> float:
     if size is not None:
         return validation.positive("size", size)
-    waves = int(wave.orders[-1]) if isinstance(wave, TravellingWave) else 1
-    return min(sheet.width, sheet.length / waves) / CELLS_PER_WIDTH
+    return min(sheet.width, sheet.length / waves_along(wave)) / CELLS_PER_WIDTH
 
 
 def _coarse_mesh(outline: Sheet | Outline | MeshTri, size: float) -> MeshTri:
@@ -194,6 +190,13 @@ class PlaneStressField(LinearField):
         return self._solver.x.ravel()[::every], self._solver.y.ravel()[::every]
 
     @cached_property
+    def survey(self) -> WaveSurvey:
+        """How the wave depends on time, at points of the body."""
+        some = np.random.default_rng(SEED).choice(self._solver.x.size, POINTS)
+        x, y = self._solver.x.ravel()[some], self._solver.y.ravel()[some]
+        return WaveSurvey(self.wave, self.sheet, x, y)
+
+    @cached_property
     @one_blas_thread
     def error(self) -> float:
         """Estimated relative L2 error of the displacement over the sheet at the worst phase."""
@@ -210,7 +213,7 @@ class PlaneStressField(LinearField):
 
     def _missed(self, solver: PlaneStressSolver) -> float:
         """Share of the growth that the triangles do not resolve, at the worst of some phases."""
-        times = self.wave.period * PHASES
+        times = phases(self.wave.period, SAMPLES)
         cases = self._cases.at(times)
         growths, amplitudes = cases.growths(solver.x, solver.y), cases.amplitudes(times)
         size = mixed_norms(growths * np.sqrt(solver.weights), amplitudes)

@@ -9,7 +9,7 @@ and solvers differ only in the basis and in how they find it. All quantities are
 
 import math
 from abc import ABC, abstractmethod
-from typing import Protocol
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -18,22 +18,10 @@ from linear_theory import hooke, validation
 from linear_theory.motion import CellGrid, Motion
 from linear_theory.sheet import Sheet
 from linear_theory.threads import one_blas_thread
+from linear_theory.wave_survey import WaveSurvey
+from linear_theory.waves import Wave as Wave
 
 Array = NDArray[np.float64]
-
-
-class Wave(Protocol):
-    """What a solution needs to know of c(x, y, t): its values, its rate and its period."""
-
-    @property
-    def period(self) -> float:
-        """Units of time."""
-
-    def value(self, x: ArrayLike, y: ArrayLike, t: ArrayLike, length: float = 1.0) -> Array:
-        """Growth c on a sheet of that length."""
-
-    def rate(self, x: ArrayLike, y: ArrayLike, t: ArrayLike, length: float = 1.0) -> Array:
-        """Its time derivative."""
 
 
 class LinearField(ABC):
@@ -91,6 +79,11 @@ class LinearField(ABC):
     @abstractmethod
     def _strains(self, x: Array, y: Array) -> Array:
         """Strain of each basis function, (basis functions, 3, *broadcast(x, y).shape)."""
+
+    @cached_property
+    def survey(self) -> WaveSurvey:
+        """How the wave depends on time."""
+        return WaveSurvey.on_sheet(self.wave, self.sheet)
 
     def _for_times(self, t: Array) -> "LinearField":
         """The field whose basis spans the motion at times t: itself, if its basis does so always."""

@@ -11,9 +11,9 @@ from linear_theory import validation
 Array = NDArray[np.float64]
 Growth = Callable[[Any, Any, Any], ArrayLike]
 
-STEP = 1 / 512
+STEP, HARMONIC = 1 / 512, 10
 """Step of the difference quotient in periods; the k-th harmonic in time is right to about
-(2 pi k STEP)**8 / 630 (4e-11 at k = 10), roundoff adds 1e-14 of the fundamental's rate."""
+(2 pi k STEP)**8 / 630 (4e-11 at k = HARMONIC), roundoff adds 1e-14 of the fundamental's rate."""
 
 DIFFERENCE = {1: 4 / 5, 2: -1 / 5, 3: 4 / 105, 4: -1 / 280}
 """Weights of (c(t + j h) - c(t - j h))/h in the central difference of eighth order."""
@@ -24,9 +24,11 @@ class FieldWave:
 
     value: takes arrays x, y (units of length) and t that broadcast, returns c, dimensionless, of
     their common shape (or one that broadcasts to it); period in units of time, c must repeat after
-    it. rate: dc/dt likewise; left out, it is a central difference of eighth order (see STEP). name:
-    what the functions are known by where a wave is to be known again, as in a snapshot of a run, and
-    their code does not tell (see `identity.content_key`); another function must have another name.
+    it. rate: dc/dt likewise; left out, it is a central difference of eighth order (see STEP), whose
+    step solvers make shorter for waves of high harmonics. They refuse a wave that does not repeat after
+    its period, and a rate that is not the derivative of value. name: what the functions are known by
+    where a wave is to be known again, as in a snapshot of a run, and their code does not tell (see
+    `identity.content_key`); another function must have another name.
 
     Raises ValueError for a period that is not finite and positive, a value or rate that cannot be
     called, a name that is no text, and, once they are called, for results that are not finite, real and
@@ -45,12 +47,26 @@ class FieldWave:
         self._value = _function("value", value)
         self._rate = None if rate is None else _function("rate", rate)
         self._period = validation.positive("period", period)
+        self._step = STEP
         self.name = None if name is None else validation.label("name", name)
 
     def identified_by(self) -> object:
         """What its content key is made of."""
         functions = (self._value, self._rate) if self.name is None else self.name
         return functions, self.period
+
+    @property
+    def differenced(self) -> bool:
+        """Whether the rate is a difference of values."""
+        return self._rate is None
+
+    def resolving(self, harmonic: float) -> "FieldWave":
+        """The same wave, its rate as accurate up to that harmonic in time as else up to HARMONIC."""
+        if not self.differenced or harmonic <= HARMONIC:
+            return self
+        finer = FieldWave(self._value, self._period, name=self.name)
+        finer._step = STEP * HARMONIC / harmonic
+        return finer
 
     @property
     def period(self) -> float:
@@ -66,7 +82,7 @@ class FieldWave:
         if self._rate is not None:
             return _evaluate("rate", self._rate, x, y, t)
         t = validation.real_array("t", t)
-        step = STEP * self.period
+        step = self._step * self.period
         total: Array = np.zeros(())
         for j, weight in DIFFERENCE.items():
             ahead = self.value(x, y, t + j * step)

@@ -6,6 +6,7 @@ Waves that travel along y have few growths that serve all times (`Harmonics`); f
 the growths are c and dc/dt themselves at the times that are asked for (`Snapshots`).
 """
 
+import math
 from typing import Protocol
 
 import numpy as np
@@ -42,11 +43,20 @@ class LoadCases(Protocol):
         """The cases that serve these times."""
 
 
+def phases(period: float, count: int) -> Array:
+    """Times in [0, period), ascending, (count,), at which errors are estimated: evenly spread, on no grid.
+
+    Multiples of the golden section: no harmonic has the same value at all of them, and a front that
+    travels lies on the lines of a mesh at no two.
+    """
+    return period * np.sort(np.arange(1, count + 1) * (math.sqrt(5) - 1) / 2 % 1)
+
+
 def load_cases(wave: Wave, length: float) -> LoadCases:
     """Those of a wave on a sheet of that length."""
     if isinstance(wave, TravellingWave):
         return Harmonics(wave, length)
-    return Snapshots(wave, length, np.linspace(0, wave.period, SAMPLES, endpoint=False))
+    return Snapshots(wave, length, phases(wave.period, SAMPLES))
 
 
 class Harmonics:
@@ -70,9 +80,9 @@ class Harmonics:
         return self._with_mean(np.cos(angle), np.sin(angle), 1.0)
 
     def samples(self) -> Array:
-        """Amplitudes at eight phases of the shortest wavelength or more, (cases, phases)."""
-        phases = max(SAMPLES, min(8 * len(self.wave.orders), 256))
-        return self.amplitudes(np.linspace(0, self.wave.period, phases, endpoint=False))
+        """Amplitudes at eight phases to the period of the highest harmonic, up to 256, (cases, phases)."""
+        count = max(SAMPLES, min(8 * len(self.wave.orders), 256))
+        return self.amplitudes(phases(self.wave.period, count))
 
     def at(self, t: Array) -> "Harmonics":
         """Itself: the cases serve all times."""

@@ -67,8 +67,12 @@ class CellGrid:
         return cls(tuple(x.tolist()), tuple(y.tolist()), half)
 
     @classmethod
-    def graded(cls, sheet: Sheet, waves: int, density: float, half: bool) -> "CellGrid":
-        """Cells for `waves` waves along the sheet: `density` to a wave, more in the edge layers.
+    def graded(
+        cls, sheet: Sheet, waves: int, density: float, half: bool, across: int = 1
+    ) -> "CellGrid":
+        """Cells for waves along and across the sheet: `density` to a wave, more in the edge layers.
+
+        Across, the first wave is left to the layers.
 
         Away from an edge the deformation follows the wave alone; next to it the scale is the shorter of
         the width and the wave. Layers double in thickness from there.
@@ -76,7 +80,8 @@ class CellGrid:
         layer = 2 / density * min(sheet.width, sheet.length / waves)
         rows = math.ceil(density * waves)
         y = _graded(sheet.length / 2, layer, sheet.length / rows)
-        x = _graded(sheet.width / 2, layer, sheet.width)
+        columns = math.ceil(density * across) if across > 1 else 1
+        x = _graded(sheet.width / 2, layer, sheet.width / columns)
         x = np.concatenate([[0.0], x[x > 1e-9 * sheet.width]]) if half else x
         return cls(tuple(x.tolist()), tuple(y.tolist()), half)
 

@@ -9,11 +9,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linear_theory.balance import Balance, RigidMotion
-from linear_theory.field import LinearField, Wave
+from linear_theory.course import Course, Known
+from linear_theory.field import LinearField
 from linear_theory.friction import FrictionLaw, check_load, load_rate
 from linear_theory.motion import CellGrid, Motion
 from linear_theory.rigid import RigidNorm
 from linear_theory.time_grid import TimeGrid, first_grid
+from linear_theory.wave_survey import WaveSurvey
 from linear_theory.waves import TravellingWave
 
 Array = NDArray[np.float64]
@@ -21,8 +23,6 @@ Array = NDArray[np.float64]
 _MOST_TIMES = 4096
 _MOST_WORK = 8_000_000  # numbers at all times together (see `Crawl.work`), some tens of seconds
 _LOT = 10_000  # points balanced together, which halving makes ten times as many: they fit in the cache
-_PROBES = 11  # points per direction, and times per half period, at which a wave is seen to change sign
-_FAINT = 0.1  # harmonics below this share of the largest are left to the check of the quadrature
 _STICKING = 0.01  # share of the sheet at rest that counts as sticking
 
 
@@ -87,25 +87,6 @@ def first_resolution(rtol: float) -> Resolution:
     return Resolution(4.0, order, max(math.ceil(5.3 * digits - 7), 2), 0.02 * rtol)
 
 
-def shortest_waves(wave: Wave) -> int:
-    """Number of the shortest waves on the sheet that matter in the velocity; 2 where it is unknown."""
-    if not isinstance(wave, TravellingWave):
-        return 2
-    rates = wave.harmonics * np.hypot(wave.cosine, wave.sine)
-    return int(wave.orders[rates >= _FAINT * rates.max()][-1])
-
-
-def changes_sign(field: LinearField) -> bool:
-    """Whether c(t + T/2) = -c(t); of a wave of any shape at points that cover the sheet and times."""
-    wave = field.wave
-    if isinstance(wave, TravellingWave):
-        return wave.is_half_period_antisymmetric
-    x, y = np.broadcast_arrays(*field.places(_PROBES))
-    t = np.arange(2 * _PROBES)[:, None] * (wave.period / (2 * _PROBES))
-    values = wave.value(x.ravel(), y.ravel(), t, field.sheet.length)
-    return bool(abs(values[:_PROBES] + values[_PROBES:]).max() <= 1e-12 * abs(values).max())
-
-
 @dataclass(frozen=True)
 class Crawl:
     """All that defines V(t), and how finely it is found."""
@@ -116,10 +97,20 @@ class Crawl:
     law: FrictionLaw
     resolution: Resolution
 
-    @cached_property
+    @property
+    def survey(self) -> WaveSurvey:
+        """What is known of the wave."""
+        return self.field.survey
+
+    @property
     def starts_at_second_order(self) -> bool:
         """Whether c(t + T/2) = -c(t), so that the leading q_0 has exactly no mean."""
-        return changes_sign(self.field)
+        return self.survey.changes_sign
+
+    @property
+    def counts_leading(self) -> bool:
+        """Whether q_0 is part of the counted motion."""
+        return not self.starts_at_second_order
 
     def balance(self, times: Array, known: "Known | None" = None) -> RigidMotion:
         """Rigid motion at the given times, in lots; known: times before and after to start from."""
@@ -148,6 +139,19 @@ class Crawl:
         """Whether these are few enough."""
         return self.work * times.size <= _MOST_WORK
 
+    def reaches(self, count: float) -> bool:
+        """Whether so many times may be used in the end."""
+        return count <= min(_MOST_TIMES, _MOST_WORK / self.work)
+
+    @property
+    def speed_per_rate(self) -> float:
+        """Largest counted V that dc/dt of root mean square 1 makes: half of the sheet grows in phase.
+
+        Where q_0 does not count, V is alpha c times smaller.
+        """
+        size = abs(self.alpha) * self.field.sheet.length / 2
+        return size if self.counts_leading else size * abs(self.alpha) * self.survey.size
+
     @property
     def norm(self) -> RigidNorm:
         """By which motions and their errors are judged."""
@@ -156,7 +160,7 @@ class Crawl:
     def counted(self, motion: RigidMotion) -> Array:
         """V_x, V_y, Omega at each time without what is known to have no mean, (3, times)."""
         second = self.alpha**2 * motion.remainder.T
-        return second if self.starts_at_second_order else self.alpha * motion.leading.T + second
+        return self.alpha * motion.leading.T + second if self.counts_leading else second
 
     def quadrature_errors(self, times: Array, motion: RigidMotion) -> tuple[Array, Array]:
         """Largest change of the counted motion (3,) and of q_0, q_1 (2, 3) by finer cells.
@@ -183,8 +187,8 @@ class Crawl:
 
     def _motion(self, times: Array) -> Motion:
         field, r = self.field, self.resolution
-        waves = shortest_waves(field.wave)
-        grid = CellGrid.graded(field.sheet, waves, r.density, field.mirrored)
+        across, along = self.survey.short_waves
+        grid = CellGrid.graded(field.sheet, along, r.density, field.mirrored, across)
         return field.motion(times, grid, r.order)
 
     def _balance(self, times: Array) -> Balance:
@@ -195,50 +199,28 @@ class Crawl:
         return Balance(motion, rate, self.alpha, law, r.halvings, r.tolerance)
 
 
-class Known(NamedTuple):
-    """The motion at some ascending times."""
-
-    times: Array
-    motion: RigidMotion
-
-    def between(self, times: Array) -> RigidMotion:
-        """Linear interpolation of q."""
-        leading, remainder = (
-            np.stack([np.interp(times, self.times, column) for column in q.T], axis=1)
-            for q in (self.motion.leading, self.motion.remainder)
-        )
-        return RigidMotion(leading, remainder, np.zeros(times.size), 0.0)
-
-
 def average(crawl: Crawl, rtol: float, atol: float) -> Period:
     """Rigid motion through a period at as many times and as finely as the tolerance needs.
 
-    What would be too much work is left out, which shows in the error.
+    What would be too much work is left out, which shows in the error. Raises ValueError for a wave that
+    does not repeat after its period, or whose rate is not its derivative.
     """
+    crawl.survey.check()
     grid = _first_grid(crawl)
     crawl, motion, (quadrature_error, quadrature_errors) = _with_fine_cells(
         crawl, grid.times, rtol, atol
     )
-    while True:
-        mean, time_error = grid.means(crawl.counted(motion))
-        speeds = crawl.norm.speeds(crawl.counted(motion))
-        tolerance = 0.5 * crawl.norm.tolerance(mean, rtol, atol)
-        finer, added = grid.refined(speeds, tolerance)
-        met = grid.error(speeds) <= tolerance
-        if met or grid.times.size > _MOST_TIMES or not crawl.affords(finer.times):
-            break
-        grid = finer
-        known = Known(grid.times[~added], motion)
-        motion = _joined(motion, crawl.balance(grid.times[added], known), added)
+    course = _with_enough_times(Course(crawl, grid, motion), rtol, atol)
+    grid, motion = course.grid, course.motion
+    means, errors = course.means()
     field_error = crawl.norm.each(crawl.field_error(motion))
-    means, errors = _means(crawl, grid, motion)
     times, orders = _whole_period(crawl, grid.times, np.stack([motion.leading.T, motion.remainder.T]))
     return Period(
         times=times,
         orders=orders,
         rigid=crawl.alpha * (orders[0] + crawl.alpha * orders[1]),
-        rigid_mean=mean,
-        rigid_error=time_error + quadrature_error + field_error + 1e-13 * abs(mean),
+        rigid_mean=course.mean,
+        rigid_error=course.error() + quadrature_error + field_error + 1e-13 * abs(course.mean),
         means=means,
         mean_errors=errors + quadrature_errors,
         fastest=abs(crawl.alpha) * motion.fastest,
@@ -246,13 +228,14 @@ def average(crawl: Crawl, rtol: float, atol: float) -> Period:
     )
 
 
-def _means(crawl: Crawl, grid: TimeGrid, motion: RigidMotion) -> tuple[Array, Array]:
-    """Of q_0 and q_1, (2, 3), and the errors of the quadrature in time; none where symmetry says 0."""
-    orders = np.stack([motion.leading.T, motion.remainder.T])
-    means, errors = np.stack([grid.means(order) for order in orders], axis=1)
-    if crawl.starts_at_second_order:
-        means[0] = errors[0] = 0.0
-    return means, errors
+def _with_enough_times(course: Course, rtol: float, atol: float) -> Course:
+    """More times until they meet their share of the tolerance, or would be too much work."""
+    crawl = course.crawl
+    while True:
+        course, finer = course.improved(0.5 * crawl.norm.tolerance(course.mean, rtol, atol))
+        if finer is None or course.grid.times.size > _MOST_TIMES or not crawl.affords(finer.times):
+            return course.checked()
+        course = course.on(finer)
 
 
 def _with_fine_cells(
@@ -277,17 +260,6 @@ def _first_grid(crawl: Crawl) -> TimeGrid:
     if reversal is None:
         return first_grid(0.0, period, 5)
     return first_grid(reversal / 2, reversal / 2 + period / 2, 3)
-
-
-def _joined(motion: RigidMotion, more: RigidMotion, added: NDArray[np.bool_]) -> RigidMotion:
-    """Both, `more` at the places `added`."""
-    order = np.empty(added.size, int)
-    order[~added] = np.arange(len(motion.rest))
-    order[added] = len(motion.rest) + np.arange(len(more.rest))
-    leading, remainder, rest = (
-        np.concatenate([a, b])[order] for a, b in zip(motion[:3], more[:3], strict=True)
-    )
-    return RigidMotion(leading, remainder, rest, max(motion.fastest, more.fastest))
 
 
 def _whole_period(crawl: Crawl, times: Array, values: Array) -> tuple[Array, Array]:

@@ -42,6 +42,7 @@ from linear_theory.ritz.solver import RitzSolver, matrix_size
 from linear_theory.second_source import AREAS, GROWTH_LAWS, Source
 from linear_theory.second_times import AtTimes, second_times
 from linear_theory.sheet import Sheet
+from linear_theory.wave_survey import WaveSurvey
 
 Array = NDArray[np.float64]
 
@@ -59,6 +60,7 @@ def second_order_field(
     degree that does not fit in memory.
     """
     start, rtol = time.perf_counter(), validation.tolerance(rtol)
+    wave = WaveSurvey.on_sheet(wave, sheet).fine_wave
     # u_2 has waves half as long
     degree = ritz_error.first_degrees(sheet, 2 * shortest_order(wave), rtol)
     best = None

@@ -33,7 +33,7 @@ from linear_theory import arguments, validation
 from linear_theory.balance import RigidMotion
 from linear_theory.field import Wave
 from linear_theory.friction import LOADS, FrictionLaw
-from linear_theory.period import Crawl, Period, average, changes_sign, first_resolution
+from linear_theory.period import Crawl, Period, average, first_resolution
 from linear_theory.reach import growths, judged, too_large_growth, too_large_term
 from linear_theory.rigid import RigidNorm
 from linear_theory.second_field import AREAS, GROWTH_LAWS, SecondOrderField, second_order_field
@@ -122,9 +122,10 @@ class _Coefficients(Crawl):
 
     field: SecondOrderField
 
-    def counted(self, motion: RigidMotion) -> Array:
-        """alpha^2 q_1, (3, times)."""
-        return np.asarray(self.alpha**2 * motion.remainder.T)
+    @property
+    def counts_leading(self) -> bool:
+        """Never."""
+        return False
 
     def field_error(self, motion: RigidMotion) -> float:
         """What the errors of u_1 and u_2 do to V_2."""
@@ -225,7 +226,7 @@ def field_errors(field: SecondOrderField, period: Period) -> Array:
     Nothing where symmetry makes them 0.
     """
     fastest = period.fastest / TINY_ALPHA
-    first = 0.0 if changes_sign(field) else FIRST_SHARE * field.error * fastest
+    first = 0.0 if field.survey.changes_sign else FIRST_SHARE * field.error * fastest
     norm = RigidNorm(field.gyration, field.mirrored)
     return np.stack([norm.each(first), norm.each(_second_field_error(field, fastest))])
 

@@ -21,6 +21,11 @@ class TimeGrid(NamedTuple):
         """Length of each panel."""
         return self.times[4::4] - self.times[:-4:4]
 
+    @property
+    def longest_step(self) -> float:
+        """Longest time between neighbours."""
+        return float(self.lengths.max()) / 4
+
     def mean(self, values: Array) -> tuple[float, float]:
         """Mean of values (times,) by Boole's rule, and its estimated error.
 
@@ -47,7 +52,24 @@ class TimeGrid(NamedTuple):
         values: (times,), or (n, times) for the error of all n together.
         """
         errors = self._joint_errors(np.atleast_2d(values))
-        cut = errors > min(tolerance / errors.size, errors.max() / 2)
+        return self._cut(errors > min(tolerance / errors.size, errors.max() / 2))
+
+    def with_steps(self, longest: float) -> "TimeGrid":
+        """The grid with panels cut in two until no step is longer."""
+        grid = self
+        while grid.longest_step > longest * (1 + 1e-9):
+            grid, _ = grid._cut(grid.lengths / 4 > longest * (1 + 1e-9))
+        return grid
+
+    def interpolated(self, values: Array, times: Array) -> Array:
+        """Of values (..., grid times) at other times (n,): the polynomials whose mean `mean` is."""
+        panel = np.clip(np.searchsorted(self.times[::4], times, "right") - 1, 0, self.lengths.size - 1)
+        local = (times - self.times[4 * panel]) / (self.lengths[panel] / 4)
+        nodes = np.arange(5)
+        weights = [np.prod([(local - j) / (i - j) for j in nodes if j != i], axis=0) for i in nodes]
+        return np.asarray((values[..., 4 * panel + nodes[:, None]] * weights).sum(-2))
+
+    def _cut(self, cut: NDArray[np.bool_]) -> tuple["TimeGrid", NDArray[np.bool_]]:
         panels = _panels(self.times)
         middles = (panels[:, 1:] + panels[:, :-1]) / 2
         times = np.concatenate([self.times, middles[cut].ravel()])

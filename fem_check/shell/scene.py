@@ -31,7 +31,7 @@ from fem_check.shell.shape_functions import is_global
 from linear_theory import arguments, validation
 from linear_theory.field import Wave
 from linear_theory.sheet import Sheet
-from linear_theory.waves import TravellingWave
+from linear_theory.wave_survey import waves_along
 
 Array = NDArray[np.float64]
 
@@ -245,9 +245,8 @@ def needs_space(effect: Effect) -> bool:
 def default_cells(sheet: Sheet, wave: Wave, planar: bool) -> tuple[int, int]:
     """Elements across and along: about square, and several to a wavelength."""
     across = PLANAR_CELLS if planar else SHELL_CELLS
-    waves = int(wave.orders[-1]) if isinstance(wave, TravellingWave) else 1
     per_wave = 2 * across
-    along = max(round(across * sheet.length / sheet.width), per_wave * waves)
+    along = max(round(across * sheet.length / sheet.width), per_wave * waves_along(wave))
     return across, along
 
 

@@ -16,6 +16,7 @@ from linear_theory.airy.error import missing_mean_square
 from linear_theory.airy.system import Family, Pair
 from linear_theory.errors import NotConvergedError
 from linear_theory.field import LinearField, combine
+from linear_theory.load_cases import phases
 from linear_theory.sheet import Sheet
 from linear_theory.threads import one_blas_thread
 from linear_theory.waves import TravellingWave
@@ -222,8 +223,7 @@ class AirySeries(LinearField):
         """Factors of the cosines and of the sines at phases among which the worst will be."""
         count = self.wave.harmonics.size
         if count > 1 or self.wave.mean:
-            t = np.linspace(0, self.wave.period, min(16 * count, 128), endpoint=False)
-            return self.wave.factors(t)
+            return self.wave.factors(phases(self.wave.period, min(16 * count, 128)))
         # one harmonic: the error relative to u is largest where one of the two cases is alone
         return np.array([[1.0, 0.0]]), np.array([[0.0, 1.0]])
 

@@ -25,6 +25,7 @@ from linear_theory.ritz import legendre
 from linear_theory.ritz.solver import RitzSolver, matrix_size
 from linear_theory.sheet import Sheet
 from linear_theory.threads import one_blas_thread
+from linear_theory.wave_survey import WaveSurvey
 from linear_theory.waves import TravellingWave
 
 Array = NDArray[np.float64]
@@ -60,6 +61,7 @@ def ritz_field(
         return _with_enough_degrees(sheet, wave, rtol)
     if rtol is not None:
         raise ValueError(f"degree = {degree}, rtol = {rtol}: must be one of the two, not both")
+    wave = WaveSurvey.on_sheet(wave, sheet).fine_wave
     return RitzField(wave, RitzSolver(sheet, _checked_degree(degree)))
 
 
@@ -76,6 +78,7 @@ def _checked_degree(degree: int | Pair) -> Pair:
 def _with_enough_degrees(sheet: Sheet, wave: Wave, rtol: float) -> "RitzField":
     """Raise the degrees until the error estimate meets rtol."""
     start, best = time.perf_counter(), None
+    wave = WaveSurvey.on_sheet(wave, sheet).fine_wave
     degree = ritz_error.first_degrees(sheet, shortest_order(wave), rtol)
     while True:
         if matrix_size(degree) > MOST_NUMBERS:
