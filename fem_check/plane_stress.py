@@ -23,7 +23,7 @@ from linear_theory.field import LinearField, Wave
 from linear_theory.load_cases import SAMPLES, LoadCases, load_cases, mixed_norms, phases
 from linear_theory.motion import CellGrid
 from linear_theory.sheet import Sheet
-from linear_theory.wave_survey import POINTS, SEED, WaveSurvey, waves_along
+from linear_theory.wave_survey import WaveSurvey, waves_along
 
 Array = NDArray[np.float64]
 
@@ -173,9 +173,7 @@ class PlaneStressField(LinearField):
     @cached_property
     def survey(self) -> WaveSurvey:
         """How the wave depends on time, at points of the body."""
-        some = np.random.default_rng(SEED).choice(self._solver.x.size, POINTS)
-        x, y = self._solver.x.ravel()[some], self._solver.y.ravel()[some]
-        return WaveSurvey(self.wave, self.sheet, x, y)
+        return WaveSurvey.at_some(self.wave, self.sheet, self._solver.x, self._solver.y)
 
     @cached_property
     def error(self) -> float:

@@ -33,6 +33,7 @@ from linear_theory import validation
 from linear_theory.balance import RigidMotion
 from linear_theory.field import Wave
 from linear_theory.friction import LOADS, FrictionLaw
+from linear_theory.load_cases import phases
 from linear_theory.period import Crawl, Period, average, first_resolution
 from linear_theory.rigid import RigidNorm
 from linear_theory.second_field import AREAS, GROWTH_LAWS, SecondOrderField, second_order_field
@@ -311,7 +312,7 @@ def _growths(wave: Wave, sheet: Sheet) -> Array:
     if isinstance(wave, TravellingWave):
         return wave.profile(np.linspace(0, 2 * np.pi, PHASES * wave.cosine.size))
     x, y = (s * np.linspace(-0.5, 0.5, POINTS) for s in (sheet.width, sheet.length))
-    times = np.linspace(0, wave.period, TIMES, endpoint=False)
+    times = phases(wave.period, TIMES)
     return wave.value(x[:, None], y, times[:, None, None], sheet.length)
 
 

@@ -80,8 +80,11 @@ def simulate(
     error of the mesh from a second run on a coarser one. progress: True prints, a function is called
     after each step.
 
+    Steps are short enough to see the harmonics in time of the wave that matter; many where they are high.
+
     A scene without Friction and Inertia has no motion in time; use `cycle_speed.cycle_speed`.
-    Raises ValueError for such scenes and for values out of range, SnapshotError for a snapshot that is
+    Raises ValueError for such scenes, for values out of range, `steps` too few to see the wave, and a
+    wave that does not repeat after its period, SnapshotError for a snapshot that is
     damaged or of another scene or run, ConvergenceError (with the last state and its time as
     `parameter`) where steps become too small. Warns (ViscousRegimeWarning) where Friction, regularised
     dry friction, acts as viscous: see `CrawlSpeed.regime`.
@@ -137,7 +140,8 @@ class Run:
         self.keep_every = validation.integer("keep_every", keep_every, 1)
         self.scene, self.rtol, period = scene, rtol, scene.period
         self.settings = (periods, rtol, steps, ramp, repr(velocity), snapshot_every, keep_every)
-        self.size = step_size(period, rtol, steps)
+        scene.survey.check_period()
+        self.size = step_size(period, rtol, steps, scene.survey.rates)
         self.size.scale = abs(scene.alpha) * scene.sheet.length / period
         self.start = ramp * period
         self.stepper = Stepper(scene, self.start, self.size.dt)
