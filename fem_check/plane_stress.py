@@ -24,7 +24,7 @@ from linear_theory.load_cases import SAMPLES, LoadCases, load_cases, mixed_norms
 from linear_theory.motion import CellGrid
 from linear_theory.sheet import Sheet
 from linear_theory.threads import one_blas_thread
-from linear_theory.wave_survey import POINTS, SEED, WaveSurvey, waves_along
+from linear_theory.wave_survey import WaveSurvey, waves_along
 
 Array = NDArray[np.float64]
 
@@ -192,9 +192,7 @@ class PlaneStressField(LinearField):
     @cached_property
     def survey(self) -> WaveSurvey:
         """How the wave depends on time, at points of the body."""
-        some = np.random.default_rng(SEED).choice(self._solver.x.size, POINTS)
-        x, y = self._solver.x.ravel()[some], self._solver.y.ravel()[some]
-        return WaveSurvey(self.wave, self.sheet, x, y)
+        return WaveSurvey.at_some(self.wave, self.sheet, self._solver.x, self._solver.y)
 
     @cached_property
     @one_blas_thread

@@ -22,6 +22,7 @@ from numpy.typing import NDArray
 
 from linear_theory.errors import BeyondReachWarning
 from linear_theory.field import Wave
+from linear_theory.load_cases import phases
 from linear_theory.speed import CrawlSpeed
 from linear_theory.waves import TravellingWave
 
@@ -44,7 +45,7 @@ def growths(wave: Wave, x: Array, y: Array, length: float) -> Array:
         spectrum = np.concatenate([[2 * wave.mean], wave.cosine - 1j * wave.sine]) * (count / 2)
         return np.fft.irfft(spectrum, count)
     some = slice(None, None, math.ceil(x.size / POINTS))
-    times = np.linspace(0, wave.period, TIMES, endpoint=False)
+    times = phases(wave.period, TIMES)
     return wave.value(x.ravel()[some], y.ravel()[some], times[:, None], length)
 
 

@@ -43,8 +43,9 @@ FINE_SHARES = 1e-6, 1e-4
 """Of dc/dt, that may lie in harmonics for which a rate by differences is not made fine enough: the first
 where it is known; a wave with kinks has neither."""
 
-PER_HARMONIC = 3
-"""Times to a period of a harmonic with which it is seen: two can all fall on its zeros."""
+PER_HARMONIC = 5
+"""Times to a period of a harmonic with which it is seen: two, and every second of four, can all fall on
+its zeros."""
 
 FAINT, FEW = 0.1, 0.01
 """Shares of a wave that may be shorter than `short_waves`, since cells have several points, and than
@@ -81,12 +82,19 @@ class WaveSurvey:
         y = np.random.default_rng(SEED).uniform(-0.5, 0.5, POINTS)
         return cls(wave, Sheet(length), 0 * y, length * y)
 
+    @classmethod
+    def at_some(cls, wave: Wave, sheet: Sheet, x: Array, y: Array) -> "WaveSurvey":
+        """At a random choice of points (n,) of a body of any outline."""
+        some = np.random.default_rng(SEED).choice(x.size, POINTS)
+        return cls(wave, sheet, x.ravel()[some], y.ravel()[some])
+
     def check(self) -> None:
         """Raise ValueError where c does not repeat after its period or `rate` is not its derivative."""
-        if isinstance(self.wave, TravellingWave):
-            return
-        self._check_period()
-        if not (isinstance(self.wave, FieldWave) and self.wave.differenced):
+        self.check_period()
+        known = TravellingWave, FieldWave
+        if not isinstance(self.wave, known) or (
+            isinstance(self.wave, FieldWave) and not self.wave.differenced
+        ):
             self._check_rate()
 
     @cached_property
@@ -157,13 +165,21 @@ class WaveSurvey:
         across, along = (_waves(spectrum.highest(FAINT)) for spectrum in (self.across, self.along))
         return max(across, 1), max(along, 2)
 
+    def speed_per_rate(self, alpha: float, leading: bool) -> float:
+        """Largest V that dc/dt of root mean square 1 makes: half of the sheet grows in phase.
+
+        leading: whether terms of order alpha have a mean; else V is alpha c times smaller.
+        """
+        size = abs(alpha) * self.sheet.length / 2
+        return size if leading else size * abs(alpha) * self.size
+
     def times_for(self, rate: float) -> float:
         """Equidistant times per period from which no more than that part of dc/dt hides; may be inf."""
         return PER_HARMONIC * self.rates.needed(rate)
 
-    def hidden(self, step: float) -> float:
-        """Root mean square of dc/dt in harmonics too high for steps of that length."""
-        return self.rates.beyond(self.wave.period / step / PER_HARMONIC * (1 + 1e-9))
+    def hidden(self, step: float, steps: int = PER_HARMONIC) -> float:
+        """Root mean square of dc/dt in harmonics to a period of which there are fewer such steps."""
+        return self.rates.beyond(self.wave.period / step / steps * (1 + 1e-9))
 
     @cached_property
     def _times(self) -> Array:
@@ -186,7 +202,10 @@ class WaveSurvey:
         shape = np.broadcast_shapes(np.shape(x), np.shape(y), np.shape(t))
         return np.broadcast_to(np.asarray(self.wave.value(x, y, t, self.sheet.length)), shape)
 
-    def _check_period(self) -> None:
+    def check_period(self) -> None:
+        """Raise ValueError where c does not repeat after its period."""
+        if isinstance(self.wave, TravellingWave):
+            return
         period, size = self.wave.period, abs(self._seen).max()
         apart = abs(self._at(self._times + period) - self._seen)
         i, j = np.unravel_index(apart.argmax(), apart.shape)

@@ -83,7 +83,8 @@ class Run:
     @one_blas_thread
     def __init__(self, scene: Scene, settings: Settings) -> None:
         self.scene, self.settings, period = scene, settings, scene.period
-        self.size = step_size(period, settings.rtol, settings.steps)
+        scene.survey.check_period()
+        self.size = step_size(period, settings.rtol, settings.steps, scene.survey.rates)
         self.size.scale = abs(scene.alpha) * scene.sheet.length / period
         self.start = settings.ramp * period
         self.stepper = Stepper(scene, self.start, self.size.dt)
