@@ -74,7 +74,7 @@ def line_balance(
         slip_ratio=law.slip_ratio(answer.fastest),
         first_order=answer.first,
         second_order=answer.second,
-        sticks=answer.sticks,
+        sticks=answer.sticks and answer.fastest > 0,
         seconds=time.perf_counter() - start,
         model=_words(law, growth, body),
     )

@@ -121,7 +121,7 @@ class Cycle:
             velocity=rigid[1],
             seconds=time.perf_counter() - start,
             model=_words(scene, load, law),
-            slip_ratio=law.slip_ratio(period.fastest),
+            slip_ratio=law.slip_ratio(period.fastest if period.fastest > balance.noise else 0.0),
             first_order=0.0 if _starts_at_second_order(scene) else math.nan,
             sticks=period.sticks,
             rigid=None if balance.mirrored else rigid,
