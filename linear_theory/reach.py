@@ -59,7 +59,7 @@ def too_large_growth(wave: Wave, alpha: float, x: Array, y: Array, length: float
 
 def too_large_term(second: float, fastest: float) -> str:
     """What is beyond reach in a term V_2 alpha^2, in words; fastest: largest speed of the points."""
-    if not abs(second) > fastest:  # NaN is no number anyway
+    if fastest == 0 or not abs(second) > fastest:  # at rest there is roundoff; NaN is no answer anyway
         return ""
     return (
         f"V_2 alpha^2 = {second:.3g} is above {fastest:.3g}, the largest speed of the points of the "

@@ -60,7 +60,8 @@ def _plain(name: str, value: Any) -> NDArray[Any]:
     value = _without_wrapping(name, value)
     try:
         array = np.asarray(value)
-        if array.dtype == object and hasattr(value, "to_numpy"):  # pandas, with missing values
+        words = any(isinstance(part, str) for part in array.flat) if array.dtype == object else True
+        if not words and hasattr(value, "to_numpy"):  # a column of pandas that can miss values
             array = np.asarray(value.to_numpy(dtype=float))
     except (ValueError, TypeError) as error:
         raise ValueError(f"{name} = {shown(value)}: must be real numbers ({error})") from None
