@@ -15,6 +15,8 @@ from scipy.sparse.linalg import splu
 from skfem import Basis, BilinearForm, ElementTriP2, ElementTriP4, ElementVector, LinearForm, MeshTri
 from skfem.helpers import ddot, div, eye, sym_grad, trace
 
+from linear_theory.units import power_of_two
+
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
 
@@ -132,12 +134,13 @@ class PlaneStressSolver:
         component = np.zeros(basis.N, np.int64)
         for dofs in (basis.nodal_dofs, basis.facet_dofs, basis.interior_dofs):
             component[dofs[1::2]] = 1
-        x, y = basis.doflocs
+        size = power_of_two(float(abs(basis.doflocs).max()))  # a rotation is compared with shifts
+        x, y = basis.doflocs / size
         modes = np.stack([component == 0, component == 1, np.where(component == 0, -y, x)])
         means = [
             shift.assemble(basis, along=0),
             shift.assemble(basis, along=1),
-            rotation.assemble(basis),
+            size * rotation.assemble(basis),
         ]
         return modes.astype(float), np.stack(means)
 

@@ -433,7 +433,10 @@ BAD = [
         lambda: line_balance(Anonymous(SineWave()), 0.6, growth_law="metric", length=1),
         r"0\.6: .*at S = .* < 0\.5",
     ),
-    (lambda: line_balance(Anonymous(SineWave()), -120, growth_law="exp", length=1), r"120: .*at S = .* > -100"),
+    (
+        lambda: line_balance(Anonymous(SineWave()), -120, growth_law="exp", length=1),
+        r"120: .*at S = .* > -100",
+    ),
     (lambda: line_balance(SineWave(), 0.1, growth_law="cubic"), "growth_law = 'cubic': .*'metric'"),
     (lambda: line_balance(SineWave(), 0.1, body="sheet"), "body = 'sheet': .*'line', 'strip'"),
     (lambda: line_cycle_speed(0.5, "metric"), r"alpha = 0\.5: must be in \(-0\.5, 0\.5\)"),

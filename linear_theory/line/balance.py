@@ -47,7 +47,7 @@ def line_balance(
     Returns a `CrawlSpeed`, whose first_order and second_order are the limits of small alpha: for dry
     friction on a travelling wave (median c - mean c) L/(nT) and [p E|c - median|/(2 f) +
     s_2 (median^2 - E c^2)] L/(nT), f the density of c at its median, p and s_2 those of the body and
-    the growth law (see `travelling`); for tanh at a fixed slip speed they are those of viscous friction.
+    the growth law (see `travelling`); for tanh at a fixed slip speed those of viscous friction.
     Raises ValueError, naming the place, where no length would be left (1 + alpha c <= 0, 1 + 2 alpha c
     <= 0) or |alpha c| >= 100 for "exp", and for other bad arguments. Warns (ViscousRegimeWarning)
     where friction = "tanh" acts as viscous: see `CrawlSpeed.regime`.
