@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from fem_check.shell import mesh_checks
 from fem_check.shell.region import Region
-from fem_check.shell.shape_functions import edge_frame, is_global
+from fem_check.shell.shape_functions import derivatives, edge_frame
 from fem_check.shell.surface import Flat, Surface
 from linear_theory import validation
 from linear_theory.units import power_of_two
@@ -92,12 +92,10 @@ class Discretisation:
         Comparisons between degrees of freedom need them, else they depend on the unit of length.
         """
         size = power_of_two(float(np.ptp(self.mesh.p, axis=1).max()))
-        dofs, names = self._dofs, self.element.dofnames
-        rows = [*dofs.nodal_dofs, *dofs.facet_dofs, *dofs.interior_dofs]
+        rows = [*self._dofs.nodal_dofs, *self._dofs.facet_dofs, *self._dofs.interior_dofs]
         units = np.ones(self.scalars)
-        for name, row in zip(names, rows, strict=True):
-            derivative = name.removeprefix("u").removeprefix("_") if is_global(self.element) else ""
-            units[row] = size ** -len(derivative)
+        for order, row in zip(derivatives(self.element), rows, strict=True):
+            units[row] = size**-order
         return units
 
     def zeros(self) -> Array:
