@@ -97,15 +97,27 @@ class Minimiser:
         values = self.sparsity.assemble(potential.hessian_blocks(u))
         if not np.all(np.isfinite(values)):
             raise ConvergenceError("the Hessian is not finite", u)
-        diagonal = np.abs(values[self.sparsity.diagonal])
-        scale = np.maximum(diagonal, 1e-12 * diagonal.max())
         factor, used = factorise(self.sparsity, values), 0.0
         while factor is None:
             used = max(FIRST_SHIFT, shift / 10) if used == 0 else 10 * used
-            shifted = values.copy()
-            shifted[self.sparsity.diagonal] += used * scale
-            factor = factorise(self.sparsity, shifted)
-        return Factorised(values, scale, used, factor)
+            factor = factorise(self.sparsity, self._shifted(values, used))
+        return Factorised(values, self._scale(values), used, factor)
+
+    def factorised_again(self, values: Array, shift: float) -> "Factorised":
+        """Bit for bit the factor that had these entries and this shift."""
+        factor = factorise(self.sparsity, values if shift == 0 else self._shifted(values, shift))
+        assert factor is not None
+        return Factorised(values, self._scale(values), shift, factor)
+
+    def _scale(self, values: Array) -> Array:
+        """What shifts of the diagonal are multiples of, (n,)."""
+        diagonal = np.abs(values[self.sparsity.diagonal])
+        return np.asarray(np.maximum(diagonal, 1e-12 * diagonal.max()))
+
+    def _shifted(self, values: Array, shift: float) -> Array:
+        shifted = values.copy()
+        shifted[self.sparsity.diagonal] += shift * self._scale(values)
+        return shifted
 
 
 @dataclass(frozen=True, eq=False)

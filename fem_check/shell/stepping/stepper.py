@@ -112,10 +112,6 @@ class Stepper:
         """Rest state at time t, counted from the start of the ramp."""
         return self.scene.rest(t, self.amplitude(t))
 
-    def forget(self) -> None:
-        """Drop the kept factor, as at every snapshot, so that a resumed run does the same."""
-        self.minimiser.kept = None
-
     def attempt(
         self, history: History, dt: float, patience: int = 1, check: bool = False
     ) -> StepResult:
