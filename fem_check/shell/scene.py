@@ -80,7 +80,8 @@ class Scene:
     element: Any = None
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "effects", tuple(self.effects))
+        placed = (e.under(self.sheet) if isinstance(e, Ground) else e for e in self.effects)
+        object.__setattr__(self, "effects", tuple(placed))
         for name in ("alpha", "curvature_coupling"):
             object.__setattr__(self, name, validation.real(name, getattr(self, name)))
         validation.choice("growth_law", self.growth_law, GROWTH_LAWS)

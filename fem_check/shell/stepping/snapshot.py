@@ -15,6 +15,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from fem_check.shell.effects.ground import Ground
 from fem_check.shell.scene import Scene
 from fem_check.shell.stepping.settings import Settings
 from linear_theory.errors import Unidentifiable
@@ -125,13 +126,15 @@ def checksum(arrays: dict[str, Array], owner: str) -> str:
 def fingerprint(scene: Scene, settings: Settings) -> str:
     """All that determines a run, as JSON: the key of the content of each part by its name.
 
-    Values of the wave belong to it too: a name that stands for another function shall not pass.
+    Values of the functions belong to it too: a name that stands for another one shall not pass.
     Raises Unidentifiable for a function without content or name.
     """
     discretisation = scene.discretisation()
     mesh = discretisation.mesh
     x, y = discretisation.interior.parameters.reshape(2, -1)
     values = [scene.growth(phase * scene.period, x, y) for phase in _PHASES]
+    ground: Ground | None = scene.find(Ground)
+    hill = None if ground is None else ground.height
     parts = {
         **{f.name: getattr(scene, f.name) for f in fields(scene) if f.name != "cells"},
         **{f.name: getattr(settings, f.name) for f in fields(settings)},
@@ -139,6 +142,7 @@ def fingerprint(scene: Scene, settings: Settings) -> str:
         # An element object fills up with tables; its functions are what tells it apart.
         "element": (type(discretisation.element), discretisation.interior.shapes((0,))[0]),
         "values of the wave": values,
+        "values of the ground": None if hill is None else hill.values(x, y),
     }
     return json.dumps({name: content_key(part, name) for name, part in parts.items()}, sort_keys=True)
 
