@@ -84,6 +84,8 @@ def simulate(
         run.finish(target, (_printed if progress is True else progress) or None)
         difference = _mesh_error(run) if mesh_error else np.nan
     except KeyboardInterrupt:
+        if progress is True:
+            print(file=sys.stderr)
         # Not a class of its own, for which Python would not end as a process ends that was interrupted;
         # from None, since where in a step it struck tells the user nothing.
         raise KeyboardInterrupt(_interrupted(run, target)) from None

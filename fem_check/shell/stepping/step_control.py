@@ -14,6 +14,9 @@ Array = NDArray[np.float64]
 GROWTH = 1.6
 """Largest ratio of neighbouring steps; the two-step rule is stable up to 1 + sqrt 2."""
 
+LANDED = 1e-9
+"""Share of the period within which two times are one: ends of steps, of periods and those asked for."""
+
 SAFETY = 0.9
 
 DEADBAND = 1.15
