@@ -5,8 +5,8 @@ With velocities per unit alpha, v = alpha v^, V = alpha q, and the load 1 + alph
     integral (1 + alpha e) f(|w|) w/|w| . R_j dA = 0,      w = v^ + sum_j q_j R_j,
 
 R_j the rigid velocities: (0, 1) for motions that are mirror symmetric in x, else (1, 0), (0, 1) and
-the rotation (-y, x) (x, y from the centre
-of mass). It is where the convex function int (1 + alpha e) F(|w|) dA, F' = f, is least.
+the rotation (-y, x), x and y counted from the centre of mass. It is where the convex function
+int (1 + alpha e) F(|w|) dA, F' = f, is least.
 
 For small alpha the mean of q is much smaller than q(t). Hence q = q_0 + alpha q_1: q_0 balances the
 load 1, and q_1 solves what is left, divided by alpha, with the difference quotient of f w/|w| written
