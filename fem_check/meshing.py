@@ -69,7 +69,7 @@ def _netgen() -> tuple[Any, Any]:
     except ImportError as error:
         raise RuntimeError(
             "outlines other than convex quadrilaterals are meshed by Netgen, which cannot be loaded "
-            f"({error}): pip install netgen-mesher, or make a mesh elsewhere and give it as skfem.MeshTri"
+            f"({error}): pip install netgen-mesher, or give a mesh made elsewhere, as skfem.MeshTri"
         ) from None
     return SplineGeometry, NgException
 

@@ -114,7 +114,7 @@ class Outline:
         return len(self.corners) == 4 and not self.holes and self.largest_angle <= np.pi
 
     def _check_count(self, size: float) -> None:
-        """Raise ValueError unless a/size^2 + b/size + c, the most triangles there can be, is bearable."""
+        """Raise ValueError unless a/size^2 + b/size + c, the most triangles possible, is bearable."""
         a, b, c = self._count()
         if c >= MOST_TRIANGLES:
             most = MOST_TRIANGLES // TRIANGLES_PER_SIDE
@@ -141,7 +141,7 @@ class Outline:
             x, y = self.corners[0] + shapely.minimum_clearance_line(polygon).coords[0]
             raise ValueError(
                 f"corners, holes: {clearance:.3g} apart at x = {x:.6g}, y = {y:.6g}; must be >= "
-                f"{least:.3g} ({NARROWEST:g} of the extent) to be meshed: leave out corners that are that "
+                f"{least:.3g} ({NARROWEST:g} of the extent) to be meshed: leave out corners that "
                 "close, blunt needles and fill clefts"
             )
 
