@@ -13,6 +13,7 @@ import numpy as np
 import skfem
 from numpy.typing import ArrayLike, NDArray
 
+from fem_check.mesh_checks import check_fits, check_mesh
 from fem_check.shell.discretisation import Discretisation
 from fem_check.shell.effects.effect import Effect
 from fem_check.shell.effects.friction import Friction, load_bearer
@@ -88,6 +89,9 @@ class Scene:
         validation.choice("area", self.area, MEASURES)
         metric_factor(self.growth_law, self.alpha, self._extremes())
         self._check_cells()
+        if self.mesh is not None:
+            check_mesh(self.mesh)
+            check_fits(self.mesh, self.sheet)
         check_effects(self.effects, self.components, self.sheet)
 
     @property
