@@ -8,7 +8,8 @@ import numpy as np
 import skfem
 from numpy.typing import ArrayLike, NDArray
 
-from fem_check.shell import mesh_checks
+from fem_check.mesh_checks import check_mesh
+from fem_check.shell import elements
 from fem_check.shell.region import Region
 from fem_check.shell.shape_functions import derivatives, edge_frame
 from fem_check.shell.surface import Flat, Surface
@@ -34,7 +35,8 @@ class Discretisation:
     degree: of the polynomials that quadrature integrates exactly.
 
     Unknowns u are displacements in space, (size,): the components of a scalar degree of freedom are
-    neighbours. Raises ValueError for meshes with inverted elements and elements that do not fit.
+    neighbours. Raises ValueError for meshes that are not one sheet (see `mesh_checks`) and for
+    elements that do not fit.
     """
 
     def __init__(
@@ -45,8 +47,9 @@ class Discretisation:
         components: int = 3,
         degree: int | None = None,
     ) -> None:
-        mesh_checks.check_element(mesh, element)
-        mesh_checks.check_mesh(mesh, element)
+        check_mesh(mesh)
+        elements.check_element(mesh, element)
+        elements.check_rectangles(mesh, element)
         if components not in (2, 3):
             raise ValueError(f"components = {components!r}: must be 2 (planar) or 3")
         self.mesh, self.element = mesh, element

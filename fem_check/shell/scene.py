@@ -14,6 +14,7 @@ import numpy as np
 import skfem
 from numpy.typing import ArrayLike, NDArray
 
+from fem_check.mesh_checks import check_fits, check_mesh
 from fem_check.shell.discretisation import Discretisation
 from fem_check.shell.effects.effect import Effect
 from fem_check.shell.effects.friction import Friction, load_bearer
@@ -204,7 +205,8 @@ class Scene:
         """And make them two plain integers."""
         if self.mesh is not None:
             hint = "outline.mesh(size) makes one of an Outline"
-            validation.instance("mesh", self.mesh, skfem.Mesh, hint)
+            check_mesh(validation.instance("mesh", self.mesh, skfem.Mesh, hint))
+            check_fits(self.mesh, self.sheet)
         if self.element is not None:
             validation.instance("element", self.element, skfem.Element)
         if self.cells is None:

@@ -133,7 +133,9 @@ class Cycle:
             velocity=rigid[1],
             seconds=time.perf_counter() - start,
             model=_words(scene, contact),
-            slip_ratio=contact.law.slip_ratio(period.fastest if period.fastest > balance.noise else 0.0),
+            slip_ratio=contact.law.slip_ratio(
+                period.fastest if period.fastest > balance.noise else 0.0
+            ),
             first_order=0.0 if _starts_at_second_order(scene, contact) else math.nan,
             sticks=period.sticks,
             rigid=None if balance.mirrored else rigid,
