@@ -139,7 +139,8 @@ class PlaneStressSolver:
         for dofs in (basis.nodal_dofs, basis.facet_dofs, basis.interior_dofs):
             component[dofs[1::2]] = 1
         arms = basis.doflocs - self.centre_and_gyration[0][:, None]
-        x, y = arms / power_of_two(float(abs(arms).max()))  # a rotation is compared with shifts
+        size = power_of_two(float(abs(arms).max()))  # a rotation is compared with shifts
+        x, y = arms / size
         modes = np.stack([component == 0, component == 1, np.where(component == 0, -y, x)])
         means = [
             shift.assemble(basis, along=0),

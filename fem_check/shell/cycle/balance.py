@@ -41,8 +41,8 @@ STICKING = 0.01
 """Share of the sheet at rest that counts as sticking."""
 
 TIME_SHARE, HIDDEN = 0.3, 0.1
-"""Share of the tolerance that the quadrature in time may take, and share of that up to which harmonics of
-the wave may go unseen by it."""
+"""Share of the tolerance that the quadrature in time may take, and share of that up to which harmonics
+of the wave may go unseen by it."""
 
 
 class Period(NamedTuple):

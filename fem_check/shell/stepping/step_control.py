@@ -30,8 +30,8 @@ SHORT_HARMONIC = 8
 """The highest harmonic of the wave up to which steps so short serve."""
 
 FEWEST, GIVEN_SHARE = 4, 0.1
-"""Steps to the period of a harmonic, at least, where their number is given, and the share of the rate of
-growth that may lie in higher ones."""
+"""Steps to the period of a harmonic, at least, where their number is given, and the share of the rate
+of growth that may lie in higher ones."""
 
 SINE = Spectrum(np.ones(1), 0.0)
 """A wave that is a sine in time."""
@@ -157,8 +157,8 @@ class StepSize:
 def step_size(period: float, rtol: float | None, steps: int | None, rates: Spectrum = SINE) -> StepSize:
     """Step of period/steps, or one that adapts to rtol and starts with an eighth of what a sine needs.
 
-    rates: harmonics in time of the rate of growth; each that matters is met by PER_HARMONIC steps to its
-    period at least, since what falls between the steps is in no error of theirs.
+    rates: harmonics in time of the rate of growth; each that matters is met by PER_HARMONIC steps to
+    its period at least, since what falls between the steps is in no error of theirs.
     Raises ValueError for steps too few, or a wave too rough, for them to see how it grows.
     """
     if steps is not None:
@@ -178,7 +178,7 @@ def step_size(period: float, rtol: float | None, steps: int | None, rates: Spect
 
 
 def _harmonic(rates: Spectrum, share: float) -> int:
-    """The harmonic beyond which dc/dt has no more than that share; ten times that where it is not known.
+    """The harmonic beyond which dc/dt has no more than that share, or ten times it if that is unknown.
 
     Raises ValueError where even a tenth of dc/dt is beyond what is known: growth that jumps in time.
     """
