@@ -91,7 +91,8 @@ def _sheet(outline: Sheet | Outline | MeshTri, poisson: float | None) -> Sheet:
     elif isinstance(outline, Outline):
         width, length = outline.width, outline.length
     else:
-        validation.instance("outline", outline, (Sheet, Outline, MeshTri), "a Sheet needs no mesh")
+        shown = validation.shown(outline)
+        raise ValueError(f"outline = {shown}: must be a Sheet, an Outline or a MeshTri")
     return Sheet(float(length), float(width), 0.5 if poisson is None else poisson)
 
 

@@ -80,7 +80,7 @@ class Harmonics:
         return self._with_mean(np.cos(angle), np.sin(angle), 1.0)
 
     def samples(self) -> Array:
-        """Amplitudes at eight phases to a period of the highest harmonic, 256 at most, (cases, phases)."""
+        """At eight phases to a period of the highest harmonic, 256 at most, (cases, phases)."""
         count = max(SAMPLES, min(8 * len(self.wave.orders), 256))
         return self.amplitudes(phases(self.wave.period, count))
 

@@ -28,12 +28,14 @@ def shown(value: object) -> str:
     return text if len(text) <= 100 else f"{text[:97]}..."
 
 
-def instance(name: str, value: object, kind: type[T] | tuple[type[T], ...], hint: str = "") -> T:
+def instance(name: str, value: object, kind: type[T], hint: str = "") -> T:
     """`value`, which must be an instance of `kind`; hint: what to do instead, for the message."""
     if not isinstance(value, kind):
-        kinds = " or ".join(k.__name__ for k in (kind if isinstance(kind, tuple) else (kind,)))
+        article = "an" if kind.__name__[0] in "AEIOU" else "a"
+        made = ", made with its arguments" if value is kind else ""
         more = f"; {hint}" if hint else ""
-        raise ValueError(f"{name} = {shown(value)}: must be an instance of {kinds}{more}")
+        wanted = f"must be {article} {kind.__name__}{made}{more}"
+        raise ValueError(f"{name} = {shown(value)}: {wanted}")
     return value
 
 

@@ -228,7 +228,8 @@ class WaveSurvey:
         if apart[i, j] > RATE_RIGHT * size:
             raise ValueError(
                 f"rate = {rate[i, j]:.6g} at {self._place(i, j)}: must be the time derivative of "
-                f"value, whose differences give {quotients[-1, i, j]:.6g} there; correct it or leave it out"
+                f"value, whose differences give {quotients[-1, i, j]:.6g} there; correct it, or leave "
+                "it out"
             )
 
     def _quotient(self, step: float) -> Array:

@@ -43,8 +43,8 @@ CHECKS, SEED = 32, 7
 
 HIDDEN, PER_HARMONIC = 0.1, 64
 """Share of the tolerance up to which harmonics of the wave may go without a check: those with fewer
-times to their period. Dry friction turns a harmonic k into 2k, 3k, ..., of which doublings of N see nothing
-where N is a multiple of k."""
+times to their period. Dry friction turns a harmonic k into 2k, 3k, ..., of which doublings of N see
+nothing where N is a multiple of k."""
 
 BLOCK = 1 << 19
 """Cells times times held at once."""

@@ -101,7 +101,7 @@ class Cycle:
     def __init__(self, scene: Scene) -> None:
         hint = "its arguments are sheet, wave, alpha and effects"
         self.scene = validation.instance("scene", scene, Scene, hint)
-        CYCLE.require(scene)
+        CYCLE.require(self.scene)
         self._shapes = KeptShapes(scene)
 
     @one_blas_thread
@@ -124,6 +124,7 @@ class Cycle:
         balance, period, phase_error = _with_enough_phases(self._shapes, contact, rtol, atol)
         error = period.error + phase_error + self._mesh_error(balance, period)
         times, rigid = balance.whole_period(period)
+        fastest = period.fastest if period.fastest > balance.noise else 0.0
         return CrawlSpeed(
             mean=float(period.mean[1]),
             error=float(error[1]),
@@ -133,9 +134,7 @@ class Cycle:
             velocity=rigid[1],
             seconds=time.perf_counter() - start,
             model=_words(scene, contact),
-            slip_ratio=contact.law.slip_ratio(
-                period.fastest if period.fastest > balance.noise else 0.0
-            ),
+            slip_ratio=contact.law.slip_ratio(fastest),
             first_order=0.0 if _starts_at_second_order(scene, contact) else math.nan,
             sticks=period.sticks,
             rigid=None if balance.mirrored else rigid,

@@ -60,8 +60,8 @@ def simulate(
     is damaged or of another scene or run, for a place where none can be written, and for a wave or
     ground whose function can be known again neither by its content nor by a name; ConvergenceError
     (with the last state and its time as `parameter`) where steps become too small; KeyboardInterrupt
-    after Ctrl-C, with a line that says what is kept. Warns (ViscousRegimeWarning) where Friction, regularised dry
-    friction, acts as viscous: see `CrawlSpeed.regime`.
+    after Ctrl-C, with a line that says what is kept. Warns (ViscousRegimeWarning) where Friction,
+    regularised dry friction, acts as viscous: see `CrawlSpeed.regime`.
 
     >>> from fem_check import Friction, Gravity, Material, Membrane, Scene, simulate
     >>> from linear_theory import Sheet, SineWave
