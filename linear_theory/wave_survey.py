@@ -107,6 +107,14 @@ class WaveSurvey:
         return bool(abs(self._seen + again).max() <= CHANGES_SIGN * abs(self._seen).max())
 
     @cached_property
+    def depends_on_x(self) -> bool:
+        """Whether c is another one off the axis x = 0."""
+        if isinstance(self.wave, TravellingWave):
+            return False
+        on_axis = self._value(0 * self.x, self.y, self._times[:, None])
+        return bool(abs(self._seen - on_axis).max() > REPEATS * abs(self._seen).max())
+
+    @cached_property
     def size(self) -> float:
         """Root mean square of c."""
         wave = self.wave

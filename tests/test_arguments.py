@@ -230,7 +230,7 @@ def test_masks_units_and_other_wrappings_are_refused(value, message):
 def test_a_wave_of_masked_values_is_refused():
     wave = FieldWave(lambda x, y, t: np.ma.masked_greater(growth(x, y, t), 0.9), 1.0)
     with pytest.raises(ValueError, match="masked"):
-        line_balance(wave, 0.1)
+        line_balance(wave, 0.1, length=1)
 
 
 @pytest.mark.parametrize(

@@ -6,6 +6,7 @@ import skfem
 
 from fem_check import Material, Membrane, Outline, Scene, cycle_speed, plane_stress_field
 from fem_check.shell.cycle.balance import CycleBalance
+from fem_check.shell.cycle.contact import Contact
 from fem_check.shell.cycle.frame import gyration, moments
 from fem_check.shell.cycle.shapes import cycle_of_shapes
 from fem_check.shell.statics.newton import Minimiser
@@ -82,7 +83,7 @@ def test_small_growth_moves_it_as_linear_theory_says(name):
     both = crawl.balance(np.concatenate([times, times + 0.5]))
     linear = alpha * (both.leading + alpha * both.remainder)
     shapes = cycle_of_shapes(scene(name, alpha, field.mesh), 8)
-    found = CycleBalance(shapes, "current", FrictionLaw(), 7, 14, 1e-7, False).balance(times)
+    found = CycleBalance(shapes, Contact("current", FrictionLaw()), 7, 14, 1e-7, False).balance(times)
     norm = RigidNorm(field.gyration, False)
     wrong = norm.speeds(found.leading.reshape(-1, 3).T - linear.T)
     # of order alpha and of the balances; met: 6e-4 to 2.8e-3

@@ -41,6 +41,10 @@ MOST_CELLS, MOST_TIMES, MOST_SAMPLES = 1 << 14, 1 << 10, 1 << 21
 CHECKS, SEED = 32, 7
 """Random times of a check at first; at most twice as many as equidistant ones."""
 
+CHANCE = 2.0
+"""Of the last change, which is three times the error where that falls with the square of the spacing;
+medians do not fall so evenly. Of 353 random waves, laws and bodies one was off by 1.3 times the change."""
+
 HIDDEN, PER_HARMONIC = 0.1, 64
 """Share of the tolerance up to which harmonics of the wave may go without a check: those with fewer
 times to their period. Dry friction turns a harmonic k into 2k, 3k, ..., of which doublings of N see
@@ -79,8 +83,8 @@ def sampled_balance(
         fine, coarse = sampled(instants, 2 * cells), sampled(instants, cells)
         mean = float(fine.velocity.mean())
         # A difference may vanish by chance; a quarter of the one before, for second order, does not.
-        last_space, space = space, abs(mean - float(coarse.velocity.mean()))
-        last_time, time = time, abs(mean - float(fine.velocity[::2].mean()))
+        last_space, space = space, CHANCE * abs(mean - float(coarse.velocity.mean()))
+        last_time, time = time, CHANCE * abs(mean - float(fine.velocity[::2].mean()))
         in_space, in_time = max(space, last_space / 4), max(time, last_time / 4)
         goal = max(rtol * abs(mean), atol)
         room = cells * times < MOST_SAMPLES
