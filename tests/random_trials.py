@@ -217,4 +217,4 @@ def run(family: str, count: int, seed: int) -> float:
 
 
 if __name__ == "__main__":
-    sys.exit(run(sys.argv[1], int(sys.argv[2]), int((sys.argv + ["1"])[3])) > 1)
+    sys.exit(run(sys.argv[1], int(sys.argv[2]), int([*sys.argv, "1"][3])) > 1)
