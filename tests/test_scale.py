@@ -323,7 +323,7 @@ def test_places_are_the_same_by_a_share_of_their_extent(size):
     assert lines == pytest.approx(size * np.array([0.0, 1e-8, edge, 1.0]), rel=1e-15)
 
 
-@pytest.mark.parametrize("size", [3e-9, 1.0, 1e9])
+@pytest.mark.parametrize("size", [1e-12, 3e-9, 1.0, 1e9])
 def test_a_coarser_grid_is_found_at_any_size(size):
     grid = skfem.MeshQuad.init_tensor(
         size * np.linspace(-0.25, 0.25, 5), size * np.linspace(-0.5, 0.5, 9)
