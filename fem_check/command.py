@@ -73,6 +73,7 @@ def words(found: Prediction) -> str:
         f" (numbers {speed.error:.1g}, model {speed.model_error:.1g})",
         f"level: {found.reason}",
         f"model: {speed.model}; {speed.regime} friction",
+        f"left out: {'; '.join(found.left_out)}",
         f"cost: {found.seconds:.2g} s",
     ]
     if not found.converged:
@@ -98,6 +99,7 @@ def record(found: Prediction) -> dict[str, Any]:
         "level": found.level,
         "reason": found.reason,
         "model": speed.model,
+        "left_out": list(found.left_out),
     }
 
 

@@ -148,6 +148,9 @@ LEVELS: dict[str, Level] = {
 TARGET = "cycle"
 """The level that is the target."""
 
+TARGET_EFFECTS = (Membrane,)
+"""Classes of the effects that the target knows: see `abilities.left_out` for those that it does not."""
+
 
 def distance(level: str, question: Question) -> float:
     """Between that level and the target, absolute, as far as it was measured; else NaN."""

@@ -5,7 +5,8 @@ import time
 import warnings
 from dataclasses import dataclass, replace
 
-from fem_check.levels import LEVELS, Question, distance
+from fem_check.levels import LEVELS, TARGET_EFFECTS, Question, distance
+from fem_check.shell.abilities import left_out
 from linear_theory import validation
 from linear_theory.errors import NotConvergedError, ViscousRegimeWarning
 from linear_theory.field import Wave
@@ -26,7 +27,8 @@ class Prediction:
     speed: its `error` is that of the numbers and `model_error` the distance to the target, NaN where it
     is unknown (never so for method = "auto"). level: a key of `levels.LEVELS`; reason: why this one and
     none of those before it, in words. converged: whether `error` meets the tolerance that was asked
-    for. seconds: of all that was tried.
+    for. seconds: of all that was tried. left_out: what the target itself leaves out, in words: a flat
+    sheet of no thickness on which friction acts and nothing else.
 
     >>> from fem_check import predict
     >>> from linear_theory import Sheet, SineWave
@@ -40,6 +42,7 @@ class Prediction:
     reason: str
     converged: bool
     seconds: float
+    left_out: tuple[str, ...] = ()
 
     @property
     def mean(self) -> float:
@@ -84,7 +87,9 @@ def predict(
     of "strip", "first order", "second order" and "cycle" the first one whose error and model error
     together are below max(rtol |mean|, atol), atol = 1e-3 rtol alpha^2 L/T unless given; a level whose
     model error is unknown (see `model_error`) is never taken. Any of the names takes that level.
-    A tolerance that the last level misses shows in `converged`.
+    A tolerance that the last level misses shows in `converged`; what the target leaves out (bending,
+    and with it the thickness; the ground; friction that deforms the sheet), in `left_out`: scenes with
+    these effects are for `cycle_speed` and `simulate`.
 
     Raises ValueError for bad input and what the level that is asked for raises. Warns as `crawl_speed`.
 
@@ -146,4 +151,4 @@ def _answer(question: Question, level: str, goal: Goal, reason: str) -> Predicti
         rtol = max(SHARE * goal.rtol, validation.SMALLEST_RTOL)
         speed = LEVELS[level](question, rtol, SHARE * goal.atol)
     converged = total_error(speed) <= goal.tolerance(speed.mean)
-    return Prediction(speed, level, reason, converged, speed.seconds)
+    return Prediction(speed, level, reason, converged, speed.seconds, left_out(TARGET_EFFECTS))

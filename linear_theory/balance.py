@@ -6,6 +6,7 @@ With velocities per unit alpha, v = alpha v^, V = alpha q, and the load 1 + alph
 
 R_j the rigid velocities: (0, 1) for motions that are mirror symmetric in x, else (1, 0), (0, 1) and
 the rotation (-y, x). It is where the convex function int (1 + alpha e) F(|w|) dA, F' = f, is least.
+On a slope the load itself pulls, by `slope` times itself along -y: slope (0, 1) . R_j joins the sum.
 
 For small alpha the mean of q is much smaller than q(t). Hence q = q_0 + alpha q_1: q_0 balances the
 load 1, and q_1 solves what is left, divided by alpha, with the difference quotient of f w/|w| written
@@ -17,6 +18,7 @@ the speed that it gives the ends of the sheet: tolerances have the same meaning 
 and time.
 """
 
+import math
 from collections.abc import Callable
 from functools import partial
 from typing import NamedTuple
@@ -83,7 +85,8 @@ class Balance:
 
     motion: velocities per unit alpha at T times; rate: e of the load, (T, cells, n, n); alpha: growth
     coupling, not 0; law: for speeds per unit |alpha|; halvings: how often a cell is halved towards
-    points at rest; tolerance: of q, relative to the root mean square of v^.
+    points at rest; tolerance: of q, relative to the root mean square of v^. slope: tan(incline)/mu of
+    ground that rises towards +y, in (-1, 1), for loads that are not expanded in alpha (rate = 0).
     """
 
     def __init__(
@@ -94,9 +97,10 @@ class Balance:
         law: FrictionLaw,
         halvings: int = 30,
         tolerance: float = 1e-10,
+        slope: float = 0.0,
     ) -> None:
         units = self._units = Units.of(motion)
-        self._alpha, self._law = alpha, law.scaled(units.speed)
+        self._alpha, self._law, self._slope = alpha, law.scaled(units.speed), slope
         self._modes = _ALONG if motion.mirrored else _ALL
         area = np.broadcast_to(motion.area / units.area, rate.shape)
         channels = [*motion.velocity / units.speed, area, rate]
@@ -169,6 +173,8 @@ class Balance:
         """Bounds of q, (times, 1): friction cannot balance where all of the sheet slips one way."""
         along = self._values[1].reshape(self._values.shape[1], -1)
         margin = 0.1 * np.ptp(along, axis=1) + self._scale  # the polynomials exceed these values
+        if self._slope:  # at which tanh(r/width) carries the weight down the slope
+            margin = margin + self._law.width * math.atanh(abs(self._slope))
         return (-along.max(1) - margin)[:, None], (-along.min(1) + margin)[:, None]
 
     def _leading(self, q: Array, times: Integers, halvings: int) -> tuple[Array, Array]:
@@ -179,9 +185,8 @@ class Balance:
             r = _norm(w)
             ratio, slope = self._law.ratio(r), self._law.ratio_slope(r)
             dots = [self._dot(i, w, values) for i in self._modes]
-            return values[2] * np.stack(
-                [ratio * d for d in dots] + self._hessian(values, dots, ratio, slope)
-            )
+            forces = [ratio * d + self._pull(i, values) for i, d in zip(self._modes, dots, strict=True)]
+            return values[2] * np.stack(forces + self._hessian(values, dots, ratio, slope))
 
         def motion(values: Array, owners: Integers) -> list[Array]:
             return [self._moved(values, q[owners])]
@@ -263,6 +268,10 @@ class Balance:
     def _dot(self, mode: int, w: Array, values: Array) -> Array:
         """w . R of a rigid velocity R."""
         return w[mode] if mode < 2 else values[4] * w[1] - values[5] * w[0]
+
+    def _pull(self, mode: int, values: Array) -> Array | float:
+        """slope (0, 1) . R of a rigid velocity R."""
+        return 0.0 if mode == 0 or not self._slope else self._slope * (1.0 if mode == 1 else values[4])
 
     def _hessian(self, values: Array, dots: list[Array], ratio: Array, slope: Array) -> list[Array]:
         """Integrands of the Hessian, row by row."""

@@ -117,7 +117,7 @@ def stepping() -> Numbers:
         with warnings.catch_warnings():  # viscous on purpose
             warnings.simplefilter("ignore", ViscousRegimeWarning)
             few, many = (simulate(scene, steps=n, periods=1).speed.mean for n in (32, 64))
-            cycle = cycle_speed(scene, "current", "tanh", slip, rtol=3e-4).mean
+            cycle = cycle_speed(scene, rtol=3e-4).mean
         numbers[f"step.{name}_off"] = Number(
             (4 * many - few) / 3 / cycle - 1, f"simulate over cycle_speed - 1, slip_speed={slip:g}"
         )

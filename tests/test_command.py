@@ -29,15 +29,18 @@ def test_json_is_the_answer_of_predict(capsys):
     assert (found["level"], found["reason"]) == (expected.level, expected.reason)
     assert found["converged"]
     assert found["seconds"] > 0
+    assert tuple(found["left_out"]) == expected.left_out
 
 
 def test_words_name_speed_level_and_cost(capsys):
     status, out, _ = run(capsys, "--alpha", "0.2", "--rtol", "0.1")
-    speed, level, model, cost = out.splitlines()
+    speed, level, model, left_out, cost = out.splitlines()
     assert status == MET
     assert speed.startswith(f"V = {predict(Sheet(), SineWave(), 0.2, rtol=0.1).mean:.6g} ")
     assert level.startswith("level: ")
     assert model.startswith("model: ")
+    for words in ("bending", "thickness", "the ground", "inertia"):
+        assert words in left_out
     assert cost.startswith("cost: ")
 
 

@@ -136,6 +136,16 @@ def cycle(
     return solve
 
 
+def on_slope(length: float, time: float) -> np.ndarray:
+    effects = [
+        Membrane(Material(0.03 * length, 0.5)),
+        Gravity(3e-6, "current", incline=0.3),
+        Friction(1.0, 0.01 * length / time),
+    ]
+    scene = Scene(sheet(length), SineWave(1, time), 0.1, effects=effects, cells=(1, 2))
+    return numbers(cycle_speed(scene, rtol=0.1), length, time)
+
+
 def triangles(length: float) -> skfem.MeshTri:
     grid = skfem.MeshTri.init_tensor(np.linspace(-0.25, 0.25, 2), np.linspace(-0.5, 0.5, 3))
     return skfem.MeshTri(grid.p * length, grid.t)
@@ -212,6 +222,7 @@ PROBLEMS = {
     "cycle": cycle(),
     "cycle, turning": cycle(turning=True),
     "cycle, triangles": cycle(mesh=True, load="material"),
+    "cycle on a slope": on_slope,
     "cycle on ground": on_ground,
     "shapes on ground, triangles": on_ground_triangles,
     "shapes, buckling": buckling,

@@ -5,6 +5,7 @@ import pytest
 import skfem
 
 from fem_check.shell.cycle.balance import CycleBalance
+from fem_check.shell.cycle.contact import Contact
 from fem_check.shell.cycle.shapes import cycle_of_shapes
 from fem_check.shell.effects.koiter import Membrane
 from fem_check.shell.material import Material
@@ -61,7 +62,7 @@ def nonlinear(wave, load, law, times, alpha, area="grown"):
             cells=(4, 6),
             element=skfem.ElementQuadBFS(),
         )
-        balance = CycleBalance.of(cycle_of_shapes(scene, 16), load, law, 1e-4)
+        balance = CycleBalance.of(cycle_of_shapes(scene, 16), Contact(load, law), 1e-4)
         found.append(balance.balance(times).leading[0])
     return np.stack([(found[0] - found[1]) / (2 * alpha), (found[0] + found[1]) / (2 * alpha**2)])
 

@@ -129,6 +129,7 @@ CASES: dict[str, tuple[str, Callable[[], object]]] = {
     "damping": ("damping = -1: must be >= 0", lambda: Ground(1.0, -1.0)),
     "ground form": ("form = 'sticky'", lambda: Ground(1.0, form="sticky")),
     "friction coefficient": ("coefficient = -0.1", lambda: Friction(-0.1, 1.0)),
+    "no friction": ("coefficient = 0: must be > 0", lambda: Friction(0.0, 1.0)),
     "slip speed": ("slip_speed = 0: must be > 0", lambda: Friction(0.7, 0.0)),
     "density": ("density = 0: must be > 0", lambda: Inertia(0.0, PAPER)),
     "dt": ("dt = 0: must be > 0", lambda: backward_euler(np.zeros((3, 1)), 0.0)),

@@ -93,6 +93,11 @@ class Scene:
         metric_factor(self.growth_law, self.alpha, self._extremes())
         self._check_cells()
         check_effects(self.effects, self.components, self.sheet)
+        if self.curvature_coupling and self.find(Bending) is None:
+            raise ValueError(
+                f"curvature_coupling = {self.curvature_coupling:g}: must be 0 without the effect "
+                "Bending, the only one that knows of a rest curvature"
+            )
 
     @property
     def planar(self) -> bool:

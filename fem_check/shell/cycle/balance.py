@@ -13,11 +13,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from fem_check.shell.cycle.contact import Contact
 from fem_check.shell.cycle.motion import CycleMotion, is_mirrored
 from fem_check.shell.cycle.shapes import Shapes
 from fem_check.shell.places import ROUNDOFF, distinct
 from linear_theory.balance import Balance, RigidMotion
-from linear_theory.friction import FrictionLaw
 from linear_theory.rigid import RigidNorm
 from linear_theory.time_grid import TimeGrid, first_grid
 from linear_theory.waves import TravellingWave
@@ -60,22 +60,21 @@ class Period(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class CycleBalance:
-    """A cycle of shapes, its load and friction, and how finely they are balanced.
+    """A cycle of shapes, its contact with the ground, and how finely friction is balanced.
 
     order: Gauss points per cell and direction; halvings: how often a cell is halved towards points at
     rest; tolerance: of V, relative to the root mean square of the velocities.
     """
 
     shapes: Shapes
-    load: str
-    law: FrictionLaw
+    contact: Contact
     order: int
     halvings: int
     tolerance: float
     mirrored: bool
 
     @classmethod
-    def of(cls, shapes: Shapes, load: str, law: FrictionLaw, rtol: float) -> "CycleBalance":
+    def of(cls, shapes: Shapes, contact: Contact, rtol: float) -> "CycleBalance":
         """Resolved for a relative error rtol of the mean.
 
         V is alpha times smaller than the velocities: all is found alpha times better than rtol.
@@ -83,7 +82,7 @@ class CycleBalance:
         digits = -math.log10(rtol * min(abs(shapes.scene.alpha) or 1.0, 1.0))
         order = min(max(math.ceil(1.5 + 0.9 * digits), 5), 14)
         halvings = math.ceil(3.4 * digits)  # the last cell has the area 10^-digits of the first
-        return cls(shapes, load, law, order, halvings, 0.02 * 10**-digits, is_mirrored(shapes))
+        return cls(shapes, contact, order, halvings, 0.02 * 10**-digits, is_mirrored(shapes))
 
     @cached_property
     def norm(self) -> RigidNorm:
@@ -100,7 +99,8 @@ class CycleBalance:
     def reversal_time(self) -> float | None:
         """t_0 with V(t_0 - t) = V(t), where the wave and the sheet have that symmetry.
 
-        Only in the plane, where a shape does not depend on those before.
+        Only in the plane, where a shape does not depend on those before; on a slope, too, since the
+        velocity along y at (y, t) is that at (-y, t_0 - t).
         """
         wave = self.shapes.scene.wave
         if not isinstance(wave, TravellingWave) or not self.mirrored:
@@ -187,11 +187,11 @@ class CycleBalance:
 
     @cached_property
     def _motion(self) -> CycleMotion:
-        return CycleMotion(self.shapes, self.load, self.order, self.mirrored)
+        return CycleMotion(self.shapes, self.contact.load, self.order, self.mirrored)
 
     def _balance(self, times: Array) -> Balance:
-        motion = self._motion.at(times)
-        return Balance(motion, motion.dilation, 1.0, self.law, self.halvings, self.tolerance)
+        motion, law, slope = self._motion.at(times), self.contact.law, self.contact.slope
+        return Balance(motion, motion.dilation, 1.0, law, self.halvings, self.tolerance, slope)
 
 
 def _paired(leading: Array) -> Array:

@@ -15,10 +15,7 @@ from fem_check.shell.effects.ground import Ground
 from fem_check.shell.growth import metric_factor
 from fem_check.shell.places import ROUNDOFF
 from fem_check.shell.region import Region
-from fem_check.shell.scene import Scene
 from fem_check.triangles import quadrilateral_points
-from linear_theory import validation
-from linear_theory.friction import LOADS
 from linear_theory.motion import Motion
 from linear_theory.waves import TravellingWave
 
@@ -27,23 +24,6 @@ Array = NDArray[np.float64]
 
 class UnresolvedError(ArithmeticError):
     """The shapes are too few: between them the interpolated sheet is inverted or leaves the ground."""
-
-
-ON_GROUND = "ground"
-"""Load by the reaction of the ground."""
-
-
-def checked_load(scene: Scene, load: str | None) -> str:
-    """The load to balance friction with: by default the ground's reaction, "current" in the plane.
-
-    Raises ValueError for an unknown name and for "ground" where the scene names none.
-    """
-    grounded = scene.find(Ground) is not None
-    if load is None:
-        return ON_GROUND if grounded else "current"
-    if validation.choice("load", load, (*LOADS, ON_GROUND)) == ON_GROUND and not grounded:
-        raise ValueError("load = 'ground': the scene must name the effect Ground")
-    return load
 
 
 def is_mirrored(shapes: Shapes, axis: int = 0) -> bool:
@@ -65,8 +45,8 @@ def is_mirrored(shapes: Shapes, axis: int = 0) -> bool:
 class CycleMotion:
     """Velocities and loads of shapes on the cells of their mesh.
 
-    load: see `checked_load`; order: Gauss points per cell and direction; mirrored: whether the motion
-    is mirror symmetric. A rectangle is one cell, a triangle three.
+    load: see `contact.Contact`; order: Gauss points per cell and direction; mirrored: whether the
+    motion is mirror symmetric. A rectangle is one cell, a triangle three.
     """
 
     shapes: Shapes
@@ -160,8 +140,6 @@ class CycleMotion:
     def _reaction(self, times: Array, position: Array) -> Array:
         """Static pressure of the ground times the area in which it is counted."""
         ground = self.shapes.scene.find(Ground)
-        if ground.height is not None or ground.area == "current":
-            raise ValueError("effects: the Ground of a cycle must be flat, its area not 'current'")
         area = self._grown_area(times) if ground.area == "grown" else self.region.measure
         return np.asarray(ground.stiffness * np.minimum(position[2], 0) ** 2 * area)
 

@@ -15,14 +15,17 @@ import numpy as np
 import skfem
 from numpy.typing import NDArray
 
+from fem_check.shell.abilities import CYCLE, friction_over_growth
 from fem_check.shell.cycle.balance import CycleBalance, Period
-from fem_check.shell.cycle.motion import UnresolvedError, checked_load, is_mirrored
+from fem_check.shell.cycle.contact import Contact
+from fem_check.shell.cycle.motion import UnresolvedError, is_mirrored
 from fem_check.shell.cycle.shapes import Shapes, cycle_of_shapes, static_effects
+from fem_check.shell.effects.friction import Friction
 from fem_check.shell.effects.koiter import Membrane
 from fem_check.shell.places import distinct
 from fem_check.shell.scene import Scene
 from linear_theory import validation
-from linear_theory.friction import FrictionLaw, warn_if_viscous
+from linear_theory.friction import warn_if_viscous
 from linear_theory.speed import CrawlSpeed
 from linear_theory.waves import TravellingWave
 
@@ -41,19 +44,22 @@ u ~ distance**2.74. The difference to a mesh r times coarser is r**2 - 1 times t
 def cycle_speed(
     scene: Scene,
     load: str | None = None,
-    friction: str = "coulomb",
+    friction: str | None = None,
     slip_speed: float | None = None,
     rtol: float = 1e-3,
     atol: float | None = None,
 ) -> CrawlSpeed:
     """Mean speed of a sheet so stiff that friction does not change its shape.
 
-    load: "current" (area of the deformed sheet), "grown" (sqrt det abar), "material" (weight conserved)
-    or "ground" (reaction of the ground that the scene names); None means "ground" where the scene has
-    a Ground and "current" otherwise. friction: "coulomb", "tanh" with its slip_speed (length/time), or
-    "viscous"; a Friction among the scene's effects is not used. rtol, atol: the result is converged
-    where error <= max(rtol |mean|, atol), atol = 1e-3 rtol alpha^2 L/T unless given; of a motion that
-    is not mirror symmetric the sizes of rigid_error and rigid_mean count (see `rigid.RigidNorm`).
+    What rests on the sheet and how it rubs is what the scene says. In the plane its Gravity has the
+    load: "current" (area of the deformed sheet), "grown" (sqrt det abar) or "material" (weight
+    conserved); a Ground has "ground", its reaction. Its Friction has tanh(v/slip_speed). A scene that
+    names none leaves them to the arguments: load, "current" unless given; friction, "coulomb"
+    unless given, "tanh" with its slip_speed (length/time), or "viscous". On an incline (Gravity in the
+    plane, with Friction) weight pulls the sheet down: the balance is that of a shifted quantile, and V
+    of first order in alpha. rtol, atol: the result is converged where error <= max(rtol |mean|, atol),
+    atol = 1e-3 rtol alpha^2 L/T unless given; of a motion that is not mirror symmetric the sizes of
+    rigid_error and rigid_mean count (see `rigid.RigidNorm`).
 
     Phases and times are added until they meet the tolerance. The mesh is the scene's; its error is
     estimated from another mesh (`other_mesh`) and can leave a result unconverged. So can growth so
@@ -61,9 +67,12 @@ def cycle_speed(
     and so small that alpha^2 drowns in roundoff, 1e-15 L/T (alpha < 3e-7 at rtol = 1e-2): the way to
     such speeds is `linear_theory.crawl_speed` with order = 2.
     model_error is 0 for a scene that only stretches in the plane, which is the target: the nonlinear
-    sheet of the stated growth law, area measure and load; NaN for other scenes.
+    sheet of the stated growth law, area measure and load; NaN for other scenes, such as those that name
+    Friction, which deforms the sheet a little.
 
-    Raises ValueError for bad input, ConvergenceError where a shape is not found or not stable (see
+    Raises ValueError for bad input, for a scene that names what a cycle of shapes cannot represent
+    (see `abilities.CYCLE`), for arguments that contradict the scene and for a slope on which the sheet
+    slides without end, ConvergenceError where a shape is not found or not stable (see
     `cycle_of_shapes`), UnresolvedError where the shapes change too fast for the largest number of
     phases. Warns (ViscousRegimeWarning) where friction = "tanh" acts as viscous: see
     `CrawlSpeed.regime`.
@@ -77,37 +86,38 @@ def cycle_speed(
     V = 0.091 L/T, converged True
     """
     found = Cycle(scene).speed(load, friction, slip_speed, rtol, atol)
-    warn_if_viscous(found, slip_speed)
+    warn_if_viscous(found, Contact.of(scene, load, friction, slip_speed).law.slip_speed)
     return found
 
 
 class Cycle:
     """A cycle of static shapes, which does not depend on what rests on the sheet nor on friction.
 
-    Found when first needed and kept: speeds under several loads and laws of friction share it.
+    Found when first needed and kept: speeds under several loads and laws of friction share it. Raises
+    ValueError for a scene that names what it cannot represent.
     """
 
     def __init__(self, scene: Scene) -> None:
+        CYCLE.require(scene)
         self.scene = scene
         self._shapes = KeptShapes(scene)
 
     def speed(
         self,
         load: str | None = None,
-        friction: str = "coulomb",
+        friction: str | None = None,
         slip_speed: float | None = None,
         rtol: float = 1e-3,
         atol: float | None = None,
     ) -> CrawlSpeed:
         """As `cycle_speed`, but for the warning; `seconds` counts the shapes where they are found."""
         start, scene = time.perf_counter(), self.scene
-        rtol, law = validation.tolerance(rtol), FrictionLaw(friction, slip_speed)
-        load = checked_load(scene, load)
+        rtol, contact = validation.tolerance(rtol), Contact.of(scene, load, friction, slip_speed)
         unit = scene.sheet.length / scene.period
         atol = validation.absolute_tolerance(atol, rtol, scene.alpha, unit)
         if scene.alpha == 0 and (scene.planar or scene.curvature_coupling == 0):
-            return _at_rest(scene, load, law)
-        balance, period, phase_error = _with_enough_phases(self._shapes, load, law, rtol, atol)
+            return _without_growth(scene, contact)
+        balance, period, phase_error = _with_enough_phases(self._shapes, contact, rtol, atol)
         error = period.error + phase_error + self._mesh_error(balance, period)
         times, rigid = balance.whole_period(period)
         return CrawlSpeed(
@@ -118,9 +128,9 @@ class Cycle:
             times=times,
             velocity=rigid[1],
             seconds=time.perf_counter() - start,
-            model=_words(scene, load, law),
-            slip_ratio=law.slip_ratio(period.fastest),
-            first_order=0.0 if _starts_at_second_order(scene) else math.nan,
+            model=_words(scene, contact),
+            slip_ratio=contact.law.slip_ratio(period.fastest),
+            first_order=0.0 if _starts_at_second_order(scene, contact) else math.nan,
             sticks=period.sticks,
             rigid=None if balance.mirrored else rigid,
             rigid_mean=None if balance.mirrored else period.mean,
@@ -163,7 +173,7 @@ class KeptShapes:
 
 
 def _with_enough_phases(
-    kept: KeptShapes, load: str, law: FrictionLaw, rtol: float, atol: float
+    kept: KeptShapes, contact: Contact, rtol: float, atol: float
 ) -> tuple[CycleBalance, Period, Array]:
     """Double the phases until the interpolation between them takes its share of the tolerance.
 
@@ -172,7 +182,7 @@ def _with_enough_phases(
     count = FIRST_PHASES
     while True:
         last = count >= MOST_PHASES
-        balance = CycleBalance.of(kept.at(count), load, law, rtol)
+        balance = CycleBalance.of(kept.at(count), contact, rtol)
         try:
             period = balance.average(rtol, atol)
             error = _phase_error(balance, period)
@@ -229,26 +239,33 @@ def other_mesh(mesh: Any) -> tuple[Any, float]:
     return skfem.MeshQuad.init_tensor(*grid), gain
 
 
-def _at_rest(scene: Scene, load: str, law: FrictionLaw) -> CrawlSpeed:
-    """No growth, no motion."""
-    nothing = np.zeros(1)
-    words, ratio = _words(scene, load, law), law.slip_ratio(0.0)
-    return CrawlSpeed(0.0, 0.0, 0.0, True, nothing, nothing, 0.0, words, ratio, 0.0)
+def _without_growth(scene: Scene, contact: Contact) -> CrawlSpeed:
+    """No growth, no motion; but under tanh friction a sheet creeps down a slope."""
+    words, creep = _words(scene, contact), contact.creep
+    ratio, velocity = contact.law.slip_ratio(abs(creep)), np.full(1, creep)
+    return CrawlSpeed(creep, 0.0, 0.0, True, np.zeros(1), velocity, 0.0, words, ratio, 0.0)
 
 
 def _is_target(scene: Scene) -> bool:
-    return scene.planar and all(isinstance(effect, Membrane) for effect in static_effects(scene))
+    """Whether the scene is the nonlinear sheet that nothing but growth deforms."""
+    alone = all(isinstance(effect, Membrane) for effect in static_effects(scene))
+    return scene.planar and alone and scene.find(Friction) is None
 
 
-def _starts_at_second_order(scene: Scene) -> bool:
-    """Whether c(t + T/2) = -c(t), so that the terms of first order have no mean."""
+def _starts_at_second_order(scene: Scene, contact: Contact) -> bool:
+    """Whether c(t + T/2) = -c(t) on level ground, so that the terms of first order have no mean."""
     wave = scene.wave
-    return isinstance(wave, TravellingWave) and wave.is_half_period_antisymmetric
+    antisymmetric = isinstance(wave, TravellingWave) and wave.is_half_period_antisymmetric
+    return antisymmetric and contact.slope == 0
 
 
-def _words(scene: Scene, load: str, law: FrictionLaw) -> str:
+def _words(scene: Scene, contact: Contact) -> str:
     where = "in the plane" if scene.planar else "in space"
+    slope = f", on a slope of {contact.slope:g} of its friction" if contact.slope else ""
+    weak = friction_over_growth(scene)
+    ratio = f" (its strain is {weak:.1g} of that by growth)" if 0 < weak < math.inf else ""
     return (
-        f"nonlinear sheet {where}, growth law {scene.growth_law}, energy per {scene.area} area, "
-        f"static shapes not affected by friction; {load} load, {law.name} friction"
+        f"nonlinear sheet {where}{slope}, growth law {scene.growth_law}, energy per {scene.area} area, "
+        f"static shapes not affected by friction{ratio}; "
+        f"{contact.load} load, {contact.law.name} friction"
     )

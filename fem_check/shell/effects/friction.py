@@ -52,7 +52,7 @@ def load_bearer(components: int, effects: Sequence[Effect]) -> Ground | Gravity:
 class Friction:
     """The force -mu N tanh(|v|/v0) v/|v| of eq. 3, whose potential is mu N v0 log cosh(|v|/v0).
 
-    coefficient: mu >= 0. slip_speed: v0 > 0, length per time; small against the speeds it is dry
+    coefficient: mu > 0. slip_speed: v0 > 0, length per time; small against the speeds it is dry
     friction (the potential tends to mu N |v|), large against them viscous. v is the velocity along
     the ground at the end of the step, an affine function of the position, and N the load that the
     step holds fixed. Raises ValueError for values out of range.
@@ -64,8 +64,7 @@ class Friction:
     reads_rest: bool = False
 
     def __post_init__(self) -> None:
-        if validation.real("coefficient", self.coefficient) < 0:
-            raise ValueError(f"coefficient = {self.coefficient:g}: must be >= 0")
+        validation.positive("coefficient", self.coefficient)
         validation.positive("slip_speed", self.slip_speed)
 
     def velocity(self, state: PointState) -> Array:

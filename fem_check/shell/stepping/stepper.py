@@ -12,10 +12,10 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from fem_check.shell.abilities import STEPPED
 from fem_check.shell.effects.friction import Friction, load_bearer
 from fem_check.shell.effects.gravity import Gravity
 from fem_check.shell.effects.ground import Ground
-from fem_check.shell.effects.inertia import Inertia
 from fem_check.shell.point_state import PointState
 from fem_check.shell.potential import Potential
 from fem_check.shell.rates import Affine, Step
@@ -74,15 +74,12 @@ class Stepper:
 
     Growth is multiplied by a smooth function of time that rises from 0 to 1 over `ramp`. shortest: step
     for which the minimisations are to be accurate.
-    Raises ValueError for a scene that has neither friction nor inertia.
+    Raises ValueError for a scene that names what steps in time cannot represent, see
+    `abilities.STEPPED`, among it one that has neither friction nor inertia.
     """
 
     def __init__(self, scene: Scene, ramp: float, shortest: float) -> None:
-        if scene.find(Friction) is None and scene.find(Inertia) is None:
-            raise ValueError(
-                "effects: must name Friction or Inertia to be stepped in time; of a sheet whose shape "
-                "they do not change, fem_check.cycle_speed gives the speed"
-            )
+        STEPPED.require(scene)
         self.scene, self.ramp = scene, ramp
         self.region = scene.discretisation().interior
         self.minimiser = self._minimiser(shortest)
