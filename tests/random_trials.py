@@ -43,8 +43,8 @@ LAWS = ("exp", "linear", "metric")
 
 @dataclass(frozen=True)
 class Outcome:
-    """What a trial found. stated: its error and that of the better answer together; words: the question,
-    and what was refused of it, if anything."""
+    """What a trial found. stated: its error and that of the better answer together; words: the
+    question, and what was refused of it, if anything."""
 
     words: str
     true: float = 0.0

@@ -42,8 +42,8 @@ CHECKS, SEED = 32, 7
 """Random times of a check at first; at most twice as many as equidistant ones."""
 
 CHANCE = 2.0
-"""Of the last change, which is three times the error where that falls with the square of the spacing;
-medians do not fall so evenly. Of 353 random waves, laws and bodies one was off by 1.3 times the change."""
+"""Of the last change, which is three times the error where that falls with the square of the spacing.
+Medians do not fall so evenly: of 200 random waves, laws and bodies one was off by 1.3 times the change."""
 
 HIDDEN, PER_HARMONIC = 0.1, 64
 """Share of the tolerance up to which harmonics of the wave may go without a check: those with fewer
