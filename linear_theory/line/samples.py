@@ -43,7 +43,7 @@ CHECKS, SEED = 32, 7
 
 CHANCE = 2.0
 """Of the last change, which is three times the error where that falls with the square of the spacing.
-Medians do not fall so evenly: of 200 random waves, laws and bodies one was off by 1.3 times the change."""
+Medians do not fall so evenly: of 200 random waves, laws and bodies one was off by 1.3 changes."""
 
 HIDDEN, PER_HARMONIC = 0.1, 64
 """Share of the tolerance up to which harmonics of the wave may go without a check: those with fewer
