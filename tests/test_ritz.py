@@ -7,6 +7,7 @@ import sympy as sp
 from linear_theory import Sheet, SineWave, TravellingWave, hooke
 from linear_theory.errors import NotConvergedError
 from linear_theory.field_wave import FieldWave
+from linear_theory.load_cases import phases
 from linear_theory.load_cases import phases as times
 from linear_theory.motion import CellGrid
 from linear_theory.ritz import field as ritz
@@ -29,7 +30,7 @@ def grid(sheet, nx=9, ny=14):
     return x[:, None] * sheet.width / 2, y * sheet.length / 2, weights
 
 
-def distance(field, reference, phases=16):
+def distance(field, reference, count=16):
     """Relative L2 distance of two fields at the worst of the phases, by quadrature."""
     x, y, weights = grid(field.sheet, 30, 60)
     t = times(field.wave.period, phases)[:, None, None]
