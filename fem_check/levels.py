@@ -25,6 +25,7 @@ from linear_theory.line import line_balance
 from linear_theory.model_error import model_error
 from linear_theory.second_field import AREAS, GROWTH_LAWS
 from linear_theory.sheet import Sheet
+from linear_theory.shown import Shown
 from linear_theory.speed import CrawlSpeed
 
 MESHES = (1, 2, 4)
@@ -32,7 +33,7 @@ MESHES = (1, 2, 4)
 
 
 @dataclass(frozen=True)
-class Question:
+class Question(Shown):
     """A sheet, its wave and what is assumed; arguments as in `crawl_speed`.
 
     Raises ValueError for names that do not exist and numbers out of range.
