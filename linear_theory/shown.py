@@ -1,8 +1,9 @@
 """How objects and results show themselves: a title and a few lines, an array in one of them.
 
-    CrawlSpeed: V = 0.105913 ± 0.0000032 length/time, towards +y, converged
-      model_error   unknown
-      times         97 values, 0 ... 1
+    CrawlSpeed: mean 0.105903 ± 0.000024 length/time, towards +y, converged
+      model_error  0.0219656
+      regime       dry, slip ratio 0
+      times        80 values, 0.25 ... 1.23958
       ...
 
 Everything public inherits from `Shown`. A dataclass or named tuple shows its fields, any other class
@@ -16,7 +17,7 @@ import re
 import textwrap
 from collections.abc import Mapping, Sequence
 from dataclasses import fields, is_dataclass
-from itertools import zip_longest
+from decimal import ROUND_CEILING, Decimal
 from typing import Any
 
 import numpy as np
@@ -31,6 +32,12 @@ FEW = 4
 """Numbers that an array of one dimension may have to be written out."""
 
 DIGITS = 6
+
+SMALLEST = -7
+"""Power of ten of the least error that is written without one."""
+
+MOST_DIGITS = 20
+"""Of a number beside its error; beyond, the error is below its rounding by far."""
 
 ADDRESS = re.compile(r" at 0x[0-9a-fA-F]+")
 """What Python adds to the name of an object that has no repr of its own."""
@@ -53,11 +60,8 @@ class Shown:
 
     def _rows(self) -> Mapping[str, Any]:
         """Names and values that are worth a line each."""
-        contents = dict(self._contents())
-        for field in fields(self) if is_dataclass(self) else ():
-            if not field.repr:
-                contents.pop(field.name, None)
-        return contents
+        hidden = _unshown(self)
+        return {name: value for name, value in self._contents().items() if name not in hidden}
 
     def _title(self) -> str:
         """The first line."""
@@ -70,9 +74,8 @@ class Shown:
         for name, words in rows.items():
             parts = _wrapped(words, WIDTH - widest - 4, 1 + spare)
             spare -= len(parts) - 1
-            lines += [
-                f"  {n:<{widest}}  {part}" for n, part in zip_longest([name], parts, fillvalue="")
-            ]
+            names = [name, *("" for _ in parts[1:])]
+            lines += [f"  {n:<{widest}}  {part}" for n, part in zip(names, parts, strict=True)]
         return "\n".join(lines)
 
     def _repr_html_(self) -> str:
@@ -129,7 +132,7 @@ def in_words(value: Any) -> str:
     if callable(value):
         return f"function {_name_of(value)}"
     if not _has_own_words(value):
-        return f"a {type(value).__name__}"
+        return f"{type(value).__name__} object"
     return " ".join(ADDRESS.sub("", str(value)).split())
 
 
@@ -139,16 +142,22 @@ def number(value: float) -> str:
 
 
 def with_error(value: float, error: float) -> str:
-    """A number with its error, to two digits of that: 0.0983 ± 0.0002."""
-    if not math.isfinite(error) or error <= 0 or not math.isfinite(value):
-        tail = "" if error == 0 else f" ± {number(error)}"
-        return f"{number(value)}{tail}"
-    power = math.floor(math.log10(error))
-    if -8 <= power <= 1 and abs(value) < 1e6:
-        places = max(0, 1 - power)
-        return f"{value:.{places}f} ± {error:.{places}f}"
-    digits = 2 + max(0, _power_of(value) - power)
-    return f"{value:.{min(digits, 15)}g} ± {error:.2g}"
+    """A number with its error to two digits, rounded up, and as many of its own: 0.0983 ± 0.0002."""
+    if not (math.isfinite(value) and math.isfinite(error) and error > 0):
+        return number(value) + ("" if error == 0 else f" ± {number(error)}")
+    given, exact = Decimal(repr(float(value))), Decimal(repr(float(error)))
+    unit = exact.adjusted() - 1
+    shown = f"{exact.quantize(Decimal(1).scaleb(unit), ROUND_CEILING):{_style(exact, given)}}"
+    if given.adjusted() - unit > MOST_DIGITS:
+        return f"{value!r} ± {shown}"
+    if _style(exact, given) == "f":
+        return f"{given.quantize(Decimal(1).scaleb(unit)):f} ± {shown}"
+    return f"{given:.{max(0, given.adjusted() - unit)}e} ± {shown}"
+
+
+def _style(error: Decimal, value: Decimal) -> str:
+    """As a decimal fraction where that is short, else with a power of ten."""
+    return "f" if error.adjusted() >= SMALLEST and value.adjusted() < DIGITS else "e"
 
 
 def plain(value: Any, arrays: bool = True) -> Any:
@@ -158,11 +167,8 @@ def plain(value: Any, arrays: bool = True) -> Any:
     if isinstance(value, Shown):
         return value.to_dict(arrays)
     if isinstance(value, Mapping):
-        return {
-            str(k): plain(v, arrays)
-            for k, v in value.items()
-            if arrays or not isinstance(v, np.ndarray)
-        }
+        kept = {k: v for k, v in value.items() if arrays or not isinstance(v, np.ndarray)}
+        return {str(k): plain(v, arrays) for k, v in kept.items()}
     if isinstance(value, tuple | list):
         return [plain(v, arrays) for v in value]
     if isinstance(value, complex):
@@ -172,6 +178,10 @@ def plain(value: Any, arrays: bool = True) -> Any:
     if value is None or isinstance(value, bool | int | float | str):
         return value
     return in_words(value)
+
+
+def _unshown(value: Any) -> set[str]:
+    return {f.name for f in fields(value) if not f.repr} if is_dataclass(value) else set()
 
 
 def _field_names(value: Any) -> list[str]:
@@ -238,7 +248,3 @@ def _has_own_words(value: Any) -> bool:
     """Whether a value says more of itself than its address."""
     kind: Any = type(value)
     return any(getattr(kind, name) is not getattr(object, name) for name in ("__repr__", "__str__"))
-
-
-def _power_of(value: float) -> int:
-    return math.floor(math.log10(abs(value))) if value else 0

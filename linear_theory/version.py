@@ -8,7 +8,7 @@ PROJECT = Path(__file__).parents[1] / "pyproject.toml"
 
 
 def current_version() -> str:
-    """As pyproject.toml states it where these files lie beside it, else as the installed package does."""
+    """Of pyproject.toml where these files lie beside it, else of the installed package."""
     if PROJECT.exists():
         project = tomllib.loads(PROJECT.read_text(encoding="utf-8")).get("project", {})
         if project.get("name") == "sheetcrawl":

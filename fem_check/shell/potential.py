@@ -47,11 +47,13 @@ class Part(NamedTuple):
     step: Step | None
 
 
-class Blocks(NamedTuple):
-    """Element Hessians, (elements, shapes, component pairs, shapes)."""
-
+class _Blocks(NamedTuple):
     region: Region
     values: Array
+
+
+class Blocks(Shown, _Blocks):
+    """Element Hessians, (elements, shapes, component pairs, shapes)."""
 
 
 class Potential(Shown):
