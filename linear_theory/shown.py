@@ -148,8 +148,10 @@ def with_error(value: float, error: float) -> str:
     given, exact = Decimal(repr(float(value))), Decimal(repr(float(error)))
     unit = exact.adjusted() - 1
     shown = f"{exact.quantize(Decimal(1).scaleb(unit), ROUND_CEILING):{_style(exact, given)}}"
+    if given == 0:
+        return f"0 ± {shown}"
     if given.adjusted() - unit > MOST_DIGITS:
-        return f"{value!r} ± {shown}"
+        return f"{float(value)!r} ± {shown}"
     if _style(exact, given) == "f":
         return f"{given.quantize(Decimal(1).scaleb(unit)):f} ± {shown}"
     return f"{given:.{max(0, given.adjusted() - unit)}e} ± {shown}"

@@ -303,6 +303,8 @@ def test_direction_is_told_where_it_is_known(mean, error, words):
         (-1234.567, 980.1, "-1230 ± 990"),
         (1.23456e-9, 2e-12, "1.2346e-9 ± 2.0e-12"),
         (1.5, 0.0, "1.5"),
+        (0.0, 3e-9, "0 ± 3.0e-9"),
+        (np.float64(1e9), np.float64(1e-20), "1000000000.0 ± 1.0e-20"),
         (1.5, np.nan, "1.5 ± unknown"),
         (np.nan, np.inf, "unknown ± inf"),
     ],
