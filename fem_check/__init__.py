@@ -11,10 +11,15 @@ from fem_check.shell.effects.inertia import Inertia
 from fem_check.shell.effects.koiter import Bending, Membrane
 from fem_check.shell.effects.loads import DeadLoad
 from fem_check.shell.effects.terrain import Terrain
+from fem_check.shell.growth import bilayer
 from fem_check.shell.material import Material
 from fem_check.shell.scene import Scene
+from fem_check.shell.stepping.paraview import write_paraview
 from fem_check.shell.stepping.simulation import simulate
 from fem_check.shell.stepping.trajectory import Trajectory
+from linear_theory.version import current_version
+
+__version__ = current_version()
 
 __all__ = [
     "Bending",
@@ -31,8 +36,10 @@ __all__ = [
     "Scene",
     "Terrain",
     "Trajectory",
+    "bilayer",
     "cycle_speed",
     "plane_stress_field",
     "predict",
     "simulate",
+    "write_paraview",
 ]

@@ -26,6 +26,7 @@ from linear_theory.line import line_balance
 from linear_theory.model_error import model_error
 from linear_theory.second_field import AREAS, GROWTH_LAWS
 from linear_theory.sheet import Sheet
+from linear_theory.shown import Shown
 from linear_theory.speed import CrawlSpeed
 from linear_theory.wave_survey import WaveSurvey
 
@@ -38,7 +39,7 @@ leave a quarter. Else a wave too rough in time does, and four times the work wou
 
 
 @dataclass(frozen=True)
-class Question:
+class Question(Shown):
     """A sheet, its wave and what is assumed; arguments as in `crawl_speed`.
 
     Raises ValueError for names that do not exist and numbers out of range.

@@ -1,7 +1,8 @@
 """The outline of a sheet that need not be a rectangle."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import shapely
@@ -11,6 +12,7 @@ from skfem import MeshTri
 from fem_check import meshing
 from linear_theory import validation
 from linear_theory.sheet import Sheet
+from linear_theory.shown import Shown
 
 Array = NDArray[np.float64]
 
@@ -30,7 +32,7 @@ SAME = 1e-12
 
 
 @dataclass(frozen=True, eq=False)
-class Outline:
+class Outline(Shown):
     """A polygon with polygonal holes, in the coordinates of the sheet.
 
     corners: (n, 2), n >= 3, in units of length, either way round; holes: such arrays, within the
@@ -68,6 +70,16 @@ class Outline:
             validation.positive(n, v) / 2 for n, v in zip(names, (rear, front, length), strict=True)
         )
         return cls([[-a, -c], [a, -c], [b, c], [-b, c]])
+
+    def _title(self) -> str:
+        return f"Outline: {len(self.corners)} corners, {len(self.holes)} holes"
+
+    def _rows(self) -> Mapping[str, Any]:
+        return {name: v for name, v in self._contents().items() if name != "holes" or self.holes}
+
+    def _contents(self) -> Mapping[str, Any]:
+        size = {"length": self.length, "width": self.width, "area": self.area}
+        return {**size, "corners": self.corners, "holes": self.holes}
 
     @property
     def loops(self) -> tuple[Array, ...]:

@@ -6,14 +6,17 @@ follows its error.
 """
 
 import time
+from collections.abc import Mapping
 from dataclasses import replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from skfem import MeshTri
 
 from fem_check.mesh_checks import check_mesh
+from fem_check.mesh_shown import MeshShown
 from fem_check.outline import Outline
 from fem_check.plane_stress_solver import ELEMENTS, PlaneStressSolver
 from fem_check.triangles import TriangleFinder, quadrilateral_points
@@ -153,6 +156,9 @@ class PlaneStressField(LinearField):
         self._cases = cases or load_cases(wave, sheet.length)
         self._solution = self._solved(self._solver)
         self.seconds = time.perf_counter() - start
+
+    def _settings(self) -> Mapping[str, Any]:
+        return {"mesh": MeshShown(self.mesh), "degree": self.degree}
 
     @property
     def mesh(self) -> MeshTri:

@@ -3,7 +3,9 @@
 import math
 import time
 import warnings
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from typing import Any
 
 from fem_check.levels import LEVELS, TARGET_EFFECTS, Question, distance
 from fem_check.shell.abilities import left_out
@@ -13,7 +15,8 @@ from linear_theory.field import Wave
 from linear_theory.friction import warn_if_viscous
 from linear_theory.reach import warn_if_beyond
 from linear_theory.sheet import Sheet
-from linear_theory.speed import CrawlSpeed
+from linear_theory.shown import Shown, number
+from linear_theory.speed import CrawlSpeed, speed_in_words
 from linear_theory.threads import one_blas_thread
 
 METHODS = ("auto", *LEVELS)
@@ -23,7 +26,7 @@ SHARE = 0.5
 
 
 @dataclass(frozen=True)
-class Prediction:
+class Prediction(Shown):
     """A speed with the level that gave it.
 
     speed: its `error` is that of the numbers and `model_error` the distance to the target, NaN where it
@@ -55,6 +58,19 @@ class Prediction:
     def error(self) -> float:
         """Of numbers and model together, absolute."""
         return total_error(self.speed)
+
+    def _title(self) -> str:
+        return f"Prediction: {speed_in_words(self.mean, self.error, self.converged)}"
+
+    def _rows(self) -> Mapping[str, Any]:
+        errors = f"{self.speed.error:.2g} of numbers, {number(self.speed.model_error)} of the model"
+        answer = {"level": self.level, "reason": self.reason, "error": errors}
+        left_out = {"left_out": "; ".join(self.left_out)} if self.left_out else {}
+        friction = {"regime": self.speed.regime, "model": self.speed.model}
+        return {**answer, **friction, **left_out, "seconds": self.seconds}
+
+    def _contents(self) -> Mapping[str, Any]:
+        return {"mean": self.mean, "error": self.error, **super()._contents()}
 
 
 @dataclass(frozen=True)

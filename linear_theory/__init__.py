@@ -24,8 +24,12 @@ from linear_theory.path import rigid_path
 from linear_theory.ritz import RitzField, ritz_field
 from linear_theory.second_order import SecondOrder, second_order
 from linear_theory.sheet import Sheet
+from linear_theory.si import Scale, speed_si
 from linear_theory.speed import CrawlSpeed
+from linear_theory.version import current_version
 from linear_theory.waves import SineWave, TravellingWave
+
+__version__ = current_version()
 
 __all__ = [
     "LAPLACE_LIMIT",
@@ -35,6 +39,7 @@ __all__ = [
     "FieldWave",
     "NotConvergedError",
     "RitzField",
+    "Scale",
     "SecondOrder",
     "Sheet",
     "SheetcrawlError",
@@ -56,4 +61,5 @@ __all__ = [
     "rigid_path",
     "ritz_field",
     "second_order",
+    "speed_si",
 ]

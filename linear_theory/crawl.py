@@ -19,6 +19,7 @@ from linear_theory.reach import judged, too_large_growth, warn_if_beyond
 from linear_theory.ritz import ritz_field
 from linear_theory.second_order import check_model, second_order_speed
 from linear_theory.sheet import Sheet
+from linear_theory.shown import Shown
 from linear_theory.speed import CrawlSpeed
 from linear_theory.threads import one_blas_thread
 from linear_theory.waves import TravellingWave
@@ -242,13 +243,15 @@ def _friction_field(
     return FrictionField(force, slip, weight)
 
 
-class FrictionField(NamedTuple):
-    """force (2, ...): per reference area, over mu times the weight per area; slip (2, ...): velocity
-    against the ground, length per time; weight (...): load per reference area, 1 without growth."""
-
+class _Forces(NamedTuple):
     force: Array
     slip: Array
     weight: Array
+
+
+class FrictionField(Shown, _Forces):
+    """force (2, ...): per reference area, over mu times the weight per area; slip (2, ...): velocity
+    against the ground, length per time; weight (...): load per reference area, 1 without growth."""
 
 
 def _at_rest(field: LinearField, load: str, law: FrictionLaw) -> CrawlSpeed:

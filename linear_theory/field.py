@@ -9,7 +9,9 @@ and solvers differ only in the basis and in how they find it. All quantities are
 
 import math
 from abc import ABC, abstractmethod
+from collections.abc import Mapping
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -17,6 +19,7 @@ from numpy.typing import ArrayLike, NDArray
 from linear_theory import hooke, validation
 from linear_theory.motion import CellGrid, Motion
 from linear_theory.sheet import Sheet
+from linear_theory.shown import Shown
 from linear_theory.threads import one_blas_thread
 from linear_theory.wave_survey import WaveSurvey
 from linear_theory.waves import Wave as Wave
@@ -24,7 +27,7 @@ from linear_theory.waves import Wave as Wave
 Array = NDArray[np.float64]
 
 
-class LinearField(ABC):
+class LinearField(Shown, ABC):
     """Small-strain deformation of a sheet by a wave, per unit alpha.
 
     Points x, y (units of length, inside the sheet) and times t broadcast. Vectors have (x, y) and
@@ -40,6 +43,19 @@ class LinearField(ABC):
     mirrored: bool = False
     numbers: int = 0
     _kept: tuple[object, tuple[Array, Array, Array, Array]] | None = None
+
+    def _settings(self) -> Mapping[str, Any]:
+        """What the solver was asked for, or chose."""
+        return {}
+
+    def _rows(self) -> Mapping[str, Any]:
+        """Not the error, which is estimated when it is first asked for and may take long."""
+        known = {"sheet": self.sheet, "wave": self.wave, **self._settings(), "seconds": self.seconds}
+        return {**known, "gives": "displacement, velocity, strain, stress at (x, y, t), error"}
+
+    def _contents(self) -> Mapping[str, Any]:
+        known = {"sheet": self.sheet, "wave": self.wave, **self._settings()}
+        return {**known, "error": self.error, "mirrored": self.mirrored, "seconds": self.seconds}
 
     @property
     def centre(self) -> tuple[float, float]:

@@ -1,12 +1,13 @@
 """A wave of growth c(x, y, t) of any shape, given by a function."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from linear_theory import validation
+from linear_theory.shown import Value
 
 Array = NDArray[np.float64]
 Growth = Callable[[Any, Any, Any], ArrayLike]
@@ -19,7 +20,7 @@ DIFFERENCE = {1: 4 / 5, 2: -1 / 5, 3: 4 / 105, 4: -1 / 280}
 """Weights of (c(t + j h) - c(t - j h))/h in the central difference of eighth order."""
 
 
-class FieldWave:
+class FieldWave(Value):
     """c(x, y, t) = value(x, y, t) in the coordinates of the sheet (origin at its centre).
 
     value: takes arrays x, y (units of length) and t that broadcast, returns c, dimensionless, of
@@ -54,6 +55,12 @@ class FieldWave:
         """What its content key is made of."""
         functions = (self._value, self._rate) if self.name is None else self.name
         return functions, self.period
+
+    def _contents(self) -> Mapping[str, Any]:
+        known = {"value": self._value, "period": self.period}
+        if self._rate is not None:
+            known["rate"] = self._rate
+        return known if self.name is None else {**known, "name": self.name}
 
     @property
     def differenced(self) -> bool:

@@ -16,6 +16,7 @@ from linear_theory import validation
 from linear_theory.cells import gauss
 from linear_theory.errors import ViscousRegimeWarning
 from linear_theory.motion import Motion
+from linear_theory.shown import Value
 from linear_theory.speed import DRY_RATIO, CrawlSpeed
 
 Array = NDArray[np.float64]
@@ -28,7 +29,7 @@ FAR = 1e3
 
 
 @dataclass(frozen=True)
-class FrictionLaw:
+class FrictionLaw(Value):
     """f(r) of the speed r: 1 ("coulomb"), tanh(r/slip_speed) ("tanh", eq. 3), or r ("viscous").
 
     slip_speed: length per time, > 0, for "tanh" only. Raises ValueError otherwise.

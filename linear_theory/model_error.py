@@ -25,6 +25,7 @@ from linear_theory.friction import LOADS
 from linear_theory.records import read_rows
 from linear_theory.second_source import AREAS, GROWTH_LAWS
 from linear_theory.sheet import Sheet
+from linear_theory.shown import Shown
 from linear_theory.waves import TravellingWave
 
 Array = NDArray[np.float64]
@@ -44,7 +45,7 @@ SAME = 1e-12
 
 
 @dataclass(frozen=True)
-class Row:
+class Row(Shown):
     """One point of the table; speeds over alpha^2 L/T.
 
     nonlinear: of the target, the limit V_2 for alpha = 0, nan where the sheet has no static shape;

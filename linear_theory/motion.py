@@ -13,12 +13,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linear_theory.sheet import Sheet
+from linear_theory.shown import Shown
 
 Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
-class Motion:
+class Motion(Shown):
     """Values per unit alpha at the Gauss points of all cells; c cells, n = order, T times.
 
     position: (2, c, n, n), reference coordinates x, y.
@@ -51,7 +52,7 @@ class Motion:
 
 
 @dataclass(frozen=True)
-class CellGrid:
+class CellGrid(Shown):
     """Rows and columns of cells on a rectangle; edges ascend; `half`: the columns cover x >= 0 only."""
 
     x_edges: tuple[float, ...]

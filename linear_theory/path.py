@@ -18,6 +18,7 @@ and fro at order alpha while it swings at order alpha gets ahead by order alpha^
 
 import math
 import time
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -27,6 +28,7 @@ from scipy.interpolate import CubicHermiteSpline
 
 from linear_theory import validation
 from linear_theory.speed import CrawlSpeed
+from linear_theory.tables import LENGTH, RADIANS, TIME, Column, Tabular
 from linear_theory.threads import one_blas_thread
 from linear_theory.time_grid import TimeGrid
 
@@ -46,7 +48,7 @@ in the last row. Step 1."""
 
 
 @dataclass(frozen=True)
-class Poses:
+class Poses(Tabular):
     """Where the body frame was: times (N,), position (2, N) of its origin, heading (N,).
 
     The heading is the angle of its axes against those of the resting sheet, anticlockwise, radians, not
@@ -64,6 +66,15 @@ class Poses:
         place = place * np.exp(-1j * self.heading[index])
         heading = self.heading - self.heading[index]
         return Poses(self.times, np.stack([place.real, place.imag]), heading)
+
+    def _columns(self) -> Sequence[Column]:
+        x, y = self.position
+        return [
+            Column("time", self.times, "time", TIME),
+            Column("x", x, "position of the centre of mass across", LENGTH),
+            Column("y", y, "position of the centre of mass along", LENGTH),
+            Column("heading", self.heading, "angle of the axes of the sheet, anticlockwise", RADIANS),
+        ]
 
 
 @dataclass(frozen=True)
@@ -110,6 +121,19 @@ class Path(Poses):
         """Mean speed along that circle, or along the line, length per time."""
         arc_over_chord = 1 / abs(np.sinc(self.turn / (2 * math.pi)))
         return float(np.linalg.norm(self.step) * arc_over_chord / self.period)
+
+    def _title(self) -> str:
+        count = round(float(self.times[-1] - self.times[0]) / self.period) if self.period else 0
+        way = "straight" if self.is_straight else f"on a circle of radius {self.radius:.6g} length"
+        return f"Path: {count} periods, {way}"
+
+    def _columns(self) -> Sequence[Column]:
+        errors = self.position_error, self.heading_error
+        return [
+            *super()._columns(),
+            Column("position_error", errors[0], "estimated error of the position", LENGTH),
+            Column("heading_error", errors[1], "estimated error of the heading", RADIANS),
+        ]
 
 
 @one_blas_thread

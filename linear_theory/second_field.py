@@ -24,8 +24,10 @@ both have zero mean and zero mean of (du_y/dx - du_x/dy)/2.
 
 import math
 import time
+from collections.abc import Mapping
 from dataclasses import replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -97,6 +99,10 @@ class SecondOrderField(LinearField):
         self._solution = self._solve(self._moments)
         self._kept_second: tuple[object, Array] | None = None
         self.seconds = first.seconds + time.perf_counter() - start
+
+    def _settings(self) -> Mapping[str, Any]:
+        names = {"growth_law": self.growth_law, "area": self.area}
+        return {"degree": self.first.degree, **names}
 
     @property
     def error(self) -> float:

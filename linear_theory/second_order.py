@@ -38,6 +38,7 @@ from linear_theory.reach import growths, judged, too_large_growth, too_large_ter
 from linear_theory.rigid import RigidNorm
 from linear_theory.second_field import AREAS, GROWTH_LAWS, SecondOrderField, second_order_field
 from linear_theory.sheet import Sheet
+from linear_theory.shown import Shown, with_error
 from linear_theory.speed import CrawlSpeed
 from linear_theory.threads import one_blas_thread
 
@@ -63,7 +64,20 @@ FIRST_SHARE, SECOND_SHARE = 0.02, 1.2
 """Of the error of the velocity, what at most reaches V_1 (see `Crawl.field_error`) and V_2."""
 
 
-class SecondOrder(NamedTuple):
+class _Orders(NamedTuple):
+    first: float
+    second: float
+    first_error: float
+    second_error: float
+    seconds: float
+    model: str
+    rigid_first: Array
+    rigid_second: Array
+    rigid_first_error: Array
+    rigid_second_error: Array
+
+
+class SecondOrder(Shown, _Orders):
     """Coefficients of V = first alpha + second alpha^2 + ..., length/time, and their errors, absolute.
 
     first is 0 where c(t + T/2) = -c(t). second is NaN, its error infinite, where at some time part of
@@ -79,16 +93,10 @@ class SecondOrder(NamedTuple):
     V = 0 alpha + 1.53 alpha^2, in L/T
     """
 
-    first: float
-    second: float
-    first_error: float
-    second_error: float
-    seconds: float
-    model: str
-    rigid_first: Array
-    rigid_second: Array
-    rigid_first_error: Array
-    rigid_second_error: Array
+    def _title(self) -> str:
+        first = with_error(self.first, self.first_error)
+        second = with_error(self.second, self.second_error)
+        return f"SecondOrder: V = ({first}) alpha + ({second}) alpha^2, length/time"
 
     def rigid_mean(self, alpha: float) -> Array:
         """Means of V_x, V_y, Omega at one alpha, (3,)."""

@@ -5,10 +5,11 @@ from dataclasses import dataclass
 from numpy.typing import ArrayLike
 
 from linear_theory import validation
+from linear_theory.shown import Value
 
 
 @dataclass(frozen=True)
-class Sheet:
+class Sheet(Value):
     """A flat rectangular sheet, |x| <= width/2, |y| <= length/2, of Young modulus 1.
 
     Lengths are in any one unit (length = 1 makes them multiples of L). The defaults are

@@ -13,6 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.fft import dct
 
+from linear_theory.shown import Shown
+
 Array = NDArray[np.float64]
 Function = Callable[[Array], Array]
 """Values (n, lines) at points (n,), of several functions at once."""
@@ -23,7 +25,7 @@ its mean, and of its largest value."""
 
 
 @dataclass(frozen=True, eq=False)
-class Spectrum:
+class Spectrum(Shown):
     """sizes (K,): root mean squares of the terms 1 ... K of a series; missed: of all that they miss."""
 
     sizes: Array

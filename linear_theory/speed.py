@@ -1,10 +1,14 @@
 """The answer to the one question: how fast, how sure, at what cost."""
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
+
+from linear_theory.shown import with_error
+from linear_theory.tables import SPEED, SPIN, TIME, Column, Tabular
 
 Array = NDArray[np.float64]
 
@@ -30,7 +34,7 @@ def regime_of(slip_ratio: float) -> Regime:
 
 
 @dataclass(frozen=True)
-class CrawlSpeed:
+class CrawlSpeed(Tabular):
     """Speed of a crawling sheet, in length/time; positive is towards +y, the way of the wave.
 
     mean: V averaged over one period; error: estimate of its numerical error, absolute;
@@ -94,3 +98,51 @@ class CrawlSpeed:
         if self.model_error == 0:
             return "no distance to the nonlinear sheet"
         return f"within {self.model_error:.1g} of the nonlinear sheet"
+
+    def _title(self) -> str:
+        return f"CrawlSpeed: {speed_in_words(self.mean, self.error, self.converged)}"
+
+    def _rows(self) -> Mapping[str, Any]:
+        """All but what the title says and what was not computed."""
+        ratio = "" if np.isnan(self.slip_ratio) else f", slip ratio {self.slip_ratio:.3g}"
+        first = {"model_error": self.model_error, "regime": f"{self.regime}{ratio}"}
+        rest = {name: v for name, v in self._contents().items() if name not in TOLD and _is_there(v)}
+        return {**first, **rest}
+
+    def _columns(self) -> Sequence[Column]:
+        columns = [
+            Column("time", self.times, "time", TIME),
+            Column("velocity", self.velocity, "velocity of the sheet along y", SPEED),
+        ]
+        if self.rigid is not None:
+            columns += [
+                Column("velocity_x", self.rigid[0], "velocity across the sheet, in its axes", SPEED),
+                Column("rotation", self.rigid[2], "rate of rotation, anticlockwise", SPIN),
+            ]
+        return columns
+
+
+TOLD = ("mean", "error", "converged", "model_error", "slip_ratio")
+"""What the title of a speed and its first rows say."""
+
+
+def speed_in_words(mean: float, error: float, converged: bool) -> str:
+    """A mean speed with its error and direction, and whether its tolerance was met."""
+    met = "converged" if converged else "NOT converged"
+    return f"mean {with_error(mean, error)} length/time, {direction(mean, error)}, {met}"
+
+
+def direction(mean: float, error: float) -> str:
+    """Which way a speed goes, where its error leaves no doubt."""
+    if mean == 0 and error == 0:
+        return "at rest"
+    if not abs(mean) > error:
+        return "direction not resolved"
+    return "towards +y" if mean > 0 else "towards -y"
+
+
+def _is_there(value: Any) -> bool:
+    """Whether a field says more than that it was not computed, or is not so."""
+    if isinstance(value, float):
+        return not np.isnan(value)
+    return value is not None and value is not False and not (isinstance(value, str) and not value)

@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from linear_theory.field_wave import FieldWave
 from linear_theory.sheet import Sheet
+from linear_theory.shown import Shown
 from linear_theory.spectrum import Spectrum, chebyshev, fourier
 from linear_theory.waves import TravellingWave, Wave
 
@@ -53,7 +54,7 @@ FAINT, FEW = 0.1, 0.01
 
 
 @dataclass(frozen=True, eq=False)
-class WaveSurvey:
+class WaveSurvey(Shown):
     """A wave on a body; x, y (points,): places in it; sheet: the rectangle around it.
 
     >>> import numpy as np

@@ -12,6 +12,7 @@ Sign convention: n > 0 runs towards +y. The printed amplitudes of the seed paper
 a_r = delta_1r cos wt, b_s = delta_1s sin wt) belong to cos(2 pi y/L - wt), not to this sine.
 """
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any, NamedTuple, Protocol
@@ -20,6 +21,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from linear_theory import validation
+from linear_theory.shown import Shown, Value
 
 Array = NDArray[np.float64]
 
@@ -41,15 +43,17 @@ class Wave(Protocol):
         """Its time derivative."""
 
 
-class TimeFactors(NamedTuple):
-    """Coefficients of cos(2 pi r y/L) and of sin(2 pi r y/L), each (harmonics, *t.shape)."""
-
+class _Factors(NamedTuple):
     even: Array
     odd: Array
 
 
+class TimeFactors(Shown, _Factors):
+    """Coefficients of cos(2 pi r y/L) and of sin(2 pi r y/L), each (harmonics, *t.shape)."""
+
+
 @dataclass(frozen=True, eq=False)
-class TravellingWave:
+class TravellingWave(Value):
     """c = mean + sum_k cosine[k-1] cos(k phi) + sine[k-1] sin(k phi), phi as in the module's head.
 
     cosine, sine: (harmonics,) dimensionless amplitudes; count: waves on the sheet, any non-zero
@@ -239,7 +243,7 @@ def _roundoff(samples: Array) -> float:
     return 4 * EPS * float(abs(samples).max())
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False)
 class SineWave(TravellingWave):
     """c(y, t) = sin(2 pi count y/L - 2 pi t/period), the wave of the seed paper's section 3.1.
 
@@ -263,5 +267,5 @@ class SineWave(TravellingWave):
         object.__setattr__(self, "sine", np.ones(1))
         super().__post_init__()
 
-    def __repr__(self) -> str:
-        return f"SineWave(count={self.count}, period={self.period:g})"
+    def _contents(self) -> Mapping[str, Any]:
+        return {"count": self.count, "period": self.period}

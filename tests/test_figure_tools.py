@@ -13,7 +13,7 @@ import pytest
 from matplotlib.image import imread
 
 from figures import output, style
-from figures.units import Scale, speed_si
+from linear_theory.si import Scale, speed_si
 
 ROOT = Path(__file__).resolve().parents[1]
 

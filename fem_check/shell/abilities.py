@@ -18,6 +18,7 @@ from fem_check.shell.effects.inertia import Inertia
 from fem_check.shell.effects.koiter import Bending, Membrane
 from fem_check.shell.effects.loads import DeadLoad
 from fem_check.shell.scene import Scene
+from linear_theory.shown import Shown
 
 Judge = Callable[[Effect, Scene], str]
 """What of an effect, in a scene, a level cannot represent, in words; empty if it can all of it."""
@@ -29,7 +30,7 @@ then are within 1.5 % of a cycle's, at a tenth of it within 0.2 %, at three time
 
 
 @dataclass(frozen=True)
-class Level:
+class Level(Shown):
     """A way to an answer from a scene.
 
     call: how it is asked for. effects: judges of the effects that it honours, by class. conditions:

@@ -1,6 +1,6 @@
 """A sheet on a scikit-fem mesh: unknowns, quadrature and the regions that effects act on."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from functools import cached_property
 from typing import Any
 
@@ -9,11 +9,13 @@ import skfem
 from numpy.typing import ArrayLike, NDArray
 
 from fem_check.mesh_checks import check_mesh
+from fem_check.mesh_shown import MeshShown
 from fem_check.shell import elements
 from fem_check.shell.region import Region
 from fem_check.shell.shape_functions import derivatives, edge_frame
 from fem_check.shell.surface import Flat, Surface
 from linear_theory import validation
+from linear_theory.shown import Shown
 from linear_theory.units import power_of_two
 
 Array = NDArray[np.float64]
@@ -26,7 +28,7 @@ For BFS degree 5 (3 x 3 points) is as accurate and halves the work on meshes of 
 a single element then has three motions besides the rigid ones that cost no energy."""
 
 
-class Discretisation:
+class Discretisation(Shown):
     """Displacement fields of a surface: `components` copies of one scalar finite element.
 
     mesh: skfem.MeshTri or MeshQuad of the parameter domain. element: ElementQuadBFS on rectangles,
@@ -62,6 +64,14 @@ class Discretisation:
             raise ValueError(
                 f"surface = {self.surface!r}: must lie in a plane z = const for 2 components"
             )
+
+    def _title(self) -> str:
+        return f"Discretisation: {MeshShown(self.mesh)._title()}, {self.size} unknowns"
+
+    def _contents(self) -> Mapping[str, Any]:
+        mesh = {"mesh": MeshShown(self.mesh), "element": type(self.element).__name__}
+        numbers = {"components": self.components, "degree": self.degree, "size": self.size}
+        return {**mesh, "surface": self.surface, **numbers}
 
     @property
     def scalars(self) -> int:

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from linear_theory import validation
+from linear_theory.shown import Shown
 
 Array = NDArray[np.float64]
 
@@ -29,11 +30,13 @@ def metric_factor(law: str, alpha: float, growth: ArrayLike) -> Array:
     return np.asarray(smallest**2 if law == "linear" else smallest)
 
 
-class Couplings(NamedTuple):
-    """alpha: strain of the mid-surface per c (dimensionless). curvature: beta of eq. 4, 1/length."""
-
+class _Couplings(NamedTuple):
     alpha: float
     curvature: float
+
+
+class Couplings(Shown, _Couplings):
+    """alpha: strain of the mid-surface per c (dimensionless). curvature: beta of eq. 4, 1/length."""
 
 
 def bilayer(
@@ -49,6 +52,14 @@ def bilayer(
 
     The mean strain of equal layers being eps/2, the paper's beta = 100 alpha at h = 0.03 is this law.
     Raises ValueError for a thickness or ratio <= 0.
+
+    >>> from fem_check import Bending, Material, Membrane, Scene, bilayer
+    >>> from linear_theory import Sheet, SineWave
+    >>> alpha, beta = bilayer(growth=0.2, thickness=0.03)
+    >>> effects = [part(Material(thickness=0.03, poisson=0.5)) for part in (Membrane, Bending)]
+    >>> scene = Scene(Sheet(), SineWave(), alpha, curvature_coupling=beta, effects=effects)
+    >>> print(f"alpha = {scene.alpha:.2f}, beta = {scene.curvature_coupling:.0f}/L")
+    alpha = 0.10, beta = 10/L
     """
     eps = validation.real("growth", growth)
     h = validation.positive("thickness", thickness)

@@ -6,12 +6,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linear_theory import validation
+from linear_theory.shown import Value
 
 Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
-class Material:
+class Material(Value):
     """An isotropic sheet of Young modulus `young`, thickness h and Poisson ratio nu.
 
     thickness in units of length, young in force per area (1 by default: the unit of stress).

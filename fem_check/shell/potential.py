@@ -1,7 +1,7 @@
 """The sum of the effects of a scene as a function of the unknowns."""
 
-from collections.abc import Sequence
-from typing import NamedTuple
+from collections.abc import Mapping, Sequence
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,6 +14,7 @@ from fem_check.shell.point_state import PointState
 from fem_check.shell.rates import Step
 from fem_check.shell.region import Entries, Region
 from fem_check.shell.rest_state import RestState
+from linear_theory.shown import Shown
 
 Array = NDArray[np.float64]
 
@@ -46,14 +47,16 @@ class Part(NamedTuple):
     step: Step | None
 
 
-class Blocks(NamedTuple):
-    """Element Hessians, (elements, shapes, component pairs, shapes)."""
-
+class _Blocks(NamedTuple):
     region: Region
     values: Array
 
 
-class Potential:
+class Blocks(Shown, _Blocks):
+    """Element Hessians, (elements, shapes, component pairs, shapes)."""
+
+
+class Potential(Shown):
     """Energy, gradient and Hessian of the sum of some effects.
 
     effects act on the whole sheet, loads on the region that they name. rest is needed by elastic
@@ -74,6 +77,10 @@ class Potential:
         self._check()
         self._terms = [Term(discretisation.interior, self.effects, rest, step)] if effects else []
         self._terms += [Term(load.region, (load.effect,), None, None) for load in loads]
+
+    def _contents(self) -> Mapping[str, Any]:
+        names = ("discretisation", "effects", "loads", "rest", "step")
+        return {name: getattr(self, name) for name in names}
 
     def _check(self) -> None:
         if not self.effects and not self.loads:

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linear_theory import validation
+from linear_theory.shown import Shown
 
 Array = NDArray[np.float64]
 
@@ -17,7 +18,7 @@ NEWMARK_GAMMA = 0.5
 
 
 @dataclass(frozen=True, eq=False)
-class Affine:
+class Affine(Shown):
     """rate (x - base): rate in 1/time (1/time^2 for an acceleration), base (components, points)."""
 
     rate: float
@@ -33,7 +34,7 @@ class Affine:
 
 
 @dataclass(frozen=True, eq=False)
-class Step:
+class Step(Shown):
     """What a minimisation holds fixed while it looks for the position: a time step, or a lagged area.
 
     velocity: of the points, from their position; None in statics. acceleration: likewise, None without

@@ -5,6 +5,7 @@ Points are numbered element by element, `points` = elements x points per element
 x, x_1, x_2, x_11, x_22, x_12, of which each caller names the entries that it reads.
 """
 
+from collections.abc import Mapping
 from functools import cached_property
 from typing import Any
 
@@ -14,13 +15,14 @@ from numpy.typing import NDArray
 from fem_check.shell.elements import require_h2
 from fem_check.shell.shape_functions import is_global, shape_functions
 from fem_check.shell.surface import Surface
+from linear_theory.shown import Shown
 
 Array = NDArray[np.float64]
 Integers = NDArray[np.int64]
 Entries = tuple[int, ...]
 
 
-class Region:
+class Region(Shown):
     """Points, weights, shape functions and reference geometry, computed when first asked for.
 
     elements (elements,): indices in the mesh. parameters (2, elements, points per element).
@@ -46,6 +48,13 @@ class Region:
         self.components, self.tangents = components, tangents
         self._shapes: dict[Entries, Array] = {}
         self._jets: dict[int, Array] = {}
+
+    def _title(self) -> str:
+        return f"Region: {self.size} points in {len(self.elements)} elements"
+
+    def _contents(self) -> Mapping[str, Any]:
+        names = ("elements", "parameters", "weights", "dofs", "components", "surface")
+        return {name: getattr(self, name) for name in names}
 
     @property
     def size(self) -> int:

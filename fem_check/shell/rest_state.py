@@ -12,6 +12,7 @@ from fem_check.shell.growth import metric_factor
 from fem_check.shell.material import elastic_tensor
 from fem_check.shell.region import Region
 from linear_theory import validation
+from linear_theory.shown import Shown
 
 Array = NDArray[np.float64]
 
@@ -20,7 +21,7 @@ MEASURES = ("grown", "undeformed")
 
 
 @dataclass(frozen=True, eq=False)
-class RestState:
+class RestState(Shown):
     """abar and bbar of eq. 1 at the points of a region, whatever made them.
 
     abar, bbar: (3, points). measure (points,): quadrature weight times the area in which the energy

@@ -5,7 +5,7 @@ the scene is planar: two displacement components on continuous elements and firs
 """
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -15,6 +15,7 @@ import skfem
 from numpy.typing import ArrayLike, NDArray
 
 from fem_check.mesh_checks import check_fits, check_mesh
+from fem_check.mesh_shown import MeshShown
 from fem_check.shell.discretisation import Discretisation
 from fem_check.shell.effects.effect import Effect
 from fem_check.shell.effects.friction import Friction, load_bearer
@@ -33,6 +34,7 @@ from linear_theory import arguments, validation
 from linear_theory.field import Wave
 from linear_theory.load_cases import phases
 from linear_theory.sheet import Sheet
+from linear_theory.shown import Shown, in_words
 from linear_theory.wave_survey import WaveSurvey, waves_along
 
 Array = NDArray[np.float64]
@@ -44,12 +46,15 @@ distances between points of the 2 : 1 sheet at alpha = 0.25 are right to 7e-5 of
 
 PLANAR_DEGREE = 5
 
+GROWTH = ("alpha", "curvature_coupling", "growth_law", "curvature", "area")
+"""Fields of a scene that say how its wave grows it."""
+
 SAME = 1e-12
 """Difference of two descriptions of one material that is roundoff."""
 
 
 @dataclass(frozen=True, eq=False)
-class Scene:
+class Scene(Shown):
     """A sheet driven by a wave of growth, under the effects that are named.
 
     sheet: rectangle, thickness and Poisson ratio. wave: c(x, y, t) with its period. alpha: growth of
@@ -104,6 +109,22 @@ class Scene:
                 f"curvature_coupling = {self.curvature_coupling:g}: must be 0 without the effect "
                 "Bending, the only one that knows of a rest curvature"
             )
+
+    def _title(self) -> str:
+        effects = ", ".join(type(effect).__name__ for effect in self.effects)
+        return f"Scene: {'in the plane' if self.planar else 'in space'}, {effects}"
+
+    def _rows(self) -> Mapping[str, Any]:
+        growth = [f"{name}={in_words(getattr(self, name))}" for name in GROWTH]
+        mesh = "as the wave needs" if self.cells is None else self.cells
+        rows = {"sheet": self.sheet, "wave": self.wave, "growth": ", ".join(growth)}
+        rows["cells"] = mesh if self.mesh is None else MeshShown(self.mesh)
+        return {**rows, **{f"effects[{i}]": effect for i, effect in enumerate(self.effects)}}
+
+    def _contents(self) -> Mapping[str, Any]:
+        mesh = None if self.mesh is None else MeshShown(self.mesh)
+        element = None if self.element is None else type(self.element).__name__
+        return {**super()._contents(), "mesh": mesh, "element": element}
 
     @property
     def planar(self) -> bool:

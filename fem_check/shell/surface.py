@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linear_theory import validation
+from linear_theory.shown import Value
 
 Array = NDArray[np.float64]
 
@@ -35,7 +36,7 @@ def _vectors(xi1: Array, *vectors: tuple[Array | float, Array | float, Array | f
 
 
 @dataclass(frozen=True)
-class Flat:
+class Flat(Value):
     """The plane z = height with X = (xi_1, xi_2, height)."""
 
     height: float = 0.0
@@ -46,7 +47,7 @@ class Flat:
 
 
 @dataclass(frozen=True)
-class Trapezoid:
+class Trapezoid(Value):
     """A flat trapezoid: |xi_1| <= 1/2 runs across, |xi_2| <= length/2 along.
 
     start, end: widths at xi_2 = -length/2 and +length/2. Raises ValueError for sizes <= 0.
@@ -76,7 +77,7 @@ class Trapezoid:
 
 
 @dataclass(frozen=True)
-class AnnulusSector:
+class AnnulusSector(Value):
     """A flat ring in polar coordinates: xi_1 the radius > 0, xi_2 the angle from the x axis."""
 
     def __call__(self, xi1: Array, xi2: Array) -> Array:
@@ -94,7 +95,7 @@ class AnnulusSector:
 
 
 @dataclass(frozen=True)
-class Cylinder:
+class Cylinder(Value):
     """A circular cylinder about the y axis: xi_1 the angle from the crown, xi_2 = y.
 
     X = (radius sin xi_1, xi_2, radius cos xi_1); the normal points outwards.
@@ -113,7 +114,7 @@ class Cylinder:
 
 
 @dataclass(frozen=True)
-class SpherePart:
+class SpherePart(Value):
     """A sphere: xi_1 the longitude, |xi_2| < pi/2 the latitude of a globe whose axis is y.
 
     At xi = 0 the surface touches the plane z = radius and its parameter lines run along x and y;

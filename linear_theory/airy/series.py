@@ -2,9 +2,9 @@
 
 import math
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from functools import cached_property
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -18,6 +18,7 @@ from linear_theory.errors import NotConvergedError
 from linear_theory.field import LinearField, combine
 from linear_theory.load_cases import phases
 from linear_theory.sheet import Sheet
+from linear_theory.shown import Shown
 from linear_theory.threads import one_blas_thread
 from linear_theory.waves import TravellingWave
 
@@ -32,13 +33,15 @@ _SAFETY = {True: 2.5, False: 4.0}
 _ROUNDOFF = 1e-13
 
 
-class AiryAmplitudes(NamedTuple):
-    """A_m, B_m, C_r (m, r = 1, 2, ...) and D_s (s = 1, 3, ...) of eq. 15, each (modes, *t.shape)."""
-
+class _Amplitudes(NamedTuple):
     A: Array
     B: Array
     C: Array
     D: Array
+
+
+class AiryAmplitudes(Shown, _Amplitudes):
+    """A_m, B_m, C_r (m, r = 1, 2, ...) and D_s (s = 1, 3, ...) of eq. 15, each (modes, *t.shape)."""
 
 
 @one_blas_thread
@@ -167,6 +170,10 @@ class AirySeries(LinearField):
         odd = self._solve(-1, self._odd_load)
         self._cases = Cases(sheet, wave.orders, tail, even, odd)
         self.seconds = time.perf_counter() - start
+
+    def _settings(self) -> Mapping[str, Any]:
+        form = "printed" if self._printed else "corrected"
+        return {"modes": self.modes, "tail": self.tail, "form": form}
 
     def amplitudes(self, t: ArrayLike) -> AiryAmplitudes:
         """A, B, C, D at the times t in the paper's normalisation, per unit alpha."""

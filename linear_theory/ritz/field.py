@@ -10,8 +10,9 @@ like p**-6.5, after an exponential fall while the wave and its edge layers are b
 
 import math
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -117,6 +118,9 @@ class RitzField(LinearField):
         self._growth = self._moments()
         self._solution = solver.solve(self._growth)
         self.seconds = time.perf_counter() - start
+
+    def _settings(self) -> Mapping[str, Any]:
+        return {"degree": self.degree}
 
     @property
     def error(self) -> float:

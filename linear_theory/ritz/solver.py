@@ -7,6 +7,9 @@ of one parity in x and in y makes displacements of one parity, so that there are
 problems. In each, neighbours only are coupled: the Cholesky factor costs N_x N_y min(N_x, N_y)^2.
 """
 
+from collections.abc import Mapping
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import cho_solve_banded, cholesky_banded
@@ -14,6 +17,7 @@ from scipy.linalg import cho_solve_banded, cholesky_banded
 from linear_theory.ritz import legendre
 from linear_theory.ritz.legendre import Diagonals
 from linear_theory.sheet import Sheet
+from linear_theory.shown import Shown
 
 Array = NDArray[np.float64]
 Pair = tuple[int, int]
@@ -79,7 +83,7 @@ class _Block:
         return np.asarray(solution.T.reshape(right.shape).transpose(np.argsort(order)))
 
 
-class RitzSolver:
+class RitzSolver(Shown):
     """Displacement polynomials on one sheet for any growth; factors once per parity, on demand.
 
     degree: highest degrees (across, along), both odd.
@@ -89,6 +93,9 @@ class RitzSolver:
         self.sheet, self.degree = sheet, degree
         self.counts = ((degree[0] + 1) // 2, (degree[1] + 1) // 2)
         self._blocks: dict[Pair, _Block] = {}
+
+    def _contents(self) -> Mapping[str, Any]:
+        return {"sheet": self.sheet, "degree": self.degree}
 
     def solve(self, moments: Array) -> Array:
         """Coefficients of phi_i(x) phi_j(y) for growths given by their Legendre moments.

@@ -19,6 +19,7 @@ from fem_check.shell.cycle.shapes import Shapes, harmonics, time_factors
 from fem_check.shell.discretisation import Discretisation
 from linear_theory.path import Poses
 from linear_theory.rigid import centre_and_gyration
+from linear_theory.shown import Shown
 
 Array = NDArray[np.float64]
 
@@ -50,7 +51,7 @@ def poses(discretisation: Discretisation, times: Array, states: Array) -> Poses:
 
 
 @dataclass(frozen=True, eq=False)
-class BodyFrame:
+class BodyFrame(Shown):
     """The frame of a cycle of shapes.
 
     moments: (2K + 1, 4), harmonics in time of the means (see `moments`); period: of the wave.

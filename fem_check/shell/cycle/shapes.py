@@ -24,6 +24,7 @@ from fem_check.shell.statics.newton import Minimiser
 from fem_check.shell.statics.ramp import follow_mode, ramp
 from fem_check.shell.supports import Supports
 from linear_theory import validation
+from linear_theory.shown import Shown
 from linear_theory.threads import one_blas_thread
 
 Array = NDArray[np.float64]
@@ -49,7 +50,7 @@ class NotPeriodicError(ConvergenceError):
 
 
 @dataclass(frozen=True, eq=False)
-class Shapes:
+class Shapes(Shown):
     """Static shapes of a scene at equidistant phases t = 0, T/N, ... of one period T.
 
     states: (N, size), displacement unknowns of `discretisation`; iterations: of Newton's method, all

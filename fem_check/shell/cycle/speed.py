@@ -7,6 +7,7 @@ velocities and the area element of the nonlinear sheet).
 
 import math
 import time
+from collections.abc import Mapping
 from dataclasses import replace
 from functools import cached_property
 from typing import Any
@@ -26,6 +27,7 @@ from fem_check.shell.places import distinct
 from fem_check.shell.scene import Scene
 from linear_theory import validation
 from linear_theory.friction import warn_if_viscous
+from linear_theory.shown import Shown
 from linear_theory.speed import CrawlSpeed
 from linear_theory.threads import one_blas_thread
 from linear_theory.waves import TravellingWave
@@ -91,7 +93,7 @@ def cycle_speed(
     return found
 
 
-class Cycle:
+class Cycle(Shown):
     """A cycle of static shapes, which does not depend on what rests on the sheet nor on friction.
 
     Found when first needed and kept: speeds under several loads and laws of friction share it. Raises
@@ -103,6 +105,9 @@ class Cycle:
         self.scene = validation.instance("scene", scene, Scene, hint)
         CYCLE.require(self.scene)
         self._shapes = KeptShapes(scene)
+
+    def _contents(self) -> Mapping[str, Any]:
+        return {"scene": self.scene}
 
     @one_blas_thread
     def speed(

@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,6 +14,7 @@ from fem_check.shell.point_state import PointState, dot
 from fem_check.shell.rates import Step
 from fem_check.shell.region import Entries
 from linear_theory import validation
+from linear_theory.shown import Value
 
 Array = NDArray[np.float64]
 
@@ -49,7 +51,7 @@ def load_bearer(components: int, effects: Sequence[Effect]) -> Ground | Gravity:
 
 
 @dataclass(frozen=True)
-class Friction:
+class Friction(Value):
     """The force -mu N tanh(|v|/v0) v/|v| of eq. 3, whose potential is mu N v0 log cosh(|v|/v0).
 
     coefficient: mu > 0. slip_speed: v0 > 0, length per time; small against the speeds it is dry
@@ -60,8 +62,8 @@ class Friction:
 
     coefficient: float
     slip_speed: float
-    entries: Entries = (0,)
-    reads_rest: bool = False
+    entries: ClassVar[Entries] = (0,)
+    reads_rest: ClassVar[bool] = False
 
     def __post_init__(self) -> None:
         validation.positive("coefficient", self.coefficient)

@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,6 +12,7 @@ from fem_check.shell.point_state import AREAS, PointState
 from fem_check.shell.rates import Step
 from fem_check.shell.region import Entries
 from linear_theory import validation
+from linear_theory.shown import Value
 
 Array = NDArray[np.float64]
 
@@ -22,7 +24,7 @@ def check_area(area: str, step: Step | None) -> None:
 
 
 @dataclass(frozen=True)
-class Gravity:
+class Gravity(Value):
     """The force -weight e_z per area, on level ground or on an incline.
 
     weight: the rho g of the paper (2.5e-4 E), a force per area > 0. area: "grown", "current" or
@@ -35,7 +37,7 @@ class Gravity:
     weight: float
     area: str = "grown"
     incline: float = 0.0
-    entries: Entries = (0,)
+    entries: ClassVar[Entries] = (0,)
 
     def __post_init__(self) -> None:
         validation.positive("weight", self.weight)

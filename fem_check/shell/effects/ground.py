@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,6 +15,7 @@ from fem_check.shell.rates import Step
 from fem_check.shell.region import Entries
 from linear_theory import validation
 from linear_theory.sheet import Sheet
+from linear_theory.shown import Value
 
 Array = NDArray[np.float64]
 
@@ -22,7 +23,7 @@ FORMS = ("clipped", "printed")
 
 
 @dataclass(frozen=True)
-class Ground:
+class Ground(Value):
     """Pressure k g^2 - beta v on the gap g = z - f(x, y) where g <= 0 (eq. 2), as a potential.
 
     The pressure acts along the gradient of the gap, (-f_x, -f_y, 1). stiffness: k > 0, force per
@@ -39,7 +40,7 @@ class Ground:
     area: str = "grown"
     height: Any = None
     form: str = "clipped"
-    entries: Entries = (0,)
+    entries: ClassVar[Entries] = (0,)
 
     def __post_init__(self) -> None:
         validation.positive("stiffness", self.stiffness)

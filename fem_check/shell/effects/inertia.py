@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,12 +13,13 @@ from fem_check.shell.point_state import PointState
 from fem_check.shell.rates import Affine, Step
 from fem_check.shell.region import Entries
 from linear_theory import validation
+from linear_theory.shown import Value
 
 Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
-class Inertia:
+class Inertia(Value):
     """Mass h rho per undeformed area times the acceleration of Newmark's rule (eq. 16).
 
     The acceleration at the end of the step being rate (x - base), the potential is
@@ -26,8 +28,8 @@ class Inertia:
 
     density: float
     material: Material
-    entries: Entries = (0,)
-    reads_rest: bool = False
+    entries: ClassVar[Entries] = (0,)
+    reads_rest: ClassVar[bool] = False
 
     def __post_init__(self) -> None:
         validation.positive("density", self.density)

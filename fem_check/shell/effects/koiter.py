@@ -14,6 +14,7 @@ a_a = x_a, n the unit normal, a^c the dual base and Gamma^c_ab = a^c . x_ab the 
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,6 +25,7 @@ from fem_check.shell.point_state import PointState, dot
 from fem_check.shell.rates import Step
 from fem_check.shell.region import Entries
 from linear_theory import validation
+from linear_theory.shown import Value
 
 Array = NDArray[np.float64]
 
@@ -39,12 +41,12 @@ def _apply(tensor: Array, strain: Array) -> Array:
 
 
 @dataclass(frozen=True)
-class Membrane(NoConditions):
+class Membrane(Value, NoConditions):
     """Energy of stretching, eq. 1a; any number of components, first derivatives only."""
 
     material: Material
-    entries: Entries = (1, 2)
-    reads_rest: bool = True
+    entries: ClassVar[Entries] = (1, 2)
+    reads_rest: ClassVar[bool] = True
 
     def __post_init__(self) -> None:
         validation.instance("material", self.material, Material)
@@ -89,12 +91,12 @@ class Membrane(NoConditions):
 
 
 @dataclass(frozen=True)
-class Bending:
+class Bending(Value):
     """Energy of bending, eq. 1b; three components, H2 elements."""
 
     material: Material
-    entries: Entries = (1, 2, 3, 4, 5)
-    reads_rest: bool = True
+    entries: ClassVar[Entries] = (1, 2, 3, 4, 5)
+    reads_rest: ClassVar[bool] = True
 
     def __post_init__(self) -> None:
         validation.instance("material", self.material, Material)

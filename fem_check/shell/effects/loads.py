@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,20 +12,21 @@ from fem_check.shell.point_state import PointState
 from fem_check.shell.rates import Step
 from fem_check.shell.region import Entries
 from linear_theory import validation
+from linear_theory.shown import Value
 
 Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
-class DeadLoad(NoConditions):
+class DeadLoad(Value, NoConditions):
     """A force that keeps its size and direction: per undeformed area, length of an edge, or at a point.
 
     force: as many components as the scene has. Raises ValueError if they are not finite.
     """
 
     force: tuple[float, ...]
-    entries: Entries = (0,)
-    reads_rest: bool = False
+    entries: ClassVar[Entries] = (0,)
+    reads_rest: ClassVar[bool] = False
 
     def __post_init__(self) -> None:
         validation.real_array("force", self.force)
@@ -50,7 +52,7 @@ class DeadLoad(NoConditions):
 
 
 @dataclass(frozen=True)
-class EdgeMoment:
+class EdgeMoment(Value):
     """A moment about the y axis on an edge, per undeformed length, that turns x towards z.
 
     Its work is moment times the angle theta of the tangent a_entry, (cos theta, 0, sin theta). It is
@@ -63,7 +65,7 @@ class EdgeMoment:
     moment: float
     angle: float = 0.0
     entry: int = 1
-    reads_rest: bool = False
+    reads_rest: ClassVar[bool] = False
 
     def __post_init__(self) -> None:
         validation.real("moment", self.moment)

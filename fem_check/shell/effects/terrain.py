@@ -18,6 +18,7 @@ from fem_check.shell.effects.height_sources import (
 )
 from linear_theory import validation
 from linear_theory.sheet import Sheet
+from linear_theory.shown import Value
 
 Array = NDArray[np.float64]
 
@@ -44,7 +45,7 @@ SHARPEST, NEARER, ZOOMS = 64, 8, 6
 
 
 @dataclass(frozen=True)
-class Terrain:
+class Terrain(Value):
     """z = f(x, y), the ground under a sheet, in the coordinates of its resting place.
 
     height: a function of arrays x, y (points,) that returns z, an array of their shape or one number;

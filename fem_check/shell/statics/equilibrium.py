@@ -1,11 +1,14 @@
 """The result of a minimisation, and the failure to find one."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from linear_theory.errors import SheetcrawlError
+from linear_theory.shown import Shown
 
 Array = NDArray[np.float64]
 
@@ -23,7 +26,7 @@ class UnstableError(ConvergenceError):
 
 
 @dataclass(frozen=True, eq=False)
-class Equilibrium:
+class Equilibrium(Shown):
     """A state in which the free unknowns carry no force.
 
     state (size,): unknowns. energy: of all effects, force times length. iterations: of Newton's
@@ -41,6 +44,11 @@ class Equilibrium:
     seconds: float
     negative_curvature: float = np.nan
     mode: Array | None = field(default=None, repr=False)
+
+    def _rows(self) -> Mapping[str, Any]:
+        """Without the lowest curvature where it is positive and was not computed."""
+        rows = {**super()._rows(), "buckled": self.buckled}
+        return rows if self.buckled else {k: v for k, v in rows.items() if k != "negative_curvature"}
 
     @property
     def buckled(self) -> bool:

@@ -1,13 +1,13 @@
 """A trajectory as a time series for ParaView (XDMF), written by meshio, an optional package."""
 
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from fem_check.shell.stepping.trajectory import Trajectory
 from linear_theory import validation
+from linear_theory.extras import optional
 
 Array = NDArray[np.float64]
 
@@ -19,9 +19,25 @@ def write_paraview(trajectory: Trajectory, path: str | Path, refine: int = 2) ->
 
     path: of the .xdmf file; one file holds it all. refine: how often elements are halved for the
     picture, because a few elements of high degree carry more than their corners show. In ParaView:
-    Warp By Vector. Raises ModuleNotFoundError, with what to install, without meshio.
+    Warp By Vector.
+
+    Raises ValueError for a trajectory that is none and a refine that is no integer >= 0, and
+    ModuleNotFoundError, with what to install, without meshio.
+
+    >>> import os, tempfile
+    >>> from fem_check import Friction, Gravity, Material, Membrane, Scene, simulate, write_paraview
+    >>> from linear_theory import Sheet, SineWave
+    >>> effects = [Membrane(Material(0.03, 0.5)), Gravity(3e-6), Friction(1.0, slip_speed=0.005)]
+    >>> scene = Scene(Sheet(), SineWave(), alpha=0.1, effects=effects, cells=(1, 2))
+    >>> motion = simulate(scene, periods=1, rtol=0.1)
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     write_paraview(motion, os.path.join(folder, "crawl.xdmf"))
+    ...     print(os.listdir(folder))
+    ['crawl.xdmf']
     """
-    meshio, scene = _meshio(), trajectory.scene
+    meshio = optional("meshio", "paraview", "ParaView output")
+    hint = "simulate returns one"
+    scene = validation.instance("trajectory", trajectory, Trajectory, hint).scene
     mesh = scene.discretisation().mesh.refined(validation.integer("refine", refine, 0))
     region = scene.discretisation().points(mesh.p)
     flat = np.vstack([mesh.p, np.zeros(mesh.p.shape[1])])
@@ -35,11 +51,3 @@ def write_paraview(trajectory: Trajectory, path: str | Path, refine: int = 2) ->
             growth = trajectory.amplitude(t) * scene.growth(t, *mesh.p)
             data = {"displacement": displacement.T, "growth": np.asarray(growth)}
             writer.write_data(float(t), point_data=data)
-
-
-def _meshio() -> Any:
-    try:
-        import meshio
-    except ModuleNotFoundError:
-        raise ModuleNotFoundError("ParaView output needs meshio: pip install meshio") from None
-    return meshio

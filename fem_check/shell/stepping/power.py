@@ -28,18 +28,12 @@ from fem_check.shell.point_state import PointState
 from fem_check.shell.rates import Step
 from fem_check.shell.rest_state import RestState
 from fem_check.shell.scene import Scene
+from linear_theory.shown import Shown
 
 Array = NDArray[np.float64]
 
 
-class Works(NamedTuple):
-    """Energies in force times length; per step, or summed up to some times (arrays).
-
-    growth: work of growth on the sheet. elastic, weight, ground, kinetic: increase of the energies
-    (weight: with dead loads). friction, damping: what is dissipated. The balance is
-    growth = elastic + weight + ground + kinetic + friction + damping + residual.
-    """
-
+class _Works(NamedTuple):
     growth: Array
     elastic: Array
     weight: Array
@@ -47,6 +41,15 @@ class Works(NamedTuple):
     kinetic: Array
     friction: Array
     damping: Array
+
+
+class Works(Shown, _Works):
+    """Energies in force times length; per step, or summed up to some times (arrays).
+
+    growth: work of growth on the sheet. elastic, weight, ground, kinetic: increase of the energies
+    (weight: with dead loads). friction, damping: what is dissipated. The balance is
+    growth = elastic + weight + ground + kinetic + friction + damping + residual.
+    """
 
     @property
     def residual(self) -> Array:

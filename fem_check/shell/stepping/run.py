@@ -25,6 +25,7 @@ from fem_check.shell.stepping.start import first_history
 from fem_check.shell.stepping.step_control import LANDED, History, step_size
 from fem_check.shell.stepping.stepper import Stepper, StepResult
 from fem_check.shell.stepping.trajectory import Trajectory
+from linear_theory.shown import Shown
 from linear_theory.threads import one_blas_thread
 
 Array = NDArray[np.float64]
@@ -41,15 +42,17 @@ MOMENT = ("area", "sliding", "drag", "velocity")
 """Arrays of a Moment that not every scene has."""
 
 
-class Progress(NamedTuple):
-    """time and end of the run, accepted and rejected steps, seconds spent and left (estimated)."""
-
+class _Progress(NamedTuple):
     time: float
     end: float
     steps: int
     rejected: int
     seconds: float
     left: float
+
+
+class Progress(Shown, _Progress):
+    """time and end of the run, accepted and rejected steps, seconds spent and left (estimated)."""
 
 
 class Target(NamedTuple):

@@ -1,8 +1,9 @@
 """The result of a simulation: how the sheet moved, where its energy went, how fast it crawls."""
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -10,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from fem_check.shell.cycle.frame import poses
 from fem_check.shell.effects.friction import Friction
 from fem_check.shell.scene import Scene
+from fem_check.shell.stepping import columns
 from fem_check.shell.stepping.between import between, interpolation_error, motion_around
 from fem_check.shell.stepping.power import Works
 from fem_check.shell.stepping.sliding import COMPARED
@@ -17,7 +19,9 @@ from fem_check.shell.stepping.step_control import LANDED
 from fem_check.shell.stepping.stepper import amplitude
 from linear_theory import validation
 from linear_theory.path import Poses
-from linear_theory.speed import CrawlSpeed, Regime, regime_of
+from linear_theory.shown import Shown
+from linear_theory.speed import CrawlSpeed, Regime, regime_of, speed_in_words
+from linear_theory.tables import Column, Tabular
 
 Array = NDArray[np.float64]
 
@@ -36,7 +40,14 @@ DRY = 0.3
 """Slip ratio up to which the distance to dry friction is estimated."""
 
 
-class SpeedErrors(NamedTuple):
+class _Errors(NamedTuple):
+    step: float
+    spread: float
+    mesh: float
+    slip_speed: float
+
+
+class SpeedErrors(Shown, _Errors):
     """Estimated errors of the mean speed, absolute, length per time.
 
     step: of the time integration. spread: difference between the last two periods, NaN if there is one.
@@ -46,15 +57,15 @@ class SpeedErrors(NamedTuple):
     the slip speed that is simulated.
     """
 
-    step: float
-    spread: float
-    mesh: float
-    slip_speed: float
-
 
 @dataclass(frozen=True, eq=False)
-class Trajectory:
+class Trajectory(Tabular):
     """A simulated motion.
+
+    `speed` is the answer, `centre` and `path` are where the sheet was at `times`, `positions(t)` is its
+    shape, and `power` where the work of growth went: work and energies (force times length), each
+    summed up from the start to `times`, which balance; their slopes in time are powers. `to_dataframe`
+    and `to_xarray` have it all as tables, `fem_check.write_paraview` writes a film for ParaView.
 
     start: when the first counted period begins, after the ramp of growth. table: columns of
     `record.COLUMNS`. stored_times (n,), states (n, size): kept states. probes (steps + 1, points,
@@ -96,7 +107,11 @@ class Trajectory:
 
     @property
     def power(self) -> Works:
-        """Works and energies since the start, each (n,), force times length."""
+        """Energies up to each of `times` since the start, each (n,), force times length: see `Works`.
+
+        Work of growth = what elasticity, weight and ground store + kinetic energy + what friction and
+        damping dissipate + residual. Despite its name no rate: `numpy.gradient(w, times)` is the power.
+        """
         return Works(*(np.cumsum(self.table[name]) for name in Works._fields))
 
     @property
@@ -252,6 +267,36 @@ class Trajectory:
             model=f"{model}; snaps over" if snaps else model,
             slip_ratio=self.slip_ratio,
         )
+
+    def _title(self) -> str:
+        found = self.speed
+        return f"Trajectory: {speed_in_words(found.mean, found.error, found.converged)}"
+
+    def _rows(self) -> Mapping[str, Any]:
+        resumed = {} if np.isnan(self.resumed_at) else {"resumed_at": self.resumed_at}
+        return {
+            "scene": self.scene,
+            "periods": f"{self.periods} after a ramp of {self.start:g}, {len(self.times) - 1} steps",
+            "times": self.times,
+            "centre": self.centre,
+            "stored_times": self.stored_times,
+            "regime": self.regime,
+            "power": ", ".join(Works._fields),
+            "buckled": f"at {np.count_nonzero(self.buckled)} of the times",
+            **resumed,
+            "seconds": self.seconds,
+        }
+
+    def _contents(self) -> Mapping[str, Any]:
+        found = self.speed
+        answer = {name: getattr(found, name) for name in ("mean", "error", "converged", "regime")}
+        return {**answer, "periods": self.periods, **super()._contents()}
+
+    def _columns(self) -> Sequence[Column]:
+        return columns.columns(self)
+
+    def _fields(self) -> Sequence[Column]:
+        return columns.positions(self)
 
     def _at(self, period: int) -> int:
         """Row at the end of so many counted periods."""

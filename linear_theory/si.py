@@ -7,15 +7,23 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linear_theory import validation
+from linear_theory.shown import Value
 
 Number = TypeVar("Number", float, NDArray[np.float64])
 
 
 @dataclass(frozen=True)
-class Scale:
+class Scale(Value):
     """What L = 1 and T = 1 stand for: a sheet of `length_m` metres, a wave of `period_s` seconds.
 
-    Raises ValueError unless both are finite and positive.
+    Its methods take numbers and arrays in L and T. Raises ValueError unless both are finite and
+    positive.
+
+    >>> from linear_theory import Scale, Sheet, SineWave, crawl_speed
+    >>> scale = Scale(length_m=0.04, period_s=8.0)
+    >>> speed = crawl_speed(Sheet(), SineWave(), alpha=0.12, rtol=1e-3)
+    >>> print(f"{1000 * scale.speed(speed.mean):.3f} mm/s")
+    0.134 mm/s
     """
 
     length_m: float
@@ -41,7 +49,10 @@ class Scale:
 def speed_si(speed: Number, length_m: float, period_s: float) -> Number:
     """A speed in L/T (number or array), in m/s, for a sheet of `length_m` and a wave of `period_s`.
 
-    >>> f"{speed_si(0.05, length_m=0.02, period_s=0.5) * 1000:.3g} mm/s"
-    '2 mm/s'
+    Raises ValueError unless both are finite and positive.
+
+    >>> from linear_theory import speed_si
+    >>> print(f"{speed_si(0.05, length_m=0.02, period_s=0.5) * 1000:.3g} mm/s")
+    2 mm/s
     """
     return Scale(length_m, period_s).speed(speed)

@@ -1,0 +1,65 @@
+"""The table of a trajectory: what is known at the end of each step, with units, and its positions."""
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from linear_theory.tables import LENGTH, NUMBER, SPEED, TIME, Column
+
+if TYPE_CHECKING:
+    from fem_check.shell.stepping.trajectory import Trajectory
+
+ENERGY = "force*length"
+
+AXES = {"x": "across", "y": "along", "z": "above the ground"}
+
+ENERGIES = {
+    "growth": "work of growth on the sheet",
+    "elastic": "increase of the elastic energy",
+    "weight": "increase of the energy of weight and dead loads",
+    "ground": "increase of the energy of the ground",
+    "kinetic": "increase of the kinetic energy",
+    "friction": "energy lost to friction",
+    "damping": "energy lost to damping by the ground",
+}
+"""Entries of `Works`, all since the start of the run."""
+
+
+def columns(trajectory: "Trajectory") -> list[Column]:
+    """At the end of each step, times first."""
+    table, works = trajectory.table, trajectory.power
+    places = [
+        Column(f"centre_{axis}", row, f"centre of mass, {AXES[axis]}", LENGTH)
+        for axis, row in zip("xyz", trajectory.centre, strict=False)
+    ]
+    energies = [
+        Column(name, getattr(works, name), f"{words}, since the start", ENERGY)
+        for name, words in ENERGIES.items()
+    ]
+    return [
+        Column("time", trajectory.times, "time", TIME),
+        *places,
+        *energies,
+        Column("residual", works.residual, "what the balance of energy lacks", ENERGY),
+        Column("fastest", table["fastest"], "largest speed along the ground", SPEED),
+        Column("linear", table["linear"], "share of the load slower than the slip speed", NUMBER),
+        Column("iterations", table["iterations"], "Newton iterations of the step", NUMBER),
+        Column("buckled", trajectory.buckled, "negative curvature of the energy was met", NUMBER),
+    ]
+
+
+def positions(trajectory: "Trajectory") -> list[Column]:
+    """Of the vertices of the mesh at the stored times, and where they are in the undeformed sheet."""
+    scene = trajectory.scene
+    vertices = scene.discretisation().mesh.p
+    region = scene.discretisation().points(vertices)
+    places = np.array([region.position(u, (0,))[0] for u in trajectory.states])
+    axes = np.array(list("xyz"[: scene.components]))
+    dims = ("stored_time", "component", "vertex")
+    return [
+        Column("stored_time", trajectory.stored_times, "times of stored shapes", TIME, dims[:1]),
+        Column("component", axes, "direction in space", NUMBER, dims[1:2]),
+        Column("position", places, "position of a vertex of the mesh", LENGTH, dims),
+        Column("vertex_x", vertices[0], "its place in the undeformed sheet, across", LENGTH, dims[2:]),
+        Column("vertex_y", vertices[1], "its place in the undeformed sheet, along", LENGTH, dims[2:]),
+    ]
