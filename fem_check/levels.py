@@ -23,6 +23,7 @@ from linear_theory.field import Wave
 from linear_theory.friction import LOADS, FrictionLaw
 from linear_theory.line import line_balance
 from linear_theory.model_error import model_error
+from linear_theory.progress import part_of
 from linear_theory.second_field import AREAS, GROWTH_LAWS
 from linear_theory.sheet import Sheet
 from linear_theory.speed import CrawlSpeed
@@ -98,9 +99,11 @@ def cycle(question: Question, rtol: float, atol: float) -> CrawlSpeed:
     """The target, on finer meshes until the tolerance is met or the last one is reached."""
     seconds = 0.0
     for factor in MESHES:
-        found = cycle_speed(
-            scene(question, factor), question.load, question.friction, question.slip_speed, rtol, atol
-        )
+        sheet = scene(question, factor)
+        with part_of("{} x {} elements".format(*sheet.cells or ())):
+            found = cycle_speed(
+                sheet, question.load, question.friction, question.slip_speed, rtol, atol
+            )
         seconds += found.seconds
         if found.converged:
             break

@@ -15,6 +15,7 @@ from linear_theory.friction import LOADS, FrictionLaw, load_rate, warn_if_viscou
 from linear_theory.model_error import LEVELS, model_error
 from linear_theory.motion import CellGrid
 from linear_theory.period import Crawl, average, first_resolution
+from linear_theory.progress import Report, watched
 from linear_theory.reach import judged, too_large_growth, warn_if_beyond
 from linear_theory.ritz import ritz_field
 from linear_theory.second_order import check_model, second_order_speed
@@ -41,6 +42,8 @@ def crawl_speed(
     order: int = 1,
     growth_law: str = "exp",
     area: str = "grown",
+    *,
+    progress: bool | Report | None = None,
 ) -> CrawlSpeed:
     """Mean speed of a rectangular sheet in the small-strain theory (eqs 10 and 11), or to second order.
 
@@ -59,6 +62,7 @@ def crawl_speed(
     for a sine alpha^4; any wave, by Ritz. It says nothing of large alpha. order = 1 does not depend on
     growth_law and area but for its `model_error`: the distance to the nonlinear sheet of that
     growth_law, area and load where it was measured (`model_error.model_error`), else NaN.
+    progress: True prints on stderr, a function is called with a `progress.Progress`.
 
     Raises ValueError for bad input, among it an alpha so large that the area element
     1 + alpha tr(strain) is not positive somewhere (order 1) or that lengths vanish (order 2), and
@@ -76,14 +80,15 @@ def crawl_speed(
     """
     sheet, wave = arguments.sheet(sheet), arguments.wave(wave)
     check_model(order, growth_law, area)
-    if order == 2:
-        validation.choice("method", method, ("auto", "ritz"))
-        found = second_order_speed(
-            sheet, wave, alpha, growth_law, area, load, friction, slip_speed, rtol, atol
-        )
-    else:
-        field = _field(sheet, wave, rtol, method)
-        found = _field_speed(field, alpha, load, friction, slip_speed, rtol, atol)
+    with watched(progress, "crawl_speed"):
+        if order == 2:
+            validation.choice("method", method, ("auto", "ritz"))
+            found = second_order_speed(
+                sheet, wave, alpha, growth_law, area, load, friction, slip_speed, rtol, atol
+            )
+        else:
+            field = _field(sheet, wave, rtol, method)
+            found = _field_speed(field, alpha, load, friction, slip_speed, rtol, atol)
     distance = model_error(LEVELS[order], sheet, wave, alpha, growth_law, area, load, friction)
     found = replace(found, model_error=distance)
     warn_if_viscous(found, slip_speed)

@@ -26,6 +26,7 @@ from fem_check.shell.places import distinct
 from fem_check.shell.scene import Scene
 from linear_theory import validation
 from linear_theory.friction import warn_if_viscous
+from linear_theory.progress import Report, watched
 from linear_theory.speed import CrawlSpeed
 from linear_theory.threads import one_blas_thread
 from linear_theory.waves import TravellingWave
@@ -49,6 +50,8 @@ def cycle_speed(
     slip_speed: float | None = None,
     rtol: float = 1e-3,
     atol: float | None = None,
+    *,
+    progress: bool | Report | None = None,
 ) -> CrawlSpeed:
     """Mean speed of a sheet so stiff that friction does not change its shape.
 
@@ -70,6 +73,7 @@ def cycle_speed(
     model_error is 0 for a scene that only stretches in the plane, which is the target: the nonlinear
     sheet of the stated growth law, area measure and load; NaN for other scenes, such as those that name
     Friction, which deforms the sheet a little.
+    progress: True prints on stderr, a function is called with a `linear_theory.progress.Progress`.
 
     Raises ValueError for bad input, for a scene that names what a cycle of shapes cannot represent
     (see `abilities.CYCLE`), for arguments that contradict the scene and for a slope on which the sheet
@@ -86,7 +90,8 @@ def cycle_speed(
     >>> print(f"V = {speed.mean:.3f} L/T, converged {speed.converged}")
     V = 0.091 L/T, converged True
     """
-    found = Cycle(scene).speed(load, friction, slip_speed, rtol, atol)
+    with watched(progress, "cycle_speed"):
+        found = Cycle(scene).speed(load, friction, slip_speed, rtol, atol)
     warn_if_viscous(found, Contact.of(scene, load, friction, slip_speed).law.slip_speed)
     return found
 
