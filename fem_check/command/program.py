@@ -31,17 +31,18 @@ def main(arguments: Sequence[str] | None = None) -> NoReturn:
 
 def _run(arguments: Sequence[str]) -> int:
     """The status of what the words ask for."""
-    from cyclopts import CycloptsError
+    from cyclopts import CycloptsError, UnusedCliTokensError
 
     from fem_check.command.app import app
     from fem_check.command.words import tidied
 
     try:
         found = app(tidied(arguments), exit_on_error=False, print_error=False)
-    except CycloptsError as problem:
-        _complain(str(problem))
+    except UnusedCliTokensError as problem:
+        word = (problem.unused_tokens or [""])[0]
+        _complain(f"{word!r}: must follow an option, such as --growth; see sheetcrawl speed --help")
         return BAD_ARGUMENTS
-    except ValueError as problem:
+    except (CycloptsError, ValueError) as problem:
         _complain(str(problem))
         return BAD_ARGUMENTS
     return found if isinstance(found, int) else MET

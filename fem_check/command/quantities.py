@@ -11,7 +11,7 @@ from fem_check.answer.growth import alpha_of
 from fem_check.answer.units import Units
 from fem_check.command.options import Options
 from fem_check.levels import Question
-from linear_theory.pulse import pulse_wave
+from linear_theory.pulse import NARROWEST, pulse_wave
 from linear_theory.sheet import Sheet
 from linear_theory.waves import SineWave, TravellingWave
 
@@ -174,6 +174,10 @@ def _wave(options: Options, period: float) -> TravellingWave:
     if options.pulse is not None:
         if harmonics:
             raise ValueError(f"--pulse {options.pulse:g}: must be without --sine and --cosine")
+        if not NARROWEST <= options.pulse < 1:
+            raise ValueError(
+                f"--pulse {options.pulse:g}: must be in [{NARROWEST:g}, 1), a share of the wavelength"
+            )
         return pulse_wave(options.pulse, options.count, period)
     if not harmonics:
         return SineWave(options.count, period)
