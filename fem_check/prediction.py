@@ -10,6 +10,7 @@ from fem_check.answer.block import block
 from fem_check.levels import LEVELS, TARGET_EFFECTS, Question, distance
 from fem_check.shell.abilities import left_out
 from linear_theory import validation
+from linear_theory.drawable import Drawable
 from linear_theory.errors import BeyondReachWarning, NotConvergedError, ViscousRegimeWarning
 from linear_theory.field import Wave
 from linear_theory.friction import warn_if_viscous
@@ -26,7 +27,7 @@ SHARE = 0.5
 
 
 @dataclass(frozen=True)
-class Prediction:
+class Prediction(Drawable):
     """A speed with the level that gave it.
 
     speed: its `error` is that of the numbers and `model_error` the distance to the target, NaN where it

@@ -3,6 +3,7 @@
 import math
 import time
 from dataclasses import replace
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -10,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from linear_theory import arguments, validation
 from linear_theory.airy import airy_series
+from linear_theory.deformation import LinearDeformation
 from linear_theory.field import LinearField, Wave
 from linear_theory.friction import LOADS, FrictionLaw, load_rate, warn_if_viscous
 from linear_theory.model_error import LEVELS, model_error
@@ -27,6 +29,9 @@ from linear_theory.waves import TravellingWave
 Array = NDArray[np.float64]
 
 METHODS = ("auto", "airy", "ritz")
+
+SHOWN_RTOL = 1e-3
+"""Relative error of a deformation that is only drawn: less than a line is wide."""
 
 
 def crawl_speed(
@@ -90,7 +95,11 @@ def crawl_speed(
             field = _field(sheet, wave, rtol, method)
             found = _field_speed(field, alpha, load, friction, slip_speed, rtol, atol)
     distance = model_error(LEVELS[order], sheet, wave, alpha, growth_law, area, load, friction)
-    found = replace(found, model_error=distance)
+    # Found anew if it is drawn, so that a speed does not hold on to a solution and its tables.
+    shown = partial(_field, sheet, wave, SHOWN_RTOL, "ritz" if order == 2 else method)
+    law = FrictionLaw(friction, slip_speed)
+    deformation = LinearDeformation(shown, float(alpha), load, law)
+    found = replace(found, model_error=distance, deformation=deformation)
     warn_if_viscous(found, slip_speed)
     warn_if_beyond(alpha, found.beyond_reach)
     return found
@@ -153,8 +162,9 @@ def _field_speed(
     law = FrictionLaw(friction, slip_speed)
     unit = field.sheet.length / field.wave.period
     atol = validation.absolute_tolerance(atol, rtol, alpha, unit)
+    deformation = LinearDeformation(lambda: field, alpha, load, law)
     if alpha == 0:
-        return _at_rest(field, load, law)
+        return replace(_at_rest(field, load, law), deformation=deformation)
     crawl = Crawl(field, alpha, load, law, first_resolution(rtol))
     period = average(crawl, rtol, atol)
     found = CrawlSpeed(
@@ -172,6 +182,7 @@ def _field_speed(
         rigid=None if field.mirrored else period.rigid,
         rigid_mean=None if field.mirrored else period.rigid_mean,
         rigid_error=None if field.mirrored else period.rigid_error,
+        deformation=deformation,
     )
     return judged(found, _beyond_reach(field, alpha))
 

@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from fem_check.shell.abilities import CYCLE, friction_over_growth
 from fem_check.shell.cycle.balance import CycleBalance, Period
 from fem_check.shell.cycle.contact import Contact
+from fem_check.shell.cycle.deformation import CycleDeformation
 from fem_check.shell.cycle.motion import UnresolvedError, is_mirrored
 from fem_check.shell.cycle.shapes import Shapes, cycle_of_shapes, static_effects
 from fem_check.shell.effects.friction import Friction
@@ -143,6 +144,7 @@ class Cycle:
             rigid=None if balance.mirrored else rigid,
             rigid_mean=None if balance.mirrored else period.mean,
             rigid_error=None if balance.mirrored else error,
+            deformation=CycleDeformation(balance.shapes, contact),
         )
 
     @cached_property

@@ -15,6 +15,7 @@ from fem_check.shell.stepping.power import Works
 from fem_check.shell.stepping.sliding import COMPARED
 from fem_check.shell.stepping.stepper import amplitude
 from linear_theory import validation
+from linear_theory.drawable import Drawable
 from linear_theory.path import Poses
 from linear_theory.speed import CrawlSpeed, Regime, regime_of
 
@@ -52,7 +53,7 @@ class SpeedErrors(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False)
-class Trajectory:
+class Trajectory(Drawable):
     """A simulated motion.
 
     start: when the first counted period begins, after the ramp of growth. table: columns of
