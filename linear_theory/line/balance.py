@@ -90,7 +90,7 @@ def line_balance(
         slip_ratio=law.slip_ratio(length * answer.fastest),
         first_order=length * answer.first,
         second_order=length * answer.second,
-        sticks=answer.sticks,
+        sticks=answer.sticks and answer.fastest > 0,
         seconds=time.perf_counter() - start,
         model=_words(law, growth, body),
     )
