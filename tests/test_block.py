@@ -113,7 +113,9 @@ def test_what_is_left_out_is_all_of_what_the_answer_leaves_out():
 def test_a_tolerance_that_is_missed_and_a_model_that_is_not_known_are_said():
     known = predict(Sheet(), SineWave(), 0.1, method="strip", rtol=1e-3)
     said = lines(str(known))
-    asked, error = numbers(said["NOT MET"], rf"the tolerance, {NUMBER} %, is not met: the error is {NUMBER} %")
+    asked, error = numbers(
+        said["NOT MET"], rf"the tolerance, {NUMBER} %, is not met: the error is {NUMBER} %"
+    )
     assert asked == 0.1
     assert error >= 100 * known.error / abs(known.mean)
     unknown = lines(str(predict(Sheet(), SineWave(), 0.1, method="strip", friction="viscous")))
@@ -127,10 +129,9 @@ def test_a_tolerance_that_is_missed_and_a_model_that_is_not_known_are_said():
 
 def test_beyond_reach_is_said():
     with warnings.catch_warnings(action="ignore"):
-        found = predict(Sheet(), SineWave(), 0.9, method="first order")
+        found = predict(Sheet(), SineWave(), 0.9, method="second order", rtol=0.5)
     said = lines(str(found))
-    assert said["BEYOND"].endswith(found.speed.beyond_reach)
-    assert "no answer" in said["BEYOND"]
+    assert said["NO ANSWER"] == f"beyond the reach of the theory: {found.speed.beyond_reach}"
 
 
 def test_nothing_moves_without_growth():
@@ -146,7 +147,9 @@ def test_a_sheet_that_turns():
     expected = crawl_speed(Sheet(), wave, 0.05, rtol=1e-3)
     said = lines(str(found))
     rate, error = numbers(said["turning"], rf"^{NUMBER} ± {NUMBER} degrees per period, anticlockwise")
-    assert abs(rate - math.degrees(expected.rigid_mean[2])) <= error + math.degrees(expected.rigid_error[2])
+    assert abs(rate - math.degrees(expected.rigid_mean[2])) <= error + math.degrees(
+        expected.rigid_error[2]
+    )
     assert said["wave"].startswith("1 × 0.5 × 0.03 L, a wave c(x, y, t)")
     assert "towards +y" in said["speed"]
     assert "sideways" in said
@@ -155,7 +158,12 @@ def test_a_sheet_that_turns():
 def test_mixed_friction_names_its_slip_speed_in_the_units_of_the_answer():
     with warnings.catch_warnings(action="ignore"):
         found = predict(
-            Sheet(40.0, 20.0), SineWave(1, 8.0), 0.1, friction="tanh", slip_speed=0.1, method="first order"
+            Sheet(40.0, 20.0),
+            SineWave(1, 8.0),
+            0.1,
+            friction="tanh",
+            slip_speed=0.1,
+            method="first order",
         )
     slip, share = numbers(lines(block(found, MM))["friction"], rf"slip speed {NUMBER} mm/s, {NUMBER} %")
     assert slip == 0.1

@@ -50,7 +50,8 @@ def block(
     units: lengths L of the sheet and periods T of the wave unless given. hints: where to find more,
     after what is left out and after the cost.
     """
-    units = units or Units.of_sheet(found.question)
+    q = found.question
+    units = units or Units.of_sheet(q.sheet.length, q.wave.period)
     lines = [*_asked(found, units), *_answer(found, units), *_assumed(found, units, hints)]
     return "\n".join(_wrapped(label, text, width) for label, text in lines if text)
 
@@ -62,7 +63,7 @@ def _asked(found: "Prediction", units: Units) -> Iterator[Line]:
     sizes = (units.of_length(size) for size in (q.sheet.length, q.sheet.width, q.sheet.thickness))
     period = units.of_time(q.wave.period)
     asked = f"{' × '.join(map(plain, sizes))} {units.length}, {wave_words(q.wave)}"
-    own = units == Units.of_sheet(q)
+    own = units == Units.of_sheet(q.sheet.length, q.wave.period)
     yield wave, asked + (_own_units(units) if own else f", T = {plain(period, 6)} {units.time}")
     most = extremes(q)
     growth = f"growth {plain(100 * most.crest)} % of length at the crest"
@@ -75,8 +76,8 @@ def _asked(found: "Prediction", units: Units) -> Iterator[Line]:
 
 def _own_units(units: Units) -> str:
     """What L and T are in the units of the question, where they are not 1."""
-    named = (units.length, units.length_size), (units.time, units.time_size)
-    return "".join(f", {name} = {size:.6g}" for name, size in named if size != 1)
+    named = (units.length, units.length_factor), (units.time, units.time_factor)
+    return "".join(f", {name} = {1 / factor:.6g}" for name, factor in named if factor != 1)
 
 
 def _answer(found: "Prediction", units: Units) -> Iterator[Line]:
@@ -87,10 +88,7 @@ def _answer(found: "Prediction", units: Units) -> Iterator[Line]:
     yield "speed", f"{shown.with_unit(units.speed)}, {way}; {per_period(found, units, error)}"
     yield from sideways_and_turning(found.speed, found.question.wave, units)
     if found.speed.beyond_reach:
-        yield (
-            "BEYOND",
-            f"the reach of the theory, so that this is no answer: {found.speed.beyond_reach}",
-        )
+        yield "NO ANSWER", found.speed.reach
     elif not found.converged:
         yield "NOT MET", _missed(found)
     yield "accuracy", _accuracy(found, units)

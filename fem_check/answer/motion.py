@@ -30,7 +30,7 @@ def per_period(found: "Prediction", units: Units, error: float) -> str:
     """The way of one period, in the unit of length, or as a share of the length of the sheet."""
     question = found.question
     way, wrong = (size * question.wave.period for size in (found.mean, error))
-    if units == Units.of_sheet(question):
+    if units == Units.of_sheet(question.sheet.length, question.wave.period):
         share = (100 / question.sheet.length * size for size in (abs(way), wrong))
         return f"{measured(*share).value} % of its length per period"
     shown = measured(units.of_length(abs(way)), units.of_length(wrong))

@@ -41,7 +41,7 @@ def speed(options: Options) -> int:
     print(_told(found, question.units, options))
     for warning in seen:
         print(f"sheetcrawl: warning: {warning.message}", file=sys.stderr)
-    _draw(found, options)
+    _draw(found, question.units, options)
     return MET if found.converged else MISSED
 
 
@@ -108,11 +108,13 @@ def table(found: Prediction, units: Units | None) -> str:
     return "\n".join([f"t [{names[0]}],V [{names[1]}]", *(f"{t!r},{v!r}" for t, v in rows)])
 
 
-def _draw(found: Prediction, options: Options) -> None:
+def _draw(found: Prediction, units: Units | None, options: Options) -> None:
     """The picture and the film that are asked for."""
-    shown: Any = found
     if options.plot is not None:
-        axes = shown.plot()
-        (axes if hasattr(axes, "figure") else axes[0]).figure.savefig(options.plot)
+        from fem_check.output.files import replacing  # and matplotlib with it
+
+        (first, *_) = found.plot(units=units)
+        with replacing(options.plot) as part:
+            first.figure.savefig(part)
     if options.movie is not None:
-        shown.movie(options.movie, progress=True)
+        found.movie(options.movie, units=units, progress=sys.stderr.isatty())

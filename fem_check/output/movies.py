@@ -8,12 +8,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from fem_check.answer.units import Units
 from fem_check.output import writers
 from fem_check.output.files import replacing, writable
 from fem_check.output.pictures import checked_periods, checked_units, moving_of
 from fem_check.output.progress import Progress
 from fem_check.output.stage import Stage
-from fem_check.output.units import Units
 from linear_theory import validation
 
 Pixels = NDArray[np.uint8]

@@ -15,10 +15,10 @@ from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.tri import Triangulation
 from numpy.typing import NDArray
 
+from fem_check.answer.units import Units
 from fem_check.output.geometry import edges, inside
 from fem_check.output.look import COLORS
 from fem_check.output.moving import Frame, Moving
-from fem_check.output.units import Units
 
 Array = NDArray[np.float64]
 Integers = NDArray[np.int64]

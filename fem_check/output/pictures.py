@@ -7,12 +7,12 @@ import numpy as np
 from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
+from fem_check.answer.units import Units
 from fem_check.output.crawling import Crawling
 from fem_check.output.look import CM_PER_INCH, COLUMN_CM, STYLE
 from fem_check.output.moving import Moving
 from fem_check.output.panels import draw_path, draw_sheet, draw_side, draw_speed
 from fem_check.output.simulated import Simulated
-from fem_check.output.units import Units
 from fem_check.prediction import Prediction
 from fem_check.shell.stepping.trajectory import Trajectory
 from linear_theory import validation

@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MultipleLocator
 from numpy.typing import NDArray
 
+from fem_check.answer.units import Units
 from fem_check.output.look import STYLE
 from fem_check.output.moving import Frame, Moving
 from fem_check.output.panels import (
@@ -21,7 +22,6 @@ from fem_check.output.panels import (
     draw_ground,
     growth_scale,
 )
-from fem_check.output.units import Units
 
 Array = NDArray[np.float64]
 Pixels = NDArray[np.uint8]
