@@ -16,7 +16,8 @@ Integers = NDArray[np.int64]
 
 
 CONSTANT = 2
-"""Times up to which a speed does not change: a line has both ends of the period, a sheet at rest one."""
+"""Times up to which a speed does not change: a line has both ends of the period and
+a sheet at rest one."""
 
 
 class Crawling:
