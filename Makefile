@@ -82,7 +82,7 @@ paper: figures
 # the function and as its module.
 docs: $(STAMP)
 	$(RUN) -m pdoc --docformat markdown -o build/docs linear_theory '!linear_theory.second_order' \
-	    fem_check fem_check.shell.effects fem_check.shell.material
+	    fem_check fem_check.output fem_check.shell.effects fem_check.shell.material
 
 # setuptools comes with the lock and build isolation is off: pip fetches nothing that is not pinned.
 $(STAMP): requirements.lock pyproject.toml

@@ -1,6 +1,7 @@
 """What `.movie(path)` writes: frames, size, the same bytes, nothing half done, clear refusals."""
 
 import imageio_ffmpeg
+import matplotlib as mpl
 import numpy as np
 import pytest
 from PIL import Image
@@ -12,7 +13,7 @@ from fem_check.output.stage import LEFT, RIGHT, TOP, Stage
 from figures import readme_movie
 from linear_theory import Sheet, SineWave, crawl_speed, line_balance
 
-SMALL = {"periods": 2, "frames": 5, "width": 241}
+SMALL = {"periods": 2, "frames": 5, "width": 421}
 
 
 @pytest.fixture(scope="module")
@@ -22,11 +23,12 @@ def speed():
 
 def test_gif_has_its_frames_and_the_same_bytes_every_time(speed, tmp_path):
     once = speed.movie(tmp_path / "once.gif", fps=10, **SMALL)
-    again = speed.movie(str(tmp_path / "new" / "again.GIF"), fps=10, **SMALL)
+    with mpl.rc_context({"font.size": 20, "axes.grid": True}):  # the user's own taste
+        again = speed.movie(str(tmp_path / "new" / "again.GIF"), fps=10, **SMALL)
     assert once.read_bytes() == again.read_bytes()
     with Image.open(once) as film:
         assert film.n_frames == 10
-        assert film.size[0] == 240  # even, as the encoders of .mp4 want it
+        assert film.size[0] == 420  # even, as the encoders of .mp4 want it
         assert film.info["duration"] == 100
         assert film.info["loop"] == 0
     assert sorted(p.name for p in tmp_path.iterdir()) == ["new", "once.gif"]
@@ -37,7 +39,7 @@ def test_mp4_has_its_frames(speed, tmp_path):
     count, seconds = imageio_ffmpeg.count_frames_and_secs(str(path))
     assert (count, seconds) == (10, pytest.approx(1.0, abs=0.05))
     reader = imageio_ffmpeg.read_frames(str(path))
-    assert next(reader)["size"][0] == 240
+    assert next(reader)["size"][0] == 420
     frame = np.frombuffer(next(reader), np.uint8)
     reader.close()
     assert frame.max() > 200 > 100 > frame.min()
@@ -55,7 +57,7 @@ def test_the_sheet_in_the_picture_is_where_the_result_says(speed):
     for k in (0, 3, 4):
         end = frames[k].place[1].max()
         expected = LEFT + (end - low) / (high - low) * (640 - LEFT - RIGHT)
-        ground = pictures[k][TOP + 20 : -45].astype(int)
+        ground = pictures[k][TOP + 20 : -50].astype(int)
         # the edge is dark; the dashed line of the start and the trail lie left of the middle
         dark = np.flatnonzero((ground.max(2) < 110).any(0))
         assert dark.max() == pytest.approx(expected, abs=2)
@@ -63,9 +65,19 @@ def test_the_sheet_in_the_picture_is_where_the_result_says(speed):
     assert moved == pytest.approx(speed.mean, rel=1e-6)
 
 
+def test_a_wide_sheet_fits_on_the_ground():
+    """Its wide sides are to be seen: ground on all sides of the sheet."""
+    moving = moving_of(crawl_speed(Sheet(width=4.0), SineWave(), 0.1, rtol=1e-2))
+    stage = Stage(moving, checked_units(moving, None), 1, 2, 420, 1.0)
+    ground = stage._set_up()[1][0]
+    for frame in stage._frames:
+        for limits, values in zip((ground.get_ylim(), ground.get_xlim()), frame.place, strict=True):
+            assert min(limits) < values.min() < values.max() < max(limits)
+
+
 def test_exaggeration_moves_points_but_not_the_centre(speed):
     moving = moving_of(speed)
-    plain, larger = (Stage(moving, checked_units(moving, None), 1, 4, 320, f) for f in (1.0, 3.0))
+    plain, larger = (Stage(moving, checked_units(moving, None), 1, 4, 420, f) for f in (1.0, 3.0))
     frame = plain._frames[1]
     shown = larger._shown(frame)
     np.testing.assert_allclose(shown.place - frame.still, 3 * (frame.place - frame.still), atol=1e-12)
@@ -76,7 +88,7 @@ def test_exaggeration_moves_points_but_not_the_centre(speed):
 
 def test_words_are_in_the_units_that_were_asked_for(speed):
     moving = moving_of(speed)
-    stage = Stage(moving, Units("mm", "s", 40.0, 8.0), 2, 4, 320, 1.0)
+    stage = Stage(moving, Units("mm", "s", 40.0, 8.0), 2, 4, 420, 1.0)
     words = stage._words(stage._frames[4])
     assert words == f"t = 8.00 s    way +{40 * speed.mean:.1f} mm"
 
