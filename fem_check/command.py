@@ -135,8 +135,8 @@ def record(found: Prediction) -> dict[str, Any]:
         "level": found.level,
         "reason": found.reason,
         "model": speed.model,
-        "left_out": list(found.left_out),
         "reach": speed.reach,
+        "left_out": list(found.left_out),
     }
 
 

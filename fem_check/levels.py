@@ -29,6 +29,7 @@ from linear_theory.ritz import ritz_field
 from linear_theory.second_field import AREAS, GROWTH_LAWS
 from linear_theory.sheet import Sheet
 from linear_theory.speed import CrawlSpeed
+from linear_theory.wave_survey import WaveSurvey
 
 MESHES = (1, 2, 4)
 """Factors of the default cells that the nonlinear sheet is tried with, coarse to fine."""
@@ -70,8 +71,10 @@ Level = Callable[[Question, float, float], CrawlSpeed]
 
 
 def strip(question: Question, rtol: float, atol: float) -> CrawlSpeed:
-    """The narrow strip, as long as the sheet."""
+    """The narrow strip, as long as the sheet; ValueError for a wave that depends on x."""
     q = question
+    if WaveSurvey.on_sheet(q.wave, q.sheet).depends_on_x:
+        raise ValueError("method = 'strip': cannot represent a wave that depends on x, 'cycle' can")
     found = line_balance(
         q.wave,
         q.alpha,

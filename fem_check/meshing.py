@@ -39,7 +39,7 @@ def polygon_mesh(loops: Sequence[Array], size: float) -> MeshTri:
     ValueError where Netgen finds no mesh, RuntimeError where it is not installed.
     """
     geometry, mesh_error = _netgen()
-    # Netgen compares lengths with numbers: it gets coordinates of order 1 about the middle of the outline
+    # Netgen compares lengths with numbers: it gets coordinates of order 1 about the middle
     middle = (loops[0].min(axis=0) + loops[0].max(axis=0)) / 2
     unit = 2.0 ** np.floor(np.log2(np.ptp(loops[0], axis=0).max()))
     outline = geometry()
@@ -51,8 +51,8 @@ def polygon_mesh(loops: Sequence[Array], size: float) -> MeshTri:
         found = outline.GenerateMesh(maxh=float(size / unit), grading=GRADING)
     except mesh_error as error:
         raise ValueError(
-            f"size = {size:g}: Netgen does not mesh this outline ({error}); blunt its needles and fill its "
-            "clefts, try another size, or make a mesh elsewhere and give it as a skfem.MeshTri"
+            f"size = {size:g}: Netgen does not mesh this outline ({error}); blunt its needles and fill "
+            "its clefts, try another size, or make a mesh elsewhere and give it as a skfem.MeshTri"
         ) from None
     points = np.array([vertex.p[:2] for vertex in found.Points()]) * unit + middle
     corners = np.concatenate(loops)
@@ -68,8 +68,8 @@ def _netgen() -> tuple[Any, Any]:
         from netgen.meshing import NgException
     except ImportError as error:
         raise RuntimeError(
-            f"outlines other than convex quadrilaterals are meshed by Netgen, which cannot be loaded "
-            f"({error}): pip install netgen-mesher, or make a mesh elsewhere and give it as a skfem.MeshTri"
+            "outlines other than convex quadrilaterals are meshed by Netgen, which cannot be loaded "
+            f"({error}): pip install netgen-mesher, or give a mesh made elsewhere, as skfem.MeshTri"
         ) from None
     return SplineGeometry, NgException
 

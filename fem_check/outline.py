@@ -34,9 +34,9 @@ class Outline:
     """A polygon with polygonal holes, in the coordinates of the sheet.
 
     corners: (n, 2), n >= 3, in units of length, either way round; holes: such arrays, within the
-    outline and apart from each other. A corner that repeats the next one, as the last may
-    repeat the first, is left out. A wave on it has its origin at y = 0 and as its length the extent of the
-    outline along y: centre the outline on the origin to compare it with a `Sheet`.
+    outline and apart from each other. A corner that repeats the next one, as the last may repeat the
+    first, is left out. A wave on it has its origin at y = 0 and as its length the extent of the outline
+    along y: centre the outline on the origin to compare it with a `Sheet`.
 
     Raises ValueError for corners that are not finite, not (n, 2), enclose no area, or cross.
 
@@ -114,7 +114,7 @@ class Outline:
         return len(self.corners) == 4 and not self.holes and self.largest_angle <= np.pi
 
     def _check_count(self, size: float) -> None:
-        """Raise ValueError unless a/size^2 + b/size + c, which is never too few, is a bearable number."""
+        """Raise ValueError unless a/size^2 + b/size + c, the most triangles possible, is bearable."""
         a, b, c = self._count()
         if c >= MOST_TRIANGLES:
             most = MOST_TRIANGLES // TRIANGLES_PER_SIDE
@@ -140,9 +140,9 @@ class Outline:
         if clearance < least:
             x, y = self.corners[0] + shapely.minimum_clearance_line(polygon).coords[0]
             raise ValueError(
-                f"corners, holes: {clearance:.3g} apart at x = {x:.6g}, y = {y:.6g}; must be >= {least:.3g} "
-                f"({NARROWEST:g} of the extent) to be meshed: leave out corners that are that close, blunt "
-                "needles and fill clefts"
+                f"corners, holes: {clearance:.3g} apart at x = {x:.6g}, y = {y:.6g}; must be >= "
+                f"{least:.3g} ({NARROWEST:g} of the extent) to be meshed: leave out corners that "
+                "close, blunt needles and fill clefts"
             )
 
 

@@ -11,10 +11,9 @@ from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 from skfem import MeshTri
 
+from fem_check.mesh_checks import check_mesh
 from fem_check.outline import Outline
 from fem_check.plane_stress_solver import ELEMENTS, PlaneStressSolver
 from fem_check.triangles import TriangleFinder, covering, quadrilateral_points
@@ -24,7 +23,7 @@ from linear_theory.load_cases import SAMPLES, LoadCases, load_cases, mixed_norms
 from linear_theory.motion import CellGrid
 from linear_theory.sheet import Sheet
 from linear_theory.threads import one_blas_thread
-from linear_theory.wave_survey import POINTS, SEED, WaveSurvey, waves_along
+from linear_theory.wave_survey import WaveSurvey, waves_along
 
 Array = NDArray[np.float64]
 
@@ -87,11 +86,13 @@ def _sheet(outline: Sheet | Outline | MeshTri, poisson: float | None) -> Sheet:
     if isinstance(outline, Sheet):
         return outline if poisson is None else replace(outline, poisson=poisson)
     if isinstance(outline, MeshTri):
-        width, length = np.ptp(_checked_mesh(outline).p, axis=1)
+        check_mesh(outline, "outline")
+        width, length = np.ptp(outline.p, axis=1)
     elif isinstance(outline, Outline):
         width, length = outline.width, outline.length
     else:
-        validation.instance("outline", outline, (Sheet, Outline, MeshTri), "a Sheet needs no mesh")
+        shown = validation.shown(outline)
+        raise ValueError(f"outline = {shown}: must be a Sheet, an Outline or a MeshTri")
     return Sheet(float(length), float(width), 0.5 if poisson is None else poisson)
 
 
@@ -113,21 +114,6 @@ def _gain(outline: Sheet | Outline | MeshTri, degree: int) -> float:
         return 1.0
     square = isinstance(outline, Sheet) or outline.largest_angle < 0.51 * np.pi
     return GAIN[degree] if square else 2.0
-
-
-def _checked_mesh(mesh: MeshTri) -> MeshTri:
-    """Raise ValueError for a mesh that has no area somewhere or falls apart."""
-    validation.real_array("outline.p", mesh.p)
-    a, b, c = mesh.p[:, mesh.t].transpose(1, 0, 2)
-    doubled = abs((b - a)[0] * (c - a)[1] - (b - a)[1] * (c - a)[0])
-    if doubled.min() <= 1e-12 * doubled.max():
-        raise ValueError(f"outline: triangle {doubled.argmin()} has the area {doubled.min() / 2:g}")
-    ends = mesh.facets
-    graph = coo_array((np.ones(ends.shape[1]), tuple(ends)), shape=(mesh.p.shape[1],) * 2)
-    parts, _ = connected_components(graph, directed=False)
-    if parts > 1:
-        raise ValueError(f"outline: the mesh has {parts} parts, must be one")
-    return mesh
 
 
 def _longest_side(mesh: MeshTri) -> float:
@@ -196,9 +182,7 @@ class PlaneStressField(LinearField):
     @cached_property
     def survey(self) -> WaveSurvey:
         """How the wave depends on time, at points of the body."""
-        some = np.random.default_rng(SEED).choice(self._solver.x.size, POINTS)
-        x, y = self._solver.x.ravel()[some], self._solver.y.ravel()[some]
-        return WaveSurvey(self.wave, self.sheet, x, y)
+        return WaveSurvey.at_some(self.wave, self.sheet, self._solver.x, self._solver.y)
 
     @cached_property
     @one_blas_thread

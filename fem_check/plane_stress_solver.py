@@ -16,6 +16,7 @@ from skfem.helpers import ddot, div, eye, sym_grad, trace
 
 from fem_check.sparse_factor import SparseFactor
 from linear_theory.rigid import centre_and_gyration
+from linear_theory.units import power_of_two
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
@@ -137,12 +138,14 @@ class PlaneStressSolver:
         component = np.zeros(basis.N, np.int64)
         for dofs in (basis.nodal_dofs, basis.facet_dofs, basis.interior_dofs):
             component[dofs[1::2]] = 1
-        x, y = basis.doflocs - self.centre_and_gyration[0][:, None]
+        arms = basis.doflocs - self.centre_and_gyration[0][:, None]
+        size = power_of_two(float(abs(arms).max()))  # a rotation is compared with shifts
+        x, y = arms / size
         modes = np.stack([component == 0, component == 1, np.where(component == 0, -y, x)])
         means = [
             shift.assemble(basis, along=0),
             shift.assemble(basis, along=1),
-            rotation.assemble(basis),
+            size * rotation.assemble(basis),
         ]
         return modes.astype(float), np.stack(means)
 

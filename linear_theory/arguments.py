@@ -43,7 +43,7 @@ def wave(value: Any, name: str = "wave") -> Wave:
 def field(value: object, name: str = "field") -> LinearField:
     """`value`, which must be a deformation. Raises ValueError otherwise."""
     hint = "airy_series, ritz_field and fem_check.plane_stress_field make one"
-    return validation.instance(name, value, LinearField, hint)
+    return validation.instance(name, value, LinearField, hint)  # type: ignore[type-abstract]
 
 
 def _is_wave(value: object) -> bool:

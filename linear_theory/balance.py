@@ -135,8 +135,9 @@ class Balance:
         change = self._change(self._values, leading, remainder)
         speed = _norm(self._moved(self._values, leading) + self._alpha * change)
         rest = np.mean(speed < _REST * self._scale, axis=(1, 2, 3))
-        rest[~np.any(self._values[:2], axis=(0, 2, 3, 4))] = 0.0  # all at rest: no part of it sticks
-        fastest = self._units.speed * float(speed.max())
+        still = ~np.any(self._values[:2], axis=(0, 2, 3, 4))
+        rest[still] = 0.0  # all is at rest, no part of it sticks
+        fastest = 0.0 if still.all() and not self._slope else self._units.speed * float(speed.max())
         return RigidMotion(self._full(leading), self._full(remainder), rest, fastest)
 
     def correction(self, leading: Array, remainder: Array) -> RigidMotion:

@@ -76,9 +76,10 @@ class Course:
         if self.checks is not None:
             errors = np.maximum(errors, self._off(orders, _orders(self.checks)))
         else:
-            rate = self.crawl.survey.hidden(self.grid.longest_step) * self.crawl.field.sheet.length / 2
-            sizes = 1.0, self.crawl.survey.size
-            errors = errors + np.stack([self.crawl.norm.each(rate * size) for size in sizes])
+            survey = self.crawl.survey
+            rate = survey.hidden(self.grid.longest_step)
+            speeds = (rate * survey.speed_per_rate(1.0, leading) for leading in (True, False))
+            errors = errors + np.stack([self.crawl.norm.each(speed) for speed in speeds])
         if self.crawl.starts_at_second_order:
             means[0] = errors[0] = 0.0
         return means, errors
@@ -99,7 +100,7 @@ class Course:
         if met or out_of_reach:
             course = course.checked()
             wrong = norm.size(course._between) > tolerance
-            if out_of_reach and wrong or met and not wrong:
+            if (out_of_reach and wrong) or (met and not wrong):
                 return course, None
         if not met:
             return course, self.grid.refined(speeds, tolerance)[0]

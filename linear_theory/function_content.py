@@ -28,7 +28,10 @@ AT_RUN_TIME = {
 READS = ("LOAD_GLOBAL", "LOAD_NAME", "LOAD_FROM_DICT_OR_GLOBALS")
 WRITES = ("STORE_GLOBAL", "DELETE_GLOBAL")
 
-GENERATED = {"__init__", "__repr__", "__eq__", "__hash__", "__lt__", "__le__", "__gt__", "__ge__"}
+GENERATED = {
+    *("__init__", "__repr__", "__eq__", "__hash__", "__lt__", "__le__", "__gt__", "__ge__"),
+    *("__setattr__", "__delattr__", "__replace__"),
+}
 """Methods that dataclasses make from their fields."""
 
 _DESCRIPTORS = (types.MemberDescriptorType, types.GetSetDescriptorType)
@@ -191,8 +194,8 @@ def _add_class(writer: Writer, value: type, where: str) -> None:
 def _counts(owner: type, name: str, value: object) -> bool:
     """Whether a member of a class can have an effect (what Python notes down about it has none)."""
     if isinstance(value, types.FunctionType):
-        made = name in GENERATED and value.__code__.co_filename == "<string>"
-        return not (made and is_dataclass(owner))
+        made = value.__code__.co_filename == "<string>" or value.__module__ == "dataclasses"
+        return not (made and name in GENERATED and is_dataclass(owner))
     special = name.startswith("__") and name.endswith("__")
     methods = isinstance(value, staticmethod | classmethod | property)
     return (methods or not special) and name != "_abc_impl" and not isinstance(value, _DESCRIPTORS)

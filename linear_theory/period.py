@@ -145,12 +145,8 @@ class Crawl:
 
     @property
     def speed_per_rate(self) -> float:
-        """Largest counted V that dc/dt of root mean square 1 makes: half of the sheet grows in phase.
-
-        Where q_0 does not count, V is alpha c times smaller.
-        """
-        size = abs(self.alpha) * self.field.sheet.length / 2
-        return size if self.counts_leading else size * abs(self.alpha) * self.survey.size
+        """Largest counted V that dc/dt of root mean square 1 makes."""
+        return self.survey.speed_per_rate(self.alpha, self.counts_leading)
 
     @property
     def norm(self) -> RigidNorm:

@@ -6,8 +6,9 @@ ends: V_1 alpha + V_2 alpha^2 is a number at any alpha. Two bounds come from the
 * Growth |alpha c| <= 1/2. At 1/2 the laws of growth that agree to first order are no longer alike:
   where c is lowest lengths are 0.61 (exp), 0.5 (linear) and 0 (metric) of what they were, and there end
   the powers of alpha c of which (1 + 2 alpha c)^(1/2) is the sum. Those of the speed itself end at the
-  Laplace limit 0.66 for a sine wave on a line. The nonlinear sheet ends there, too: from a growth of
-  0.46 on its free edges wrinkle, and at 0.37 the second order is 10 % off (`make tables`).
+  Laplace limit 0.66 for a sine wave on a line. Measured (`make tables`), the second order of the
+  paper's sheet is 5 and 10 % off at a growth of 0.25 and 0.37, and from 0.445 on there is no such
+  sheet: its free edges wrinkle. Those of wider sheets do so sooner.
 * A term of second order below the largest speed of the points of the sheet. Friction cannot balance
   where all of the sheet slips one way, so that |V| is below that speed, whatever the law of friction.
   This ends the second order of waves that are steep where c is near its median.
@@ -22,6 +23,7 @@ from numpy.typing import NDArray
 
 from linear_theory.errors import BeyondReachWarning
 from linear_theory.field import Wave
+from linear_theory.load_cases import phases
 from linear_theory.speed import CrawlSpeed
 from linear_theory.waves import TravellingWave
 
@@ -44,7 +46,7 @@ def growths(wave: Wave, x: Array, y: Array, length: float) -> Array:
         spectrum = np.concatenate([[2 * wave.mean], wave.cosine - 1j * wave.sine]) * (count / 2)
         return np.fft.irfft(spectrum, count)
     some = slice(None, None, math.ceil(x.size / POINTS))
-    times = np.linspace(0, wave.period, TIMES, endpoint=False)
+    times = phases(wave.period, TIMES)
     return wave.value(x.ravel()[some], y.ravel()[some], times[:, None], length)
 
 
@@ -58,7 +60,7 @@ def too_large_growth(wave: Wave, alpha: float, x: Array, y: Array, length: float
 
 def too_large_term(second: float, fastest: float) -> str:
     """What is beyond reach in a term V_2 alpha^2, in words; fastest: largest speed of the points."""
-    if not abs(second) > fastest:  # NaN is no number anyway
+    if fastest == 0 or not abs(second) > fastest:  # at rest there is roundoff; NaN is no answer anyway
         return ""
     return (
         f"V_2 alpha^2 = {second:.3g} is above {fastest:.3g}, the largest speed of the points of the "

@@ -28,12 +28,14 @@ def shown(value: object) -> str:
     return text if len(text) <= 100 else f"{text[:97]}..."
 
 
-def instance(name: str, value: object, kind: type[T] | tuple[type[T], ...], hint: str = "") -> T:
+def instance(name: str, value: object, kind: type[T], hint: str = "") -> T:
     """`value`, which must be an instance of `kind`; hint: what to do instead, for the message."""
     if not isinstance(value, kind):
-        kinds = " or ".join(k.__name__ for k in (kind if isinstance(kind, tuple) else (kind,)))
+        article = "an" if kind.__name__[0] in "AEIOU" else "a"
+        made = ", made with its arguments" if value is kind else ""
         more = f"; {hint}" if hint else ""
-        raise ValueError(f"{name} = {shown(value)}: must be an instance of {kinds}{more}")
+        wanted = f"must be {article} {kind.__name__}{made}{more}"
+        raise ValueError(f"{name} = {shown(value)}: {wanted}")
     return value
 
 
@@ -60,7 +62,8 @@ def _plain(name: str, value: Any) -> NDArray[Any]:
     value = _without_wrapping(name, value)
     try:
         array = np.asarray(value)
-        if array.dtype == object and hasattr(value, "to_numpy"):  # pandas, with missing values
+        words = any(isinstance(part, str) for part in array.flat) if array.dtype == object else True
+        if not words and hasattr(value, "to_numpy"):  # a column of pandas that can miss values
             array = np.asarray(value.to_numpy(dtype=float))
     except (ValueError, TypeError) as error:
         raise ValueError(f"{name} = {shown(value)}: must be real numbers ({error})") from None

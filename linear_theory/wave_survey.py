@@ -40,11 +40,12 @@ CHANGES_SIGN = 1e-12
 """Share of the largest |c| by which c(t + T/2) may differ from -c(t)."""
 
 FINE_SHARES = 1e-6, 1e-4
-"""Of dc/dt, that may lie in harmonics for which a rate by differences is not made fine enough: the first
-where it is known; a wave with kinks has neither."""
+"""Of dc/dt, that may lie in harmonics for which a rate by differences is not made fine enough: the
+first where it is known; a wave with kinks has neither."""
 
-PER_HARMONIC = 3
-"""Times to a period of a harmonic with which it is seen: two can all fall on its zeros."""
+PER_HARMONIC = 5
+"""Times to a period of a harmonic with which it is seen: two, and every second of four, can all fall on
+its zeros."""
 
 FAINT, FEW = 0.1, 0.01
 """Shares of a wave that may be shorter than `short_waves`, since cells have several points, and than
@@ -58,7 +59,8 @@ class WaveSurvey:
     >>> import numpy as np
     >>> from linear_theory import FieldWave, Sheet
     >>> from linear_theory.wave_survey import WaveSurvey
-    >>> wave = FieldWave(lambda x, y, t: np.sin(2 * np.pi * (y - t)) + 0.1 * np.sin(80 * np.pi * t), 1.0)
+    >>> w = 2 * np.pi
+    >>> wave = FieldWave(lambda x, y, t: np.sin(w * (y - t)) + 0.1 * np.sin(40 * w * t), 1.0)
     >>> survey = WaveSurvey.on_sheet(wave, Sheet())
     >>> print(survey.rates.highest(share=1e-3), survey.rates.highest(share=0.99))
     40.0 1.0
@@ -81,12 +83,19 @@ class WaveSurvey:
         y = np.random.default_rng(SEED).uniform(-0.5, 0.5, POINTS)
         return cls(wave, Sheet(length), 0 * y, length * y)
 
+    @classmethod
+    def at_some(cls, wave: Wave, sheet: Sheet, x: Array, y: Array) -> "WaveSurvey":
+        """At a random choice of points (n,) of a body of any outline."""
+        some = np.random.default_rng(SEED).choice(x.size, POINTS)
+        return cls(wave, sheet, x.ravel()[some], y.ravel()[some])
+
     def check(self) -> None:
         """Raise ValueError where c does not repeat after its period or `rate` is not its derivative."""
-        if isinstance(self.wave, TravellingWave):
-            return
-        self._check_period()
-        if not (isinstance(self.wave, FieldWave) and self.wave.differenced):
+        self.check_period()
+        known = TravellingWave, FieldWave
+        if not isinstance(self.wave, known) or (
+            isinstance(self.wave, FieldWave) and not self.wave.differenced
+        ):
             self._check_rate()
 
     @cached_property
@@ -96,6 +105,14 @@ class WaveSurvey:
             return self.wave.is_half_period_antisymmetric
         again = self._at(self._times + self.wave.period / 2)
         return bool(abs(self._seen + again).max() <= CHANGES_SIGN * abs(self._seen).max())
+
+    @cached_property
+    def depends_on_x(self) -> bool:
+        """Whether c is another one off the axis x = 0."""
+        if isinstance(self.wave, TravellingWave):
+            return False
+        on_axis = self._value(0 * self.x, self.y, self._times[:, None])
+        return bool(abs(self._seen - on_axis).max() > REPEATS * abs(self._seen).max())
 
     @cached_property
     def size(self) -> float:
@@ -157,13 +174,21 @@ class WaveSurvey:
         across, along = (_waves(spectrum.highest(FAINT)) for spectrum in (self.across, self.along))
         return max(across, 1), max(along, 2)
 
+    def speed_per_rate(self, alpha: float, leading: bool) -> float:
+        """Largest V that dc/dt of root mean square 1 makes: half of the sheet grows in phase.
+
+        leading: whether terms of order alpha have a mean; else V is alpha c times smaller.
+        """
+        size = abs(alpha) * self.sheet.length / 2
+        return size if leading else size * abs(alpha) * self.size
+
     def times_for(self, rate: float) -> float:
         """Equidistant times per period from which no more than that part of dc/dt hides; may be inf."""
         return PER_HARMONIC * self.rates.needed(rate)
 
-    def hidden(self, step: float) -> float:
-        """Root mean square of dc/dt in harmonics too high for steps of that length."""
-        return self.rates.beyond(self.wave.period / step / PER_HARMONIC * (1 + 1e-9))
+    def hidden(self, step: float, steps: int = PER_HARMONIC) -> float:
+        """Root mean square of dc/dt in harmonics to a period of which there are fewer such steps."""
+        return self.rates.beyond(self.wave.period / step / steps * (1 + 1e-9))
 
     @cached_property
     def _times(self) -> Array:
@@ -186,7 +211,10 @@ class WaveSurvey:
         shape = np.broadcast_shapes(np.shape(x), np.shape(y), np.shape(t))
         return np.broadcast_to(np.asarray(self.wave.value(x, y, t, self.sheet.length)), shape)
 
-    def _check_period(self) -> None:
+    def check_period(self) -> None:
+        """Raise ValueError where c does not repeat after its period."""
+        if isinstance(self.wave, TravellingWave):
+            return
         period, size = self.wave.period, abs(self._seen).max()
         apart = abs(self._at(self._times + period) - self._seen)
         i, j = np.unravel_index(apart.argmax(), apart.shape)
@@ -207,8 +235,9 @@ class WaveSurvey:
         i, j = np.unravel_index(apart.argmax(), apart.shape)
         if apart[i, j] > RATE_RIGHT * size:
             raise ValueError(
-                f"rate = {rate[i, j]:.6g} at {self._place(i, j)}: must be the time derivative of value, "
-                f"whose differences give {quotients[-1, i, j]:.6g} there; correct it, or leave it out"
+                f"rate = {rate[i, j]:.6g} at {self._place(i, j)}: must be the time derivative of "
+                f"value, whose differences give {quotients[-1, i, j]:.6g} there; correct it, or leave "
+                "it out"
             )
 
     def _quotient(self, step: float) -> Array:

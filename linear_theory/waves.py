@@ -13,6 +13,7 @@ a_r = delta_1r cos wt, b_s = delta_1s sin wt) belong to cos(2 pi y/L - wt), not 
 """
 
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Any, NamedTuple, Protocol
 
 import numpy as np
@@ -151,16 +152,17 @@ class TravellingWave:
 
     def profile(self, phase: ArrayLike) -> Array:
         """f(phi) of c = f(2 pi (n y/L - t/T)), same shape as `phase` (radians)."""
-        angle = np.multiply.outer(self.harmonics, validation.real_array("phase", phase))
-        value = np.tensordot(self.cosine, np.cos(angle), 1) + np.tensordot(self.sine, np.sin(angle), 1)
+        k, cosine, sine = self._present
+        angle = np.multiply.outer(k, validation.real_array("phase", phase))
+        value = np.tensordot(cosine, np.cos(angle), 1) + np.tensordot(sine, np.sin(angle), 1)
         return np.asarray(self.mean + value)
 
     def profile_slope(self, phase: ArrayLike) -> Array:
         """df/dphi, same shape as `phase` (radians)."""
-        angle = np.multiply.outer(self.harmonics, validation.real_array("phase", phase))
+        k, cosine, sine = self._present
+        angle = np.multiply.outer(k, validation.real_array("phase", phase))
         return np.asarray(
-            np.tensordot(self.harmonics * self.sine, np.cos(angle), 1)
-            - np.tensordot(self.harmonics * self.cosine, np.sin(angle), 1)
+            np.tensordot(k * sine, np.cos(angle), 1) - np.tensordot(k * cosine, np.sin(angle), 1)
         )
 
     def value(self, x: ArrayLike, y: ArrayLike, t: ArrayLike, length: float = 1.0) -> Array:
@@ -191,6 +193,12 @@ class TravellingWave:
         named = ("x", x), ("y", y), ("t", t)
         _, y, t = np.broadcast_arrays(*(validation.real_array(name, v) for name, v in named))
         return np.asarray(2 * np.pi * (self.count * y / length - t / self.period))
+
+    @cached_property
+    def _present(self) -> tuple[NDArray[np.int64], Array, Array]:
+        """Wave numbers and amplitudes of the harmonics that are not 0."""
+        some = (self.cosine != 0) | (self.sine != 0)
+        return self.harmonics[some], self.cosine[some], self.sine[some]
 
     def _phasors(self, t: ArrayLike) -> tuple[Array, Array, Array]:
         t = validation.real_array("t", t)

@@ -180,7 +180,9 @@ LEVELS: dict[str, Callable[..., CrawlSpeed]] = {
         length=1,
         **law,
     ),
-    "cycle_speed": lambda alpha, **law: cycle_speed(planar(alpha, cells=(2, 4)), rtol=2e-2, **law),
+    "cycle_speed": lambda alpha, **law: cycle_speed(
+        Scene(PAPER, SINE, alpha, effects=(Membrane(MATERIAL),), cells=(2, 4)), rtol=2e-2, **law
+    ),
 }
 """The lambdas are the user's code: the warning is to point to them."""
 

@@ -101,6 +101,13 @@ def test_kept_states_are_exact_and_every_state_lets_all_times_through() -> None:
     whole = simulate(planar(0.25, cells=(1, 2)), periods=1, steps=48)
     for k in (0, 7, 71, 72):
         np.testing.assert_array_equal(whole.shape(whole.times[k]), whole.states[k])
+    for t in (
+        1.0,
+        np.nextafter(1.0, 0),
+        1 + 1e-12,
+    ):  # the sum of 48 steps of 1/48 is 1 but for roundoff
+        np.testing.assert_array_equal(whole.shape(t), whole.states[48])
+    np.testing.assert_array_equal(whole.shape(1.5 + 1e-12), whole.states[-1])
     for t in np.random.default_rng(0).uniform(0, 1.5, 20):
         assert whole.shape_error(t) > 0
         whole.positions(t)

@@ -284,7 +284,7 @@ def test_functions_are_known_by_what_they_are(
     tmp_path: Path, first: Scene, second: Scene, part: str
 ) -> None:
     """Their values where and when they were looked at say little about them elsewhere."""
-    path, options = tmp_path / "run.npz", {"periods": 1, "steps": 4}
+    path, options = tmp_path / "run.npz", {"periods": 1, "steps": 48}
 
     def stop(progress: object) -> None:
         if progress.steps == 2:
@@ -311,7 +311,7 @@ def test_a_function_that_cannot_be_identified_must_have_a_name(tmp_path: Path) -
         simulate(planar(wave=noisy(0)), snapshot=path, progress=no_step, **OPTIONS)
     assert "snapshot = " in str(raised.value)
     assert not path.exists()
-    options = {"periods": 1, "steps": 4}
+    options = {"periods": 1, "steps": 48}
     simulate(planar(wave=noisy(0, "a sine")), snapshot=path, **options)
     again = simulate(planar(wave=noisy(1, "a sine")), snapshot=path, progress=no_step, **options)
     assert again.resumed_at == 1.5
@@ -321,7 +321,7 @@ def test_a_function_that_cannot_be_identified_must_have_a_name(tmp_path: Path) -
 
 
 def test_a_name_does_not_cover_another_wave(tmp_path: Path) -> None:
-    path, options = tmp_path / "run.npz", {"periods": 1, "steps": 4}
+    path, options = tmp_path / "run.npz", {"periods": 1, "steps": 48}
     sine = lambda k: FieldWave(  # noqa: E731
         lambda x, y, t: np.sin(2 * np.pi * (k * y - t)) + 0 * x, 1.0, name="a sine"
     )

@@ -8,9 +8,10 @@ import numpy as np
 import skfem
 from numpy.typing import ArrayLike, NDArray
 
-from fem_check.shell import mesh_checks
+from fem_check.mesh_checks import check_mesh
+from fem_check.shell import elements
 from fem_check.shell.region import Region
-from fem_check.shell.shape_functions import edge_frame, is_global
+from fem_check.shell.shape_functions import derivatives, edge_frame
 from fem_check.shell.surface import Flat, Surface
 from linear_theory import validation
 from linear_theory.units import power_of_two
@@ -34,7 +35,8 @@ class Discretisation:
     degree: of the polynomials that quadrature integrates exactly.
 
     Unknowns u are displacements in space, (size,): the components of a scalar degree of freedom are
-    neighbours. Raises ValueError for meshes with inverted elements and elements that do not fit.
+    neighbours. Raises ValueError for meshes that are not one sheet (see `mesh_checks`) and for
+    elements that do not fit.
     """
 
     def __init__(
@@ -45,8 +47,9 @@ class Discretisation:
         components: int = 3,
         degree: int | None = None,
     ) -> None:
-        mesh_checks.check_element(mesh, element)
-        mesh_checks.check_mesh(mesh, element)
+        check_mesh(mesh)
+        elements.check_element(mesh, element)
+        elements.check_rectangles(mesh, element)
         if components not in (2, 3):
             raise ValueError(f"components = {components!r}: must be 2 (planar) or 3")
         self.mesh, self.element = mesh, element
@@ -92,12 +95,10 @@ class Discretisation:
         Comparisons between degrees of freedom need them, else they depend on the unit of length.
         """
         size = power_of_two(float(np.ptp(self.mesh.p, axis=1).max()))
-        dofs, names = self._dofs, self.element.dofnames
-        rows = [*dofs.nodal_dofs, *dofs.facet_dofs, *dofs.interior_dofs]
+        rows = [*self._dofs.nodal_dofs, *self._dofs.facet_dofs, *self._dofs.interior_dofs]
         units = np.ones(self.scalars)
-        for name, row in zip(names, rows, strict=True):
-            derivative = name.removeprefix("u").removeprefix("_") if is_global(self.element) else ""
-            units[row] = size ** -len(derivative)
+        for order, row in zip(derivatives(self.element), rows, strict=True):
+            units[row] = size**-order
         return units
 
     def zeros(self) -> Array:

@@ -14,6 +14,7 @@ import numpy as np
 import skfem
 from numpy.typing import ArrayLike, NDArray
 
+from fem_check.mesh_checks import check_fits, check_mesh
 from fem_check.shell.discretisation import Discretisation
 from fem_check.shell.effects.effect import Effect
 from fem_check.shell.effects.friction import Friction, load_bearer
@@ -30,8 +31,9 @@ from fem_check.shell.rest_state import CURVATURE_FORMS, MEASURES, RestState, gro
 from fem_check.shell.shape_functions import is_global
 from linear_theory import arguments, validation
 from linear_theory.field import Wave
+from linear_theory.load_cases import phases
 from linear_theory.sheet import Sheet
-from linear_theory.wave_survey import waves_along
+from linear_theory.wave_survey import WaveSurvey, waves_along
 
 Array = NDArray[np.float64]
 
@@ -118,6 +120,21 @@ class Scene:
         """Of the wave."""
         return float(self.wave.period)
 
+    @cached_property
+    def survey(self) -> WaveSurvey:
+        """How the wave depends on time, at points of the sheet."""
+        if self.mesh is None:
+            return WaveSurvey.on_sheet(self.wave, self.sheet)
+        return WaveSurvey.at_some(self.wave, self.sheet, *self.mesh.p[:, self.mesh.t].mean(1))
+
+    def speed_per_rate(self, leading: bool) -> float:
+        """Largest V that dc/dt of root mean square 1 makes, see `WaveSurvey.speed_per_rate`.
+
+        Curvature c times its coupling tilts the sheet by as much, over a wavelength/(2 pi).
+        """
+        bent = abs(self.curvature_coupling) * self.sheet.length / (2 * np.pi)
+        return self.survey.speed_per_rate(abs(self.alpha) + bent, leading)
+
     def find(self, kind: type) -> Any:
         """The effect of that class, None where the scene does not name it."""
         return next((effect for effect in self.effects if isinstance(effect, kind)), None)
@@ -188,7 +205,8 @@ class Scene:
         """And make them two plain integers."""
         if self.mesh is not None:
             hint = "outline.mesh(size) makes one of an Outline"
-            validation.instance("mesh", self.mesh, skfem.Mesh, hint)
+            check_mesh(validation.instance("mesh", self.mesh, skfem.Mesh, hint))
+            check_fits(self.mesh, self.sheet)
         if self.element is not None:
             validation.instance("element", self.element, skfem.Element)
         if self.cells is None:
@@ -201,7 +219,7 @@ class Scene:
     def _extremes(self) -> Array:
         """c on a grid of places and times, to find growth that no rest state can have."""
         x, y = np.array([-0.5, 0, 0.5]) * self.sheet.width, np.linspace(-0.5, 0.5, 33)
-        t = np.linspace(0, 1, 17) * self.period
+        t = np.append(phases(self.period, 64), 0.0)
         y = y * self.sheet.length
         return np.stack([self.growth(s, x[:, None], y[None]) for s in t])
 

@@ -3,6 +3,7 @@
 import time
 
 import numpy as np
+from numpy.typing import NDArray
 
 from linear_theory import arguments, validation
 from linear_theory.field import Wave
@@ -15,6 +16,8 @@ from linear_theory.line.travelling import travelling_balance
 from linear_theory.speed import CrawlSpeed
 from linear_theory.threads import one_blas_thread
 from linear_theory.waves import TravellingWave
+
+Array = NDArray[np.float64]
 
 
 def line_balance(
@@ -90,7 +93,7 @@ def line_balance(
         slip_ratio=law.slip_ratio(length * answer.fastest),
         first_order=length * answer.first,
         second_order=length * answer.second,
-        sticks=answer.sticks,
+        sticks=answer.sticks and answer.fastest > 0,
         seconds=time.perf_counter() - start,
         model=_words(law, growth, body),
     )
@@ -122,12 +125,20 @@ def _in_lengths(
     """The balance in units of the length of the body, those of law and atol."""
     if isinstance(wave, TravellingWave):
         return travelling_balance(wave, alpha, law, growth)
-    on_unit = FieldWave(
-        lambda x, y, t: wave.value(length * x, length * y, t, length),
-        wave.period,
-        lambda x, y, t: wave.rate(length * x, length * y, t, length),
-    )
-    return sampled_balance(on_unit, alpha, law, growth, rtol, atol)
+    return sampled_balance(_on_unit(wave, length), alpha, law, growth, rtol, atol)
+
+
+def _on_unit(wave: Wave, length: float) -> FieldWave:
+    """A wave on a body of that length as one on a body of length 1; its rate is found as before."""
+
+    def value(x: Array, y: Array, t: Array) -> Array:
+        return wave.value(length * x, length * y, t, length)
+
+    def rate(x: Array, y: Array, t: Array) -> Array:
+        return wave.rate(length * x, length * y, t, length)
+
+    differenced = isinstance(wave, FieldWave) and wave.differenced
+    return FieldWave(value, wave.period, None if differenced else rate)
 
 
 def _words(law: FrictionLaw, growth: Growth, body: str) -> str:

@@ -21,6 +21,7 @@ from fem_check.shell.places import ROUNDOFF, distinct
 from linear_theory.balance import Balance, RigidMotion
 from linear_theory.rigid import RigidNorm
 from linear_theory.time_grid import TimeGrid, first_grid
+from linear_theory.wave_survey import PER_HARMONIC
 from linear_theory.waves import TravellingWave
 
 Array = NDArray[np.float64]
@@ -39,8 +40,9 @@ LOT = 24
 STICKING = 0.01
 """Share of the sheet at rest that counts as sticking."""
 
-TIME_SHARE = 0.3
-"""Share of the tolerance that the quadrature in time may take."""
+TIME_SHARE, HIDDEN = 0.3, 0.1
+"""Share of the tolerance that the quadrature in time may take, and share of that up to which harmonics
+of the wave may go unseen by it."""
 
 
 class Period(NamedTuple):
@@ -108,6 +110,12 @@ class CycleBalance:
             return None
         return wave.reversal_time if is_mirrored(self.shapes, axis=1) else None
 
+    @property
+    def speed_per_rate(self) -> float:
+        """Largest mean V that dc/dt of root mean square 1 makes."""
+        scene = self.shapes.scene
+        return scene.speed_per_rate(self.contact.slope != 0 or not scene.survey.changes_sign)
+
     def average(self, rtol: float, atol: float) -> Period:
         """Mean motion over a period at as many times as the tolerance needs and the noise allows."""
         grid, most = self._first_grid(), TIMES_PER_PHASE * len(self.shapes.states)
@@ -117,10 +125,11 @@ class CycleBalance:
             mean, time_error = grid.means(values)
             goal = max(TIME_SHARE * self.norm.tolerance(mean, rtol, atol), self.noise)
             speeds = self.norm.speeds(values)
-            if grid.error(speeds) <= goal or grid.times.size > most:
+            finer = self._finer(grid, speeds, goal)
+            if finer is None or grid.times.size > most:
                 break
-            grid, added = grid.refined(speeds, goal)
-            found = _joined(found, self.balance(grid.times[added]), added)
+            added = ~np.isin(finer.times, grid.times)
+            grid, found = finer, _joined(found, self.balance(finer.times[added]), added)
         roundoff = self.norm.each(1e-12 * found.fastest + self.noise)
         error = time_error + self._quadrature_error(grid, found.leading) + roundoff
         sticks = bool(found.rest.max() > STICKING)
@@ -166,6 +175,21 @@ class CycleBalance:
         share[share > 1 - ROUNDOFF] = 0.0  # the end of a period is the start of the next
         _, first = np.unique(distinct(share)[1], return_index=True)
         return share[first] * length, rigid[:, first]
+
+    def _finer(self, grid: TimeGrid, speeds: Array, goal: float) -> TimeGrid | None:
+        """The grid that the goal asks for; None where it is met and no harmonic of the shapes hides."""
+        if grid.error(speeds) > goal:
+            return grid.refined(speeds, goal)[0]
+        scene = self.shapes.scene
+        rate = HIDDEN * goal / self.speed_per_rate if self.speed_per_rate else math.inf
+        harmonic = min(scene.survey.rates.needed(rate), self._highest)
+        finer = grid.with_steps(scene.period / (PER_HARMONIC * harmonic))
+        return finer if finer.times.size > grid.times.size else None
+
+    @property
+    def _highest(self) -> int:
+        """Highest harmonic of the shapes."""
+        return len(self.shapes.states) // 2
 
     def _first_grid(self) -> TimeGrid:
         """Half a period, or the half of that which tells the rest where V(t_0 - t) = V(t)."""

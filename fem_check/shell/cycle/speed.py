@@ -33,7 +33,7 @@ from linear_theory.waves import TravellingWave
 
 Array = NDArray[np.float64]
 
-FIRST_PHASES, MOST_PHASES = 16, 128
+FIRST_PHASES, MOST_PHASES = 16, 256
 
 PHASE_SHARE = 0.2
 """Share of the tolerance that the interpolation between phases may take."""
@@ -102,7 +102,7 @@ class Cycle:
     def __init__(self, scene: Scene) -> None:
         hint = "its arguments are sheet, wave, alpha and effects"
         self.scene = validation.instance("scene", scene, Scene, hint)
-        CYCLE.require(scene)
+        CYCLE.require(self.scene)
         self._shapes = KeptShapes(scene)
 
     @one_blas_thread
@@ -117,6 +117,7 @@ class Cycle:
         """As `cycle_speed`, but for the warning; `seconds` counts the shapes where they are found."""
         start, scene = time.perf_counter(), self.scene
         rtol, contact = validation.tolerance(rtol), Contact.of(scene, load, friction, slip_speed)
+        scene.survey.check_period()
         unit = scene.sheet.length / scene.period
         atol = validation.absolute_tolerance(atol, rtol, scene.alpha, unit)
         if scene.alpha == 0 and (scene.planar or scene.curvature_coupling == 0):
@@ -124,6 +125,7 @@ class Cycle:
         balance, period, phase_error = _with_enough_phases(self._shapes, contact, rtol, atol)
         error = period.error + phase_error + self._mesh_error(balance, period)
         times, rigid = balance.whole_period(period)
+        fastest = period.fastest if period.fastest > balance.noise else 0.0
         return CrawlSpeed(
             mean=float(period.mean[1]),
             error=float(error[1]),
@@ -133,7 +135,7 @@ class Cycle:
             velocity=rigid[1],
             seconds=time.perf_counter() - start,
             model=_words(scene, contact),
-            slip_ratio=contact.law.slip_ratio(period.fastest),
+            slip_ratio=contact.law.slip_ratio(fastest),
             first_order=0.0 if _starts_at_second_order(scene, contact) else math.nan,
             sticks=period.sticks,
             rigid=None if balance.mirrored else rigid,
@@ -182,7 +184,8 @@ def _with_enough_phases(
 ) -> tuple[CycleBalance, Period, Array]:
     """Double the phases until the interpolation between them takes its share of the tolerance.
 
-    Or until it is below the noise of the shapes, which more phases do not reduce.
+    Or until it is below the noise of the shapes, which more phases do not reduce; or at once where the
+    wave has harmonics that the most phases do not tell apart.
     """
     count = FIRST_PHASES
     while True:
@@ -190,13 +193,13 @@ def _with_enough_phases(
         balance = CycleBalance.of(kept.at(count), contact, rtol)
         try:
             period = balance.average(rtol, atol)
-            error = _phase_error(balance, period)
+            error = _phase_error(balance, period) + balance.norm.each(_hidden(balance, count))
         except UnresolvedError:
             if last:
                 raise
         else:
             goal = max(PHASE_SHARE * balance.norm.tolerance(period.mean, rtol, atol), balance.noise)
-            if last or balance.norm.size(error) <= goal:
+            if last or balance.norm.size(error) <= goal or _hidden(balance, MOST_PHASES) > goal:
                 return balance, period, error
         count *= 2
 
@@ -211,6 +214,16 @@ def _phase_error(balance: CycleBalance, period: Period) -> Array:
     speeds = _speeds_of_harmonics(balance.shapes)
     lost, beyond = np.linalg.norm(speeds[speeds.size // 2 - 1 :]), 2 * speeds[-2:].max()
     return np.asarray(change * (min(1.0, beyond / lost) if lost > 0 else 0.0))
+
+
+def _hidden(balance: CycleBalance, count: int) -> float:
+    """Largest V of the harmonics of the wave beyond so many phases, which take them for lower ones.
+
+    Less what `_phase_error` has for them, twice the highest ones among the phases.
+    """
+    rates, highest = balance.shapes.scene.survey.rates, count // 2 - 1
+    seen = 2 * float(rates.sizes[max(highest - 2, 0) : highest].max(initial=0.0))
+    return balance.speed_per_rate * max(rates.beyond(highest) - seen, 0.0)
 
 
 def _speeds_of_harmonics(shapes: Shapes) -> Array:

@@ -35,8 +35,9 @@ WRONG, SURE = 1e-4, 1e-6
 differences are sure of so much."""
 
 AROUND, CHECKED = 0.25, 4096
-"""A terrain is checked at so many points, on the box of the sheet and this part of its length beyond. A
-line along which the slope jumps meets the differences of about ten of them."""
+"""A terrain is checked at so many points, on the box of the sheet and this part of its length beyond,
+and further away taken as it is. A line along which the slope jumps meets the differences of about ten
+of them."""
 
 SHARPEST, NEARER, ZOOMS = 64, 8, 6
 """Then so many times at NEARER points around each of the SHARPEST so far, which finds tips."""

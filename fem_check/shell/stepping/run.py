@@ -22,7 +22,7 @@ from fem_check.shell.stepping.settings import Settings
 from fem_check.shell.stepping.sliding import Sliding, sliding
 from fem_check.shell.stepping.snapshot import check_writable, load_snapshot, save_snapshot
 from fem_check.shell.stepping.start import first_history
-from fem_check.shell.stepping.step_control import History, step_size
+from fem_check.shell.stepping.step_control import LANDED, History, step_size
 from fem_check.shell.stepping.stepper import Stepper, StepResult
 from fem_check.shell.stepping.trajectory import Trajectory
 from linear_theory.threads import one_blas_thread
@@ -36,9 +36,6 @@ snaps over goes a long way however short the step is."""
 CHECKED = 8
 """Of so many steps one is checked for negative curvature at its end, which costs a Hessian: a kept
 factor, and symmetry, can hide it from the minimisations."""
-
-LANDED = 1e-9
-"""Share of the period within which a time counts as the end of a period."""
 
 MOMENT = ("area", "sliding", "drag", "velocity")
 """Arrays of a Moment that not every scene has."""
@@ -83,7 +80,8 @@ class Run:
     @one_blas_thread
     def __init__(self, scene: Scene, settings: Settings) -> None:
         self.scene, self.settings, period = scene, settings, scene.period
-        self.size = step_size(period, settings.rtol, settings.steps)
+        scene.survey.check_period()
+        self.size = step_size(period, settings.rtol, settings.steps, scene.survey.rates)
         self.size.scale = abs(scene.alpha) * scene.sheet.length / period
         self.start = settings.ramp * period
         self.stepper = Stepper(scene, self.start, self.size.dt)

@@ -51,13 +51,17 @@ def simulate(
     the trajectory; see `Trajectory.shape_error`. mesh_error: estimate the error of the mesh from a
     second run on a coarser one. progress: True prints, a function is called after each step.
 
+    Steps are short enough to see the harmonics in time of the wave that matter, many where they are
+    high.
+
     A scene without Friction and Inertia has no motion in time; use `cycle_speed.cycle_speed`.
-    Raises ValueError for such scenes and for values out of range; SnapshotError, a ValueError, for a
-    snapshot that is damaged or of another scene or run, for a place where none can be written, and for
-    a wave or ground whose function can be known again neither by its content nor by a name;
-    ConvergenceError (with the last state and its time as `parameter`) where steps become too small;
-    KeyboardInterrupt after Ctrl-C, with a line that says what is kept. Warns (ViscousRegimeWarning)
-    where Friction, regularised dry friction, acts as viscous: see `CrawlSpeed.regime`.
+    Raises ValueError for such scenes, for values out of range, for `steps` too few to see the wave and
+    for a wave that does not repeat after its period; SnapshotError, a ValueError, for a snapshot that
+    is damaged or of another scene or run, for a place where none can be written, and for a wave or
+    ground whose function can be known again neither by its content nor by a name; ConvergenceError
+    (with the last state and its time as `parameter`) where steps become too small; KeyboardInterrupt
+    after Ctrl-C, with a line that says what is kept. Warns (ViscousRegimeWarning) where Friction,
+    regularised dry friction, acts as viscous: see `CrawlSpeed.regime`.
 
     >>> from fem_check import Friction, Gravity, Material, Membrane, Scene, simulate
     >>> from linear_theory import Sheet, SineWave
@@ -81,6 +85,8 @@ def simulate(
         run.finish(target, (_printed if progress is True else progress) or None)
         difference = _mesh_error(run) if mesh_error else np.nan
     except KeyboardInterrupt:
+        if progress is True:
+            print(file=sys.stderr)
         # Not a class of its own, for which Python would not end as a process ends that was interrupted;
         # from None, since where in a step it struck tells the user nothing.
         raise KeyboardInterrupt(_interrupted(run, target)) from None

@@ -6,11 +6,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fem_check.shell.rates import Affine, newmark, two_step
+from linear_theory.spectrum import Spectrum
+from linear_theory.wave_survey import PER_HARMONIC
 
 Array = NDArray[np.float64]
 
 GROWTH = 1.6
 """Largest ratio of neighbouring steps; the two-step rule is stable up to 1 + sqrt 2."""
+
+LANDED = 1e-9
+"""Share of the period within which two times are one: ends of steps, of periods and those asked for."""
 
 SAFETY = 0.9
 
@@ -20,6 +25,16 @@ DEADBAND = 1.15
 SHORTEST = 32
 """Share of the step that a sine wave needs below which steps are not shortened for their error: a sheet
 that snaps over jumps however short they are, and shorter steps make damping stiff."""
+
+SHORT_HARMONIC = 8
+"""The highest harmonic of the wave up to which steps so short serve."""
+
+FEWEST, GIVEN_SHARE = 4, 0.1
+"""Steps to the period of a harmonic, at least, where their number is given, and the share of the rate
+of growth that may lie in higher ones."""
+
+SINE = Spectrum(np.ones(1), 0.0)
+"""A wave that is a sine in time."""
 
 NEWMARK_ERROR = 1 / 12
 """|beta - 1/6|: error of Newmark's rule in x is this times dt^2 (a_new - a), for beta = 1/4."""
@@ -139,12 +154,38 @@ class StepSize:
         return dt > (1 + 1e-9) * self.smallest
 
 
-def step_size(period: float, rtol: float | None, steps: int | None) -> StepSize:
-    """Step of period/steps, or one that adapts to rtol and starts with 1/8 of what a sine needs."""
+def step_size(period: float, rtol: float | None, steps: int | None, rates: Spectrum = SINE) -> StepSize:
+    """Step of period/steps, or one that adapts to rtol and starts with an eighth of what a sine needs.
+
+    rates: harmonics in time of the rate of growth; each that matters is met by PER_HARMONIC steps to
+    its period at least, since what falls between the steps is in no error of theirs.
+    Raises ValueError for steps too few, or a wave too rough, for them to see how it grows.
+    """
     if steps is not None:
-        dt = period / steps
-        return StepSize(dt, dt / 1024, dt)
+        needed = FEWEST * _harmonic(rates, GIVEN_SHARE)
+        if steps < needed:
+            raise ValueError(
+                f"steps = {steps}: must be >= {needed}, or {1 - GIVEN_SHARE:.0%} of the rate of growth "
+                f"is not seen, which has harmonics up to {needed // FEWEST} in time"
+            )
+        return StepSize(period / steps, period / steps / 1024, period / steps)
     assert rtol is not None
+    harmonic = _harmonic(rates, rtol)
     # The slope of a sine of this period is right to (2 pi dt/period)^2/3.
     natural = period * np.sqrt(3 * rtol) / (2 * np.pi)
-    return StepSize(natural / 8, natural / SHORTEST, period / 12, rtol)
+    shortest = natural / SHORTEST / max(harmonic / SHORT_HARMONIC, 1)
+    return StepSize(natural / 8 / harmonic, shortest, period / max(12, PER_HARMONIC * harmonic), rtol)
+
+
+def _harmonic(rates: Spectrum, share: float) -> int:
+    """The harmonic beyond which dc/dt has no more than that share, or ten times it if that is unknown.
+
+    Raises ValueError where even a tenth of dc/dt is beyond what is known: growth that jumps in time.
+    """
+    known = [h for h in (rates.highest(s) for s in (share, 10 * share, GIVEN_SHARE)) if h < np.inf]
+    if not known:
+        raise ValueError(
+            f"wave: must be resolved by its harmonics in time, of which {rates.sizes.size} have less "
+            f"than {1 - GIVEN_SHARE:.0%} of its rate; growth that jumps cannot be stepped through"
+        )
+    return int(known[0])

@@ -13,6 +13,7 @@ from fem_check.shell.scene import Scene
 from fem_check.shell.stepping.between import between, interpolation_error, motion_around
 from fem_check.shell.stepping.power import Works
 from fem_check.shell.stepping.sliding import COMPARED
+from fem_check.shell.stepping.step_control import LANDED
 from fem_check.shell.stepping.stepper import amplitude
 from linear_theory import validation
 from linear_theory.drawable import Drawable
@@ -170,11 +171,18 @@ class Trajectory(Drawable):
             )
 
     def _within(self, t: float) -> float:
-        """A time at which shapes are known. ValueError for others."""
-        t = validation.real("t", t)
-        first, last = self.stored_times[[0, -1]]
-        if not first <= t <= last:
-            raise ValueError(f"t = {t:g}: must be in [{first:g}, {last:g}], where states were kept")
+        """A time at which shapes are known: a kept one where it is as good as that, or between them.
+
+        Raises ValueError for others.
+        """
+        t, kept = validation.real("t", t), self.stored_times
+        nearest = float(kept[np.abs(kept - t).argmin()])
+        if abs(nearest - t) <= LANDED * self.scene.period:
+            return nearest
+        if not kept[0] <= t <= kept[-1]:
+            raise ValueError(
+                f"t = {t:g}: must be in [{kept[0]:g}, {kept[-1]:g}], where states were kept"
+            )
         return t
 
     def positions(self, t: float, points: ArrayLike | None = None, rtol: float | None = SEEN) -> Array:
