@@ -1,6 +1,6 @@
 # Every target does its own set-up; a fresh machine needs only make and Python >= 3.11.
 #
-#   make figures   all figures (options: OUT=folder RTOL=1e-6): half a minute
+#   make figures   all figures and the film of the README (options: OUT=folder RTOL=1e-6): a minute
 #   make test      lint, types, tests: six minutes
 #   make paper     the write-up as a PDF, paper/out/sheetcrawl.pdf, with its figures
 #   make docs      the API reference from the docstrings, build/docs
@@ -45,6 +45,7 @@ figures: $(STAMP)
 	$(RUN) -m figures.turning $(FIGURE_OPTIONS)
 	$(RUN) -m figures.cost --draw $(if $(OUT),--out "$(OUT)")
 	$(RUN) -m figures.regimes $(if $(OUT),--out "$(OUT)")
+	$(RUN) -m figures.readme_movie $(if $(OUT),--out "$(OUT)")
 
 test: $(STAMP)
 	$(RUN) -m ruff check .
@@ -81,7 +82,7 @@ paper: figures
 # the function and as its module.
 docs: $(STAMP)
 	$(RUN) -m pdoc --docformat markdown -o build/docs linear_theory '!linear_theory.second_order' \
-	    fem_check fem_check.shell.effects fem_check.shell.material
+	    fem_check fem_check.output fem_check.shell.effects fem_check.shell.material
 
 # setuptools comes with the lock and build isolation is off: pip fetches nothing that is not pinned.
 $(STAMP): requirements.lock pyproject.toml

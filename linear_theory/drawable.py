@@ -56,10 +56,10 @@ class Drawable:
         """Write a film of the crawling sheet, .gif or .mp4, and return its path.
 
         periods: of the wave, 6 unless given, of a trajectory all that it has. frames: per period. fps:
-        frames per second. width: of the picture in pixels. exaggerate: factor of the displacement
-        within the sheet (never of the way it crawls), which the film then states. units: as in `plot`.
-        progress: called with the frames done and their number; True prints a line once writing takes
-        more than two seconds.
+        frames per second. width: of the picture, 420 to 1920 pixels. exaggerate: factor of the
+        displacement within the sheet (never of the way it crawls), which the film then states. units:
+        as in `plot`. progress: called with the frames done and their number; True prints a line once
+        writing takes more than two seconds.
 
         The file appears when it is whole, and not at all if writing is interrupted. The same film has
         the same bytes as a .gif. Raises, before any work, ValueError for bad input, OSError for a path

@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 from matplotlib.image import imread
 
+from fem_check.output import progress
 from figures import output, style
 from linear_theory.si import Scale, speed_si
 
@@ -196,7 +197,7 @@ def test_time_left_from_the_rate_so_far() -> None:
     [(0.4, "0 s"), (59.6, "1 min 00 s"), (3599.6, "1 h 00 min"), (9000, "2 h 30 min")],
 )
 def test_durations_in_words(seconds: float, words: str) -> None:
-    assert output._duration(seconds) == words
+    assert progress._duration(seconds) == words
 
 
 def test_what_is_fast_prints_nothing() -> None:

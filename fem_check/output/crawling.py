@@ -15,6 +15,11 @@ Array = NDArray[np.float64]
 Integers = NDArray[np.int64]
 
 
+CONSTANT = 2
+"""Times up to which a speed does not change: a line has both ends of the period and
+a sheet at rest one."""
+
+
 class Crawling:
     """See `moving.Moving`. Without a deformation there is V(t) and a path, and nothing else."""
 
@@ -63,11 +68,13 @@ class Crawling:
 
     def course(self) -> Course:
         """V(t) over the period that starts at 0, and a little more, so that it is closed."""
+        whole = (0.0, self.period)
+        if self.speed.times.size <= CONSTANT:
+            return Course(np.array(whole), np.full(2, self.speed.velocity[0]), whole, whole)
         share = np.mod(self.speed.times, self.period)
         order = np.argsort(share)
         times, velocity = share[order], self.speed.velocity[order]
         times = np.concatenate([times[-1:] - self.period, times, times[:1] + self.period])
-        whole = (0.0, self.period)
         return Course(times, np.concatenate([velocity[-1:], velocity, velocity[:1]]), whole, whole)
 
     def way(self, periods: int, samples: int) -> tuple[Array, Array]:
@@ -117,7 +124,6 @@ class Crawling:
     def _poses(self, periods: int, samples: int) -> Poses:
         if self.speed.times.size >= 4 and self.speed.times.size % 4 == 0:
             return rigid_path(self.speed, periods, samples)
-        # At rest, and a wave under which V is constant, have no times to speak of.
         times = self.speed.times[0] + self.period * np.arange(periods * samples + 1) / samples
         way = self.speed.mean * (times - times[0])
         return Poses(times, np.stack([0 * way, way]), 0 * way)
@@ -171,6 +177,8 @@ def _raised(places: Array, components: int) -> Array:
 
 
 def _period(speed: CrawlSpeed) -> float:
-    """Of V(t), whose last interval, to the start of the next period, is as long as the one before."""
+    """Of V(t): both ends where it is constant, else the last interval is as long as the one before."""
     times = speed.times
-    return float(2 * times[-1] - times[-2] - times[0]) if times.size > 1 else 1.0
+    if times.size <= CONSTANT:
+        return float(np.ptp(times)) or 1.0
+    return float(2 * times[-1] - times[-2] - times[0])

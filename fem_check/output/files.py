@@ -3,6 +3,7 @@
 import os
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from errno import EISDIR, ENOTDIR
 from pathlib import Path
 
 
@@ -30,9 +31,12 @@ def writable(path: str | Path, suffixes: Sequence[str]) -> Path:
     target = Path(path)
     if target.suffix.lower() not in suffixes:
         raise ValueError(f"path = {str(path)!r}: must end in {' or '.join(suffixes)}")
-    if target.is_dir():
-        raise IsADirectoryError(f"path = {str(path)!r}: is a folder, must be a file")
     try:
+        for folder in target.parents:
+            if folder.exists() and not folder.is_dir():
+                raise NotADirectoryError(ENOTDIR, f"{str(folder)!r} is a file, must be a folder")
+        if target.is_dir():
+            raise IsADirectoryError(EISDIR, "is a folder, must be a file")
         target.parent.mkdir(parents=True, exist_ok=True)
         part = _part(target)
         part.touch()

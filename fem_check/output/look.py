@@ -1,7 +1,10 @@
 """The look of all pictures: colours told apart with any colour vision, sizes of a journal's columns."""
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import Any
 
+import matplotlib as mpl
 from cycler import cycler
 
 COLUMN_CM = 8.5
@@ -59,3 +62,12 @@ STYLE: dict[Any, Any] = {
     "ytick.direction": "in",
     "ytick.major.width": 0.6,
 }
+
+
+@contextmanager
+def styled(**more: Any) -> Iterator[None]:
+    """The style while a picture is made, whatever the user's own; afterwards it is theirs again."""
+    with mpl.rc_context():
+        mpl.rcdefaults()
+        mpl.rcParams.update(STYLE | more)
+        yield

@@ -24,8 +24,8 @@ PERIODS = 6
 MOST_FRAMES = 3000
 """Some minutes of work, and of film."""
 
-WIDTHS = 240, 1920
-"""Pixels: below the first nothing can be read."""
+WIDTHS = 420, 1920
+"""Pixels: below the first the words would cover each other."""
 
 Report = Callable[[int, int], object]
 
@@ -49,7 +49,7 @@ def movie(
     >>> from linear_theory import Sheet, SineWave, crawl_speed
     >>> speed = crawl_speed(Sheet(), SineWave(), alpha=0.2, rtol=1e-2)
     >>> with tempfile.TemporaryDirectory() as folder:
-    ...     path = speed.movie(Path(folder) / "crawl.gif", periods=1, frames=4, width=240)
+    ...     path = speed.movie(Path(folder) / "crawl.gif", periods=1, frames=4, width=420)
     ...     print(path.name, path.stat().st_size > 1000)
     crawl.gif True
     """

@@ -87,7 +87,7 @@ def draw_sheet(ax: Axes, moving: Moving, units: Units, phase: float) -> None:
     image, _ = add_sheet(ax, frame.place * factor, frame.growth, triangles, most)
     drawn = _draw_friction(ax, moving, phase, points, triangles, factor)
     label_ground(ax, units)
-    ax.set_aspect("equal")
+    ax.set_aspect("equal", anchor="W")
     shown = np.concatenate([frame.still[:2], frame.place[:2]], axis=1) * factor
     margin = 0.06 * float(np.ptp(shown[1]))
     ax.set_xlim(shown[1].min() - margin, shown[1].max() + margin)
@@ -98,7 +98,9 @@ def draw_sheet(ax: Axes, moving: Moving, units: Units, phase: float) -> None:
         loc="left",
     )
     if most:
-        ax.figure.colorbar(image, ax=ax, label=r"growth $\alpha c$ (%)", shrink=0.9, pad=0.02)
+        ax.figure.colorbar(
+            image, ax=ax, label=r"growth $\alpha c$ (%)", shrink=0.9, pad=0.02, panchor=False
+        )
 
 
 def draw_side(ax: Axes, moving: Moving, units: Units, phase: float) -> None:
@@ -215,7 +217,8 @@ def _draw_friction(
         scale_units="xy",
         scale=1,
         pivot="mid",
-        width=0.004,
+        units="inches",
+        width=0.014,
         zorder=4,
     )
     return True

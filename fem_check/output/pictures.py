@@ -2,14 +2,13 @@
 
 from typing import Any
 
-import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
 from fem_check.answer.units import Units
 from fem_check.output.crawling import Crawling
-from fem_check.output.look import CM_PER_INCH, COLUMN_CM, STYLE
+from fem_check.output.look import CM_PER_INCH, COLUMN_CM, styled
 from fem_check.output.moving import Moving
 from fem_check.output.panels import draw_path, draw_sheet, draw_side, draw_speed
 from fem_check.output.simulated import Simulated
@@ -56,7 +55,7 @@ def plot(
         return ax
     if ax is not None:
         raise ValueError(f"what = None: must be one of {', '.join(panels(moving))} where ax is given")
-    with mpl.rc_context(STYLE):
+    with styled():
         axes = _new_axes(panels(moving))
         for panel, name in zip(axes, panels(moving), strict=True):
             _draw(panel, name, moving, units, phase, periods)
@@ -112,7 +111,7 @@ def _new_axes(names: tuple[str, ...]) -> NDArray[Any]:
     import matplotlib.pyplot as plt
 
     heights = [HEIGHTS[name] for name in names]
-    with mpl.rc_context(STYLE):
+    with styled():
         size = 1.4 * COLUMN_CM / CM_PER_INCH, 1.4 * sum(heights) / CM_PER_INCH
         fig, axes = plt.subplots(
             len(names), figsize=size, height_ratios=heights, squeeze=False, dpi=150

@@ -3,7 +3,6 @@
 from collections.abc import Iterator
 from typing import Any
 
-import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -12,7 +11,7 @@ from matplotlib.ticker import MultipleLocator
 from numpy.typing import NDArray
 
 from fem_check.answer.units import Units
-from fem_check.output.look import STYLE
+from fem_check.output.look import styled
 from fem_check.output.moving import Frame, Moving
 from fem_check.output.panels import (
     GROWTH_MAP,
@@ -28,7 +27,7 @@ Pixels = NDArray[np.uint8]
 
 DPI = 100
 
-TOP, BOTTOM, LEFT, RIGHT = 46, 40, 14, 14
+TOP, BOTTOM, LEFT, RIGHT = 42, 42, 14, 14
 """Pixels around the ground: above it words and scale, below it the ruler."""
 
 SIDE = 76
@@ -37,8 +36,11 @@ SIDE = 76
 ARROW = 40
 """Length of the arrow of the wave in pixels."""
 
-LEAST, MOST = 90, 800
+LEAST, MOST = 90, 640
 """Height of the ground in pixels."""
+
+ROOMY = 500
+"""Width from which there is room for what the colours mean beside the time."""
 
 MARGIN = 0.12
 """Of ground around the sheet, in its lengths."""
@@ -75,7 +77,7 @@ class Stage:
 
     def pictures(self) -> Iterator[Pixels]:
         """Red, green and blue, (height, width, 3); width and height are even, as encoders want."""
-        with mpl.rc_context({**STYLE, "figure.constrained_layout.use": False}):
+        with styled(**{"figure.constrained_layout.use": False}):
             canvas, axes = self._set_up()
             canvas.draw()
         ground = canvas.copy_from_bbox(canvas.figure.bbox)
@@ -84,7 +86,7 @@ class Stage:
             frame = self._shown(self._frames[k])
             trail.append(frame.centre)
             canvas.restore_region(ground)
-            with mpl.rc_context(STYLE):
+            with styled():
                 for artist in self._moving_parts(axes, frame, np.array(trail).T):
                     artist.axes.draw_artist(artist)
                     artist.remove()
@@ -97,7 +99,7 @@ class Stage:
         yield from add_sheet(top, frame.place * factor, frame.growth, self._triangles, self._growth)
         yield from top.plot(*(trail[::-1] * factor), color="black", linewidth=1.2)
         yield from top.plot(*(trail[::-1, -1:] * factor), "o", color="black", mec="white", markersize=6)
-        height = 1 + 32 / self._height
+        height = 1 + 26 / self._height
         yield top.text(0, height, self._words(frame), transform=top.transAxes, va="center")
         yield from self._wave(top, frame.heading)
         for ax in side:
@@ -186,7 +188,9 @@ class Stage:
         low, high = self._low * factor, self._high * factor
         # Where the ground is too flat or too high for the picture it is cut or continued evenly.
         middle, half = (low + high) / 2, (high - low) / 2
-        half[0] = half[1] * self._height / (self._width - LEFT - RIGHT)
+        aspect = self._height / (self._width - LEFT - RIGHT)
+        half[1] = max(half[1], half[0] / aspect)
+        half[0] = half[1] * aspect
         ax.set(xlim=(middle[1] - half[1], middle[1] + half[1]))
         ax.set(ylim=(middle[0] + half[0], middle[0] - half[0]), facecolor=GROUND)
         step = _nice(2 * half[1] / 12)
@@ -207,15 +211,14 @@ class Stage:
         note = self._moving.words
         if self._exaggerate != 1:
             note += f", displacement x {self._exaggerate:g}"
-        ax.text(
-            0, 1 + 12 / self._height, note, transform=ax.transAxes, va="center", color="0.35", size=7
-        )
+        place = 0, -30 / self._height
+        ax.text(*place, note, transform=ax.transAxes, va="center", color="0.35", size=7)
 
     def _add_scale(self, fig: Figure, height: int) -> None:
         """Colours of growth, at the top right."""
         if not self._growth:
             return
-        box = 1 - 118 / self._width, 1 - 30 / height, 90 / self._width, 9 / height
+        box = 1 - 118 / self._width, 1 - 26 / height, 90 / self._width, 9 / height
         ax = fig.add_axes(box)
         ends = -self._growth, self._growth
         ax.imshow(np.linspace(*ends, 128)[None], aspect="auto", cmap=GROWTH_MAP, extent=(*ends, 0, 1))
@@ -223,6 +226,8 @@ class Stage:
         for at, sign in enumerate(("\N{MINUS SIGN}", "+")):
             text = f"{sign}{self._growth:.3g} %"
             ax.text(at, -0.35, text, transform=ax.transAxes, va="top", ha="center", size=7)
+        if self._width < ROOMY:
+            return
         ax.text(-0.12, 0.5, r"growth $\alpha c$", transform=ax.transAxes, va="center", ha="right")
 
 

@@ -46,9 +46,9 @@ def write_gif(path: Path, pictures: Iterator[Pixels], fps: float) -> None:
     )
     delay = 10 * max(2, round(100 / fps))
     start = next(images)
-    start.save(
-        path, format="GIF", save_all=True, append_images=images, duration=delay, loop=0, disposal=1
-    )
+    look = {"duration": delay, "loop": 0, "disposal": 1}
+    with path.open("wb") as file:  # closed by an interruption, too
+        start.save(file, format="GIF", save_all=True, append_images=images, **look)
 
 
 def write_mp4(path: Path, pictures: Iterator[Pixels], fps: float) -> None:

@@ -1,0 +1,56 @@
+"""The film of the README: the sheet of its first block, crawling.
+
+    python -m figures.readme_movie [--out FOLDER]
+
+A sheet of 40 x 15 x 0.8 mm grows by 12 % of its length at the crest of a pulse that runs along it every
+8 s. The speed is that of the nonlinear sheet; the same bytes on every run.
+"""
+
+import argparse
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+
+from fem_check import Prediction, predict
+from fem_check.output import Units
+from linear_theory import Sheet, TravellingWave
+
+SHEET = Sheet(length=40.0, width=15.0, thickness=0.8)
+"""In millimetres."""
+
+PULSE = TravellingWave(cosine=np.array([1.0, 0.5]), sine=np.zeros(2), period=8.0)
+"""In seconds."""
+
+CREST = float(PULSE.value(0.0, 0.0, 0.0))
+
+ALPHA = 0.12 / CREST
+"""So that the crest grows by 12 %."""
+
+UNITS = Units("mm", "s")
+
+PERIODS, FRAMES, FPS, WIDTH = 10, 12, 15.0, 560
+"""Some 8 s of film below 3 MB."""
+
+NAME = "crawl.gif"
+
+GALLERY = Path(__file__).resolve().parent / "gallery"
+
+
+def answer() -> Prediction:
+    """The speed of the sheet."""
+    return predict(SHEET, PULSE, ALPHA, rtol=1e-2)
+
+
+def main(arguments: Sequence[str] | None = None) -> None:
+    """Write the film of the README."""
+    parser = argparse.ArgumentParser(prog="figures.readme_movie", description=main.__doc__)
+    parser.add_argument(
+        "--out", type=Path, default=GALLERY, help="folder of the film (figures/gallery)"
+    )
+    path = parser.parse_args(arguments).out / NAME
+    print(answer().movie(path, periods=PERIODS, frames=FRAMES, fps=FPS, width=WIDTH, units=UNITS))
+
+
+if __name__ == "__main__":
+    main()
