@@ -169,8 +169,8 @@ def step_size(
         needed = FEWEST * _harmonic(rates, GIVEN_SHARE)
         if steps < needed:
             raise ValueError(
-                f"steps = {steps}: must be >= {needed}, or {1 - GIVEN_SHARE:.0%} of the rate of growth "
-                f"is not seen, which has harmonics up to {needed // FEWEST} in time"
+                f"steps = {steps}: must be >= {needed}, {FEWEST} to the period of harmonic "
+                f"{needed // FEWEST} of the wave, beyond which is less than {GIVEN_SHARE:.0%} of its rate"
             )
         return StepSize(period / steps, period / steps / 1024, period / steps)
     rtol = validation.tolerance(1e-2 if rtol is None else rtol)
