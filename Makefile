@@ -5,6 +5,7 @@
 #   make paper     the write-up as a PDF, paper/out/sheetcrawl.pdf, with its figures
 #   make docs      the API reference from the docstrings, build/docs
 #   make cost      error against time of every level, the price of each effect: four minutes
+#   make bench-threads  times beside a busy core against one BLAS thread
 #   make bench-shell  time and memory of the sheet that bends
 #   make tables    every table that the figures, the paper and predict() read: half an hour
 #   make lock      rewrite requirements.lock after a change of dependencies
@@ -33,7 +34,7 @@ export MKL_NUM_THREADS := 1
 
 FIGURE_OPTIONS = $(if $(OUT),--out "$(OUT)") $(if $(RTOL),--rtol $(RTOL))
 
-.PHONY: figures test paper docs cost bench-shell tables lock clean distclean
+.PHONY: figures test paper docs cost bench-shell bench-threads tables lock clean distclean
 .DEFAULT_GOAL := figures
 .DELETE_ON_ERROR:
 
@@ -56,6 +57,9 @@ cost: $(STAMP)
 
 bench-shell: $(STAMP)
 	$(RUN) -m figures.bench_shell
+
+bench-threads: $(STAMP)
+	$(RUN) -m figures.bench_threads
 
 # In the order in which one reads the other; what is measured in seconds is left to `make cost`.
 tables: $(STAMP)

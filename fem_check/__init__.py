@@ -10,6 +10,7 @@ from fem_check.shell.effects.ground import Ground
 from fem_check.shell.effects.inertia import Inertia
 from fem_check.shell.effects.koiter import Bending, Membrane
 from fem_check.shell.effects.loads import DeadLoad
+from fem_check.shell.effects.terrain import Terrain
 from fem_check.shell.material import Material
 from fem_check.shell.scene import Scene
 from fem_check.shell.stepping.simulation import simulate
@@ -28,6 +29,7 @@ __all__ = [
     "PlaneStressField",
     "Prediction",
     "Scene",
+    "Terrain",
     "Trajectory",
     "cycle_speed",
     "plane_stress_field",

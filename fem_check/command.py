@@ -3,28 +3,36 @@
     sheetcrawl --alpha 0.25                       the paper's sheet and wave, to 1 %
     sheetcrawl --alpha 0.25 --width 0.2 --rtol 1e-3 --json
 
-Exit status: 0 where the tolerance is met, 1 where it is not, 2 for bad arguments.
+Exit status: 0 where the tolerance is met, 1 where it is not or the answer cannot be written, 2 for bad
+arguments, 130 after Ctrl-C, 141 where the reader of the answer has gone (`sheetcrawl ... | true`).
+Warnings go to stderr, a line each.
 """
 
 import argparse
+import contextlib
 import json
 import math
+import os
+import re
 import sys
+import warnings
 from collections.abc import Sequence
 from typing import Any, NoReturn
 
 import numpy as np
 
 from fem_check.prediction import METHODS, Prediction, predict
-from fem_check.shell.cycle.motion import UnresolvedError
-from fem_check.shell.statics.equilibrium import ConvergenceError
-from linear_theory.errors import NotConvergedError
+from linear_theory.errors import SheetcrawlError
 from linear_theory.friction import LAWS, LOADS
 from linear_theory.second_field import AREAS, GROWTH_LAWS
 from linear_theory.sheet import Sheet
 from linear_theory.waves import SineWave, TravellingWave
 
 MET, MISSED, BAD_ARGUMENTS = 0, 1, 2
+INTERRUPTED, CLOSED_PIPE = 130, 141
+"""As shells report a program that SIGINT or SIGPIPE has ended."""
+
+_NEGATIVE = re.compile(r"-(\d+\.?\d*|\.\d+)(e[-+]?\d+)?|-inf(inity)?|-nan", re.IGNORECASE)
 
 
 class _Parser(argparse.ArgumentParser):
@@ -36,15 +44,43 @@ class _Parser(argparse.ArgumentParser):
 
 def main(arguments: Sequence[str] | None = None) -> NoReturn:
     """Answer and exit."""
-    options = parser().parse_args(arguments)
     try:
-        found = answer(options)
-    except ValueError as problem:
-        parser().error(str(problem))
-    except (NotConvergedError, ConvergenceError, UnresolvedError) as problem:
-        sys.exit(f"sheetcrawl: {problem}")  # status 1
+        status = run(sys.argv[1:] if arguments is None else arguments)
+        sys.stdout.flush()
+    except KeyboardInterrupt:
+        print("sheetcrawl: interrupted", file=sys.stderr)
+        status = INTERRUPTED
+    except BrokenPipeError:  # who reads has seen enough
+        _forget_output()
+        status = CLOSED_PIPE
+    except OSError as problem:
+        _forget_output()
+        print(f"sheetcrawl: cannot write the answer: {problem}", file=sys.stderr)
+        status = MISSED
+    sys.exit(status)
+
+
+def run(arguments: Sequence[str]) -> int:
+    """Print the answer; the exit status."""
+    # argparse takes -1e-3 for an option, but not where a blank is before it
+    options = parser().parse_args([f" {a}" if _NEGATIVE.fullmatch(a) else a for a in arguments])
+    with warnings.catch_warnings(record=True, action="always") as seen:
+        try:
+            found = answer(options)
+        except ValueError as problem:
+            parser().error(str(problem))
+        except SheetcrawlError as problem:
+            sys.exit(f"sheetcrawl: {problem}")  # status 1
     print(json.dumps(record(found), indent=1) if options.json else words(found))
-    sys.exit(MET if found.converged else MISSED)
+    for warning in seen:
+        print(f"sheetcrawl: warning: {warning.message}", file=sys.stderr)
+    return MET if found.converged else MISSED
+
+
+def _forget_output() -> None:
+    """Let what is not yet written go nowhere, or the interpreter would try again at its end."""
+    with contextlib.suppress(OSError, ValueError):  # a stream that stands for stdout has no number
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def answer(options: argparse.Namespace) -> Prediction:
@@ -99,6 +135,7 @@ def record(found: Prediction) -> dict[str, Any]:
         "level": found.level,
         "reason": found.reason,
         "model": speed.model,
+        "reach": speed.reach,
         "left_out": list(found.left_out),
     }
 

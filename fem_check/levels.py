@@ -17,7 +17,7 @@ from fem_check.shell.cycle.speed import cycle_speed
 from fem_check.shell.effects.koiter import Membrane
 from fem_check.shell.material import Material
 from fem_check.shell.scene import Scene, default_cells
-from linear_theory import validation
+from linear_theory import arguments, validation
 from linear_theory.crawl import crawl_speed
 from linear_theory.field import Wave
 from linear_theory.friction import LOADS, FrictionLaw
@@ -26,6 +26,7 @@ from linear_theory.model_error import model_error
 from linear_theory.second_field import AREAS, GROWTH_LAWS
 from linear_theory.sheet import Sheet
 from linear_theory.speed import CrawlSpeed
+from linear_theory.wave_survey import WaveSurvey
 
 MESHES = (1, 2, 4)
 """Factors of the default cells that the nonlinear sheet is tried with, coarse to fine."""
@@ -48,6 +49,8 @@ class Question:
     slip_speed: float | None = None
 
     def __post_init__(self) -> None:
+        object.__setattr__(self, "sheet", arguments.sheet(self.sheet))
+        object.__setattr__(self, "wave", arguments.wave(self.wave))
         object.__setattr__(self, "alpha", validation.real("alpha", self.alpha))
         validation.choice("growth_law", self.growth_law, GROWTH_LAWS)
         validation.choice("area", self.area, AREAS)
@@ -65,21 +68,23 @@ Level = Callable[[Question, float, float], CrawlSpeed]
 
 
 def strip(question: Question, rtol: float, atol: float) -> CrawlSpeed:
-    """The narrow strip, as long as the sheet."""
-    q, length = question, question.sheet.length
-    slip = None if q.slip_speed is None else q.slip_speed / length
+    """The narrow strip, as long as the sheet; ValueError for a wave that depends on x."""
+    q = question
+    if WaveSurvey.on_sheet(q.wave, q.sheet).depends_on_x:
+        raise ValueError("method = 'strip': cannot represent a wave that depends on x, 'cycle' can")
     found = line_balance(
-        q.wave, q.alpha, q.load, q.friction, slip, rtol, atol / length, q.growth_law, "strip"
+        q.wave,
+        q.alpha,
+        q.load,
+        q.friction,
+        q.slip_speed,
+        rtol,
+        atol,
+        q.growth_law,
+        "strip",
+        length=q.sheet.length,
     )
-    return replace(
-        found,
-        mean=length * found.mean,
-        error=length * found.error,
-        model_error=distance("strip", q),
-        velocity=length * found.velocity,
-        first_order=length * found.first_order,
-        second_order=length * found.second_order,
-    )
+    return replace(found, model_error=distance("strip", q))
 
 
 def first_order(question: Question, rtol: float, atol: float) -> CrawlSpeed:

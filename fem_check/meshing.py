@@ -1,25 +1,21 @@
 """Triangle meshes of quadrilaterals and of polygons with holes.
 
-Quadrilaterals get a grid of cells that their diagonals cut in four: symmetric wherever the outline
-is. Other polygons get a Delaunay triangulation of points at equal distances along the sides and a
-hexagonal grid inside, smoothed.
+Convex quadrilaterals get a grid of cells that their diagonals cut in four: symmetric wherever the
+outline is. Other polygons are meshed by Netgen.
 """
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial import Delaunay
 from skfem import MeshTri
-
-from fem_check import polygons
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
 
-SMOOTHINGS = 10
-CLEARANCE = 0.6  # of the spacing: how near to a side points of the inner grid may come
-MOST_SPLITS = 30
+GRADING = 0.3
+"""By how much of the distance from a short side the triangles may grow."""
 
 
 def quadrilateral_mesh(corners: Array, size: float) -> MeshTri:
@@ -37,19 +33,45 @@ def quadrilateral_mesh(corners: Array, size: float) -> MeshTri:
 
 
 def polygon_mesh(loops: Sequence[Array], size: float) -> MeshTri:
-    """Mesh of a polygon with holes; loops: outline and holes, (n, 2) each.
+    """Mesh of a polygon with holes, the same on every run.
 
-    Raises ValueError where the outline cannot be followed with triangles of that size.
+    loops: outline (n, 2), anticlockwise, and holes, clockwise; size: of the triangles, about. Raises
+    ValueError where Netgen finds no mesh, RuntimeError where it is not installed.
     """
-    boundary, fixed = _boundary_points(loops, size)
-    inner = _inner_points(loops, size)
-    for _ in range(MOST_SPLITS):
-        points, triangles = _smoothed(loops, boundary, inner, size)
-        missing = _missing_sides(fixed, triangles)
-        if not missing.any():
-            return MeshTri(points.T.copy(), triangles.T.copy())
-        boundary, fixed = _split(boundary, fixed, missing)
-    raise ValueError(f"size = {size:g}: must be smaller, the mesh does not follow the outline")
+    geometry, mesh_error = _netgen()
+    # Netgen compares lengths with numbers: it gets coordinates of order 1 about the middle
+    middle = (loops[0].min(axis=0) + loops[0].max(axis=0)) / 2
+    unit = 2.0 ** np.floor(np.log2(np.ptp(loops[0], axis=0).max()))
+    outline = geometry()
+    for loop in loops:
+        points = [outline.AppendPoint(*point) for point in ((loop - middle) / unit).tolist()]
+        for start, end in zip(points, [*points[1:], points[0]], strict=True):
+            outline.Append(["line", start, end], leftdomain=1, rightdomain=0)
+    try:
+        found = outline.GenerateMesh(maxh=float(size / unit), grading=GRADING)
+    except mesh_error as error:
+        raise ValueError(
+            f"size = {size:g}: Netgen does not mesh this outline ({error}); blunt its needles and fill "
+            "its clefts, try another size, or make a mesh elsewhere and give it as a skfem.MeshTri"
+        ) from None
+    points = np.array([vertex.p[:2] for vertex in found.Points()]) * unit + middle
+    corners = np.concatenate(loops)
+    points[: len(corners)] = corners  # as given, without roundoff
+    triangles = np.array([[v.nr - 1 for v in triangle.vertices] for triangle in found.Elements2D()])
+    return MeshTri(np.ascontiguousarray(points.T), np.ascontiguousarray(triangles.T))
+
+
+def _netgen() -> tuple[Any, Any]:
+    """Netgen's class of outlines and its exception; loaded here, since few need it."""
+    try:
+        from netgen.geom2d import SplineGeometry
+        from netgen.meshing import NgException
+    except ImportError as error:
+        raise RuntimeError(
+            "outlines other than convex quadrilaterals are meshed by Netgen, which cannot be loaded "
+            f"({error}): pip install netgen-mesher, or give a mesh made elsewhere, as skfem.MeshTri"
+        ) from None
+    return SplineGeometry, NgException
 
 
 def _bilinear(corners: Array, s: Array, t: Array) -> Array:
@@ -61,78 +83,3 @@ def _bilinear(corners: Array, s: Array, t: Array) -> Array:
 
 def _corners_of_cells(number: Indices) -> tuple[Indices, Indices, Indices, Indices]:
     return number[:-1, :-1], number[1:, :-1], number[1:, 1:], number[:-1, 1:]
-
-
-def _boundary_points(loops: Sequence[Array], size: float) -> tuple[Array, Indices]:
-    """Points along all sides, (n, 2), and the pairs of them that must become edges, (m, 2)."""
-    points: list[Array] = []
-    edges: list[Indices] = []
-    offset = 0
-    for loop in loops:
-        ends = np.roll(loop, -1, axis=0)
-        counts = np.maximum(1, np.ceil(np.linalg.norm(ends - loop, axis=1) / size - 1e-9).astype(int))
-        for start, end, count in zip(loop, ends, counts, strict=True):
-            share = np.arange(count)[:, None] / count
-            points.append(start + share * (end - start))
-        number = offset + np.arange(counts.sum())
-        edges.append(np.stack([number, np.roll(number, -1)], axis=1))
-        offset += int(counts.sum())
-    return np.concatenate(points), np.concatenate(edges)
-
-
-def _inner_points(loops: Sequence[Array], size: float) -> Array:
-    """Hexagonal grid inside the polygon, symmetric about the middle of its bounding box."""
-    low, high = loops[0].min(axis=0), loops[0].max(axis=0)
-    rows = int((high[1] - low[1]) / (size * np.sqrt(0.75))) + 1
-    columns = int((high[0] - low[0]) / size) + 2
-    row = np.arange(rows) - (rows - 1) / 2
-    column = np.arange(-columns, columns + 1) / 1.0
-    x = (low[0] + high[0]) / 2 + size * (column + 0.5 * (np.arange(rows) % 2)[:, None])
-    y = (low[1] + high[1]) / 2 + size * np.sqrt(0.75) * row[:, None]
-    points = np.stack([v.ravel() for v in np.broadcast_arrays(x, y)], axis=1)
-    points = points[polygons.inside(loops, points)]
-    return np.asarray(points[polygons.distance(loops, points) > CLEARANCE * size])
-
-
-def _smoothed(
-    loops: Sequence[Array], boundary: Array, inner: Array, size: float
-) -> tuple[Array, Indices]:
-    """Delaunay triangulation inside the loops, inner points moved to the mean of their neighbours."""
-    points = np.concatenate([boundary, inner])
-    triangles = _triangles(loops, points, size)
-    for _ in range(SMOOTHINGS if len(inner) else 0):
-        a, b = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]).T
-        total, count = np.zeros_like(points), np.zeros(len(points))
-        for i, j in ((a, b), (b, a)):
-            np.add.at(total, i, points[j])
-            np.add.at(count, i, 1)
-        points[len(boundary) :] = (total / np.maximum(count, 1)[:, None])[len(boundary) :]
-        triangles = _triangles(loops, points, size)
-    return points, triangles
-
-
-def _triangles(loops: Sequence[Array], points: Array, size: float) -> Indices:
-    """Delaunay triangles within the loops, without the flat ones along straight sides."""
-    triangles = np.asarray(Delaunay(points).simplices, np.int64)
-    p, q, r = points[triangles].transpose(1, 0, 2)
-    area = abs((q - p)[:, 0] * (r - p)[:, 1] - (q - p)[:, 1] * (r - p)[:, 0]) / 2
-    keep = polygons.inside(loops, (p + q + r) / 3) & (area > 1e-9 * size**2)
-    return np.asarray(triangles[keep])
-
-
-def _missing_sides(fixed: Indices, triangles: Indices) -> NDArray[np.bool_]:
-    """Which of the pairs are not an edge of exactly one triangle."""
-    edges = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
-    count = int(triangles.max()) + len(fixed) + 1
-    keys, times = np.unique(np.sort(edges, axis=1) @ [count, 1], return_counts=True)
-    wanted = np.sort(fixed, axis=1) @ [count, 1]
-    return np.asarray(~np.isin(wanted, keys[times == 1]))
-
-
-def _split(boundary: Array, fixed: Indices, missing: NDArray[np.bool_]) -> tuple[Array, Indices]:
-    """Halve the missing edges by new boundary points."""
-    start, end = fixed[missing].T
-    new = len(boundary) + np.arange(len(start))
-    halves = [np.stack([start, new], axis=1), np.stack([new, end], axis=1)]
-    middle = (boundary[start] + boundary[end]) / 2
-    return np.concatenate([boundary, middle]), np.concatenate([fixed[~missing], *halves])

@@ -11,18 +11,18 @@ from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 from skfem import MeshTri
 
+from fem_check.mesh_checks import check_mesh
 from fem_check.outline import Outline
 from fem_check.plane_stress_solver import ELEMENTS, PlaneStressSolver
 from fem_check.triangles import TriangleFinder, quadrilateral_points
-from linear_theory import validation
+from linear_theory import arguments, validation
 from linear_theory.field import LinearField, Wave
 from linear_theory.load_cases import SAMPLES, LoadCases, load_cases, mixed_norms, phases
 from linear_theory.motion import CellGrid
 from linear_theory.sheet import Sheet
+from linear_theory.threads import one_blas_thread
 from linear_theory.wave_survey import WaveSurvey, waves_along
 
 Array = NDArray[np.float64]
@@ -47,6 +47,7 @@ have nothing to do with each other."""
 FLAT = 1e-6  # a sheet whose displacement is this small for a moment has no relative error then
 
 
+@one_blas_thread
 def plane_stress_field(
     outline: Sheet | Outline | MeshTri,
     wave: Wave,
@@ -70,8 +71,9 @@ def plane_stress_field(
     >>> print(field.error < 1e-3, field.displacement(x=0.1, y=0.2, t=0.3).round(3))  # L per unit alpha
     True [-0.063 -0.135]
     """
-    if degree not in ELEMENTS:
-        raise ValueError(f"degree = {degree!r}: must be 2 or 4")
+    if degree not in tuple(ELEMENTS):
+        raise ValueError(f"degree = {validation.shown(degree)}: must be 2 or 4")
+    wave = arguments.wave(wave)
     sheet = _sheet(outline, poisson)
     coarse = _coarse_mesh(outline, 2 * _size(sheet, wave, size))
     while isinstance(outline, MeshTri) and size is not None and _longest_side(coarse) > 2 * size:
@@ -84,11 +86,13 @@ def _sheet(outline: Sheet | Outline | MeshTri, poisson: float | None) -> Sheet:
     if isinstance(outline, Sheet):
         return outline if poisson is None else replace(outline, poisson=poisson)
     if isinstance(outline, MeshTri):
-        width, length = np.ptp(_checked_mesh(outline).p, axis=1)
+        check_mesh(outline, "outline")
+        width, length = np.ptp(outline.p, axis=1)
     elif isinstance(outline, Outline):
         width, length = outline.width, outline.length
     else:
-        raise ValueError(f"outline = {outline!r}: must be a Sheet, an Outline or a MeshTri")
+        shown = validation.shown(outline)
+        raise ValueError(f"outline = {shown}: must be a Sheet, an Outline or a MeshTri")
     return Sheet(float(length), float(width), 0.5 if poisson is None else poisson)
 
 
@@ -110,21 +114,6 @@ def _gain(outline: Sheet | Outline | MeshTri, degree: int) -> float:
         return 1.0
     square = isinstance(outline, Sheet) or outline.largest_angle < 0.51 * np.pi
     return GAIN[degree] if square else 2.0
-
-
-def _checked_mesh(mesh: MeshTri) -> MeshTri:
-    """Raise ValueError for a mesh that has no area somewhere or falls apart."""
-    validation.real_array("outline.p", mesh.p)
-    a, b, c = mesh.p[:, mesh.t].transpose(1, 0, 2)
-    doubled = abs((b - a)[0] * (c - a)[1] - (b - a)[1] * (c - a)[0])
-    if doubled.min() <= 1e-12 * doubled.max():
-        raise ValueError(f"outline: triangle {doubled.argmin()} has the area {doubled.min() / 2:g}")
-    ends = mesh.facets
-    graph = coo_array((np.ones(ends.shape[1]), tuple(ends)), shape=(mesh.p.shape[1],) * 2)
-    parts, _ = connected_components(graph, directed=False)
-    if parts > 1:
-        raise ValueError(f"outline: the mesh has {parts} parts, must be one")
-    return mesh
 
 
 def _longest_side(mesh: MeshTri) -> float:
@@ -170,12 +159,29 @@ class PlaneStressField(LinearField):
         """The triangles."""
         return self._solver.mesh
 
+    @property
+    def centre(self) -> tuple[float, float]:
+        """x, y of the centre of mass of the outline."""
+        x, y = self._solver.centre_and_gyration[0].tolist()
+        return x, y
+
+    @property
+    def gyration(self) -> float:
+        """Radius of gyration of the outline about its centre of mass."""
+        return self._solver.centre_and_gyration[1]
+
+    def places(self, count: int) -> tuple[Array, Array]:
+        """x, y (n,) of about count^2 points in the triangles."""
+        every = max(1, self._solver.x.size // count**2)
+        return self._solver.x.ravel()[::every], self._solver.y.ravel()[::every]
+
     @cached_property
     def survey(self) -> WaveSurvey:
         """How the wave depends on time, at points of the body."""
         return WaveSurvey.at_some(self.wave, self.sheet, self._solver.x, self._solver.y)
 
     @cached_property
+    @one_blas_thread
     def error(self) -> float:
         """Estimated relative L2 error of the displacement over the sheet at the worst phase."""
         fine, coarse = self._solver, PlaneStressSolver(self._coarse, self.degree, self.sheet.poisson)

@@ -11,9 +11,12 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse.linalg import splu
 from skfem import Basis, BilinearForm, ElementTriP2, ElementTriP4, ElementVector, LinearForm, MeshTri
 from skfem.helpers import ddot, div, eye, sym_grad, trace
+
+from fem_check.sparse_factor import SparseFactor
+from linear_theory.rigid import centre_and_gyration
+from linear_theory.units import power_of_two
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
@@ -105,7 +108,12 @@ class PlaneStressSolver:
         return displacement, _symmetric(gradient)
 
     @cached_property
-    def _factor(self) -> tuple[Indices, Any]:
+    def centre_and_gyration(self) -> tuple[Array, float]:
+        """Centre of mass (2,) of the mesh and its radius of gyration."""
+        return centre_and_gyration(np.stack([self.x.ravel(), self.y.ravel()]), self.weights.ravel())
+
+    @cached_property
+    def _factor(self) -> tuple[Indices, SparseFactor]:
         """Free unknowns and the factors of their matrix.
 
         Three unknowns are held to stop rigid motions; growth exerts no net force or torque, so that
@@ -113,9 +121,7 @@ class PlaneStressSolver:
         """
         matrix = elastic_work.assemble(self._basis, poisson=self.poisson)
         free = np.setdiff1d(np.arange(self._basis.N), self._held())
-        options = {"SymmetricMode": True, "DiagPivotThresh": 0.0}
-        factor = splu(matrix[free][:, free].tocsc(), permc_spec="MMD_AT_PLUS_A", options=options)
-        return free, factor
+        return free, SparseFactor(matrix[free][:, free])
 
     def _held(self) -> Indices:
         """Both components at one vertex, the one across the line between them at the farthest."""
@@ -132,12 +138,14 @@ class PlaneStressSolver:
         component = np.zeros(basis.N, np.int64)
         for dofs in (basis.nodal_dofs, basis.facet_dofs, basis.interior_dofs):
             component[dofs[1::2]] = 1
-        x, y = basis.doflocs
+        arms = basis.doflocs - self.centre_and_gyration[0][:, None]
+        size = power_of_two(float(abs(arms).max()))  # a rotation is compared with shifts
+        x, y = arms / size
         modes = np.stack([component == 0, component == 1, np.where(component == 0, -y, x)])
         means = [
             shift.assemble(basis, along=0),
             shift.assemble(basis, along=1),
-            rotation.assemble(basis),
+            size * rotation.assemble(basis),
         ]
         return modes.astype(float), np.stack(means)
 

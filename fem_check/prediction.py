@@ -8,11 +8,13 @@ from dataclasses import dataclass, replace
 from fem_check.levels import LEVELS, TARGET_EFFECTS, Question, distance
 from fem_check.shell.abilities import left_out
 from linear_theory import validation
-from linear_theory.errors import NotConvergedError, ViscousRegimeWarning
+from linear_theory.errors import BeyondReachWarning, NotConvergedError, ViscousRegimeWarning
 from linear_theory.field import Wave
 from linear_theory.friction import warn_if_viscous
+from linear_theory.reach import warn_if_beyond
 from linear_theory.sheet import Sheet
 from linear_theory.speed import CrawlSpeed
+from linear_theory.threads import one_blas_thread
 
 METHODS = ("auto", *LEVELS)
 
@@ -91,7 +93,8 @@ def predict(
     and with it the thickness; the ground; friction that deforms the sheet), in `left_out`: scenes with
     these effects are for `cycle_speed` and `simulate`.
 
-    Raises ValueError for bad input and what the level that is asked for raises. Warns as `crawl_speed`.
+    Raises ValueError for bad input and what the level that is asked for raises. Warns as `crawl_speed`
+    does of the level that answers.
 
     >>> from fem_check import predict
     >>> from linear_theory import Sheet, SineWave
@@ -107,7 +110,9 @@ def predict(
         found = _cheapest(question, goal)
     else:
         found = _answer(question, method, goal, "asked for")
+        found = replace(found, reason=f"{found.reason}; {found.speed.reach}")
     warn_if_viscous(found.speed, slip_speed)
+    warn_if_beyond(question.alpha, found.speed.beyond_reach)
     return replace(found, seconds=time.perf_counter() - start)
 
 
@@ -145,10 +150,12 @@ def _obstacle(question: Question, level: str, tolerance: float) -> str:
     return ""
 
 
+@one_blas_thread
 def _answer(question: Question, level: str, goal: Goal, reason: str) -> Prediction:
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore", ViscousRegimeWarning)  # `predict` says it, of the answer
+        for kind in (ViscousRegimeWarning, BeyondReachWarning):  # `predict` says it, of the answer
+            warnings.simplefilter("ignore", kind)
         rtol = max(SHARE * goal.rtol, validation.SMALLEST_RTOL)
         speed = LEVELS[level](question, rtol, SHARE * goal.atol)
-    converged = total_error(speed) <= goal.tolerance(speed.mean)
+    converged = not speed.beyond_reach and total_error(speed) <= goal.tolerance(speed.mean)
     return Prediction(speed, level, reason, converged, speed.seconds, left_out(TARGET_EFFECTS))

@@ -11,7 +11,9 @@ from skfem import MeshTri
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
 
-TOLERANCE = 1e-9  # of a triangle's size: how far outside the mesh roundoff may put a point
+TOLERANCE = (
+    1e-9  # of a triangle's size: how far outside the mesh roundoff may put a point near the origin
+)
 _CANDIDATES = 12
 _BLOCK = 2**22  # numbers in one temporary array
 
@@ -31,6 +33,8 @@ class TriangleFinder:
             )
         )
         self._tree = cKDTree(corners.mean(axis=1).T)
+        roundoff = np.finfo(float).eps * np.abs(mesh.p).max() * np.abs(self._inverse).sum(2).max()
+        self._tolerance = TOLERANCE + 4 * float(roundoff)
 
     def __call__(self, x: Array, y: Array) -> tuple[Indices, Array]:
         """Triangles (n,) and local coordinates (2, n) of points x, y (n,); -1 where outside."""
@@ -38,11 +42,11 @@ class TriangleFinder:
         count = min(_CANDIDATES, self._tree.n)
         candidates = self._tree.query(points, count)[1].reshape(len(points), count)
         triangle, local, depth = self._best(points, candidates)
-        lost = np.flatnonzero(depth < -TOLERANCE)
+        lost = np.flatnonzero(depth < -self._tolerance)
         every = np.arange(self._tree.n)[None]
         for some in np.array_split(lost, 1 + lost.size * self._tree.n // _BLOCK):
             triangle[some], local[some], depth[some] = self._best(points[some], every)
-        return np.where(depth < -TOLERANCE, -1, triangle), local.T
+        return np.where(depth < -self._tolerance, -1, triangle), local.T
 
     def _best(self, points: Array, candidates: Indices) -> tuple[Indices, Array, Array]:
         """Of the candidates (n or 1, k), the one in which each point lies deepest."""

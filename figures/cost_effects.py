@@ -164,7 +164,9 @@ class Named:
     def scene(self) -> Scene:
         """A new one, with nothing computed."""
         element = skfem.ElementQuadBFS()
-        return Scene(SHEET, WAVE, ALPHA, COUPLING, self.effects, cells=CELLS, element=element)
+        bends = any(isinstance(effect, Bending) for effect in self.effects)
+        coupling = COUPLING if bends else 0.0
+        return Scene(SHEET, WAVE, ALPHA, coupling, self.effects, cells=CELLS, element=element)
 
     @property
     def moves(self) -> bool:

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from figures import nonlinear
 from linear_theory import Sheet, SineWave, field_speed, line_speed, second_order
-from linear_theory.errors import ViscousRegimeWarning
+from linear_theory.errors import BeyondReachWarning, ViscousRegimeWarning
 from linear_theory.field import LinearField
 
 Array = NDArray[np.float64]
@@ -73,7 +73,9 @@ def mean_speed(field: LinearField, alpha: float, friction: str, rtol: float) -> 
     slip = nonlinear.SLIPS[friction] * alpha
     law, slip_speed = ("tanh", slip) if slip else ("coulomb", None)
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore", ViscousRegimeWarning)  # viscous crawling is shown on purpose
+        # viscous crawling and the end of the theory are shown on purpose
+        warnings.simplefilter("ignore", ViscousRegimeWarning)
+        warnings.simplefilter("ignore", BeyondReachWarning)
         found = field_speed(field, alpha, "current", law, slip_speed, rtol)
     return found.mean, found.error
 

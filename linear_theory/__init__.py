@@ -2,7 +2,12 @@
 
 from linear_theory.airy import AirySeries, airy_series
 from linear_theory.crawl import crawl_speed, field_speed, friction_field
-from linear_theory.errors import NotConvergedError, ViscousRegimeWarning
+from linear_theory.errors import (
+    BeyondReachWarning,
+    NotConvergedError,
+    SheetcrawlError,
+    ViscousRegimeWarning,
+)
 from linear_theory.field_wave import FieldWave
 from linear_theory.line import (
     LAPLACE_LIMIT,
@@ -25,12 +30,14 @@ from linear_theory.waves import SineWave, TravellingWave
 __all__ = [
     "LAPLACE_LIMIT",
     "AirySeries",
+    "BeyondReachWarning",
     "CrawlSpeed",
     "FieldWave",
     "NotConvergedError",
     "RitzField",
     "SecondOrder",
     "Sheet",
+    "SheetcrawlError",
     "SineWave",
     "TravellingWave",
     "ViscousRegimeWarning",

@@ -5,13 +5,18 @@ With velocities per unit alpha, v = alpha v^, V = alpha q, and the load 1 + alph
     integral (1 + alpha e) f(|w|) w/|w| . R_j dA = 0,      w = v^ + sum_j q_j R_j,
 
 R_j the rigid velocities: (0, 1) for motions that are mirror symmetric in x, else (1, 0), (0, 1) and
-the rotation (-y, x). It is where the convex function int (1 + alpha e) F(|w|) dA, F' = f, is least.
-On a slope the load itself pulls, by `slope` times itself along -y: slope (0, 1) . R_j joins the sum.
+the rotation (-y, x), x and y counted from the centre of mass. It is where the convex function
+int (1 + alpha e) F(|w|) dA, F' = f, is least. On a slope the load itself pulls, by `slope` times itself
+along -y: slope (0, 1) . R_j joins the sum.
 
 For small alpha the mean of q is much smaller than q(t). Hence q = q_0 + alpha q_1: q_0 balances the
 load 1, and q_1 solves what is left, divided by alpha, with the difference quotient of f w/|w| written
 without cancellation. A velocity of second order, v = alpha v^ + alpha^2 v_2, joins q_1, and so does
 that a sheet displaced by alpha u turns about its centre with R_2 = (-y - alpha u_y, x + alpha u_x).
+
+All of this is solved in units in which speeds, arms and areas are of order 1 (`Units`), a rotation by
+the speed that it gives the ends of the sheet: tolerances have the same meaning in any unit of length
+and time.
 """
 
 import math
@@ -26,6 +31,7 @@ from linear_theory.cells import Integers, graded
 from linear_theory.friction import FrictionLaw
 from linear_theory.motion import Motion
 from linear_theory.newton import damped_newton, guarded_newton
+from linear_theory.units import power_of_two
 
 Array = NDArray[np.float64]
 
@@ -56,6 +62,25 @@ class RigidMotion(NamedTuple):
     fastest: float
 
 
+class Units(NamedTuple):
+    """Of speeds, arms and areas (the load of a cell): powers of two, so that nothing is rounded."""
+
+    speed: float
+    length: float
+    area: float
+
+    @classmethod
+    def of(cls, motion: Motion) -> "Units":
+        """Those in which the largest values of a motion lie between 1 and 2."""
+        values = motion.velocity, motion.arms, motion.area
+        return cls(*(power_of_two(float(abs(v).max(initial=0.0))) for v in values))
+
+    @property
+    def motion(self) -> Array:
+        """Of V_x, V_y, Omega, (3,)."""
+        return np.array([self.speed, self.speed, self.speed / self.length])
+
+
 class Balance:
     """Friction on a sheet in a given motion.
 
@@ -75,22 +100,23 @@ class Balance:
         tolerance: float = 1e-10,
         slope: float = 0.0,
     ) -> None:
-        self._alpha, self._law, self._slope = alpha, law, slope
+        units = self._units = Units.of(motion)
+        self._alpha, self._law, self._slope = alpha, law.scaled(units.speed), slope
         self._modes = _ALONG if motion.mirrored else _ALL
-        area = np.broadcast_to(motion.area, rate.shape)
-        channels = [*motion.velocity, area, rate]
+        area = np.broadcast_to(motion.area / units.area, rate.shape)
+        channels = [*motion.velocity / units.speed, area, rate]
         if not motion.mirrored:
-            channels += [np.broadcast_to(p, rate.shape) for p in motion.position]
+            channels += [np.broadcast_to(p, rate.shape) for p in motion.arms / units.length]
         self._second = slice(0, 0) if motion.second is None else slice(len(channels), len(channels) + 2)
         if motion.second is not None:
-            channels += [*motion.second]
+            channels += [*motion.second / units.speed]
         displacement = None if motion.mirrored else motion.displacement
         self._shift = slice(0, 0) if displacement is None else slice(len(channels), len(channels) + 2)
         if displacement is not None:
-            channels += [*displacement]
-        # v_x, v_y, area, e, then x, y if the sheet may turn, then v_2 and u if there are any
+            channels += [*displacement / units.length]
+        # v_x, v_y, area, e, then x, y from the centre if the sheet may turn, then v_2 and u if any
         self._values = np.stack(channels)
-        self._scale = float(np.sqrt(np.mean(motion.velocity**2))) or 1.0
+        self._scale = float(np.sqrt(np.mean(self._values[:2] ** 2))) or 1.0
         self._stages = [(halvings, tolerance)]
         if halvings > 2 * _COARSE_HALVINGS:
             self._stages.insert(0, (_COARSE_HALVINGS, 1e-2))
@@ -100,20 +126,23 @@ class Balance:
 
         Raises NotConvergedError if an iteration stalls.
         """
-        modes = list(self._modes)
-        starts = (None, None) if guess is None else (guess.leading[:, modes], guess.remainder[:, modes])
-        leading = self._zero(self._leading, np.zeros((1, 1)), 1.0, starts[0])
+        starts = (None, None) if guess is None else map(self._unknowns, guess[:2])
+        first, second = starts
+        leading = self._zero(self._leading, np.zeros((1, 1)), 1.0, first)
         remainder = np.zeros_like(leading)
         if any(np.any(self._values[i]) for i in (3, self._second, self._shift)):  # else nothing remains
-            remainder = self._remaining(leading, starts[1])
+            remainder = self._remaining(leading, second)
         change = self._change(self._values, leading, remainder)
         speed = _norm(self._moved(self._values, leading) + self._alpha * change)
         rest = np.mean(speed < _REST * self._scale, axis=(1, 2, 3))
-        return RigidMotion(self._full(leading), self._full(remainder), rest, float(speed.max()))
+        still = ~np.any(self._values[:2], axis=(0, 2, 3, 4))
+        rest[still] = 0.0  # all is at rest, no part of it sticks
+        fastest = 0.0 if still.all() and not self._slope else self._units.speed * float(speed.max())
+        return RigidMotion(self._full(leading), self._full(remainder), rest, fastest)
 
     def correction(self, leading: Array, remainder: Array) -> RigidMotion:
         """One Newton step from a motion (times, 3) that was found with other cells."""
-        first, second = leading[:, list(self._modes)], remainder[:, list(self._modes)]
+        first, second = self._unknowns(leading), self._unknowns(remainder)
         steps = self._step(self._leading, first), self._step(partial(self._remainder, first), second)
         return RigidMotion(self._full(steps[0]), self._full(steps[1]), np.zeros(len(leading)), 0.0)
 
@@ -279,11 +308,15 @@ class Balance:
         which = rough.argmax(0), np.arange(w.shape[2])
         return rough.any(0), np.where(across[which] > along[which], 0, 1)
 
+    def _unknowns(self, motion: Array) -> Array:
+        """Of V_x, V_y, Omega (times, 3) those that are solved for, in units of their own."""
+        return np.asarray((motion / self._units.motion)[:, list(self._modes)])
+
     def _full(self, q: NDArray[np.floating]) -> Array:
         """(times, 3): V_x, V_y, Omega."""
         full = np.zeros((q.shape[0], 3))
         full[:, list(self._modes)] = q
-        return full
+        return full * self._units.motion
 
 
 def _single(

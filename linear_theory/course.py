@@ -100,7 +100,7 @@ class Course:
         if met or out_of_reach:
             course = course.checked()
             wrong = norm.size(course._between) > tolerance
-            if out_of_reach and wrong or met and not wrong:
+            if (out_of_reach and wrong) or (met and not wrong):
                 return course, None
         if not met:
             return course, self.grid.refined(speeds, tolerance)[0]

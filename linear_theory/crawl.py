@@ -8,16 +8,19 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from linear_theory import validation
+from linear_theory import arguments, validation
 from linear_theory.airy import airy_series
 from linear_theory.field import LinearField, Wave
 from linear_theory.friction import LOADS, FrictionLaw, load_rate, warn_if_viscous
 from linear_theory.model_error import LEVELS, model_error
+from linear_theory.motion import CellGrid
 from linear_theory.period import Crawl, average, first_resolution
+from linear_theory.reach import judged, too_large_growth, warn_if_beyond
 from linear_theory.ritz import ritz_field
 from linear_theory.second_order import check_model, second_order_speed
 from linear_theory.sheet import Sheet
 from linear_theory.speed import CrawlSpeed
+from linear_theory.threads import one_blas_thread
 from linear_theory.waves import TravellingWave
 
 Array = NDArray[np.float64]
@@ -60,7 +63,9 @@ def crawl_speed(
     Raises ValueError for bad input, among it an alpha so large that the area element
     1 + alpha tr(strain) is not positive somewhere (order 1) or that lengths vanish (order 2), and
     NotConvergedError where the wave, one that jumps, asks more of the deformation than fits in memory.
-    Warns (ViscousRegimeWarning) where friction = "tanh" acts as viscous: see `CrawlSpeed.regime`.
+    Warns (ViscousRegimeWarning) where friction = "tanh" acts as viscous: see `CrawlSpeed.regime`; and
+    (BeyondReachWarning) where growth is too large for a theory of small growth, |alpha c| > 1/2 or
+    sooner, see `reach`: such a speed is never converged, and `CrawlSpeed.beyond_reach` says why.
 
     >>> from linear_theory import Sheet, SineWave, crawl_speed
     >>> for order in (1, 2):  # of the theory, for the sheet of the paper
@@ -69,6 +74,7 @@ def crawl_speed(
     V = 0.0048 L/T, nonlinear sheet within 1e-03
     V = 0.0038 L/T, nonlinear sheet within 1e-05
     """
+    sheet, wave = arguments.sheet(sheet), arguments.wave(wave)
     check_model(order, growth_law, area)
     if order == 2:
         validation.choice("method", method, ("auto", "ritz"))
@@ -81,6 +87,7 @@ def crawl_speed(
     distance = model_error(LEVELS[order], sheet, wave, alpha, growth_law, area, load, friction)
     found = replace(found, model_error=distance)
     warn_if_viscous(found, slip_speed)
+    warn_if_beyond(alpha, found.beyond_reach)
     return found
 
 
@@ -105,8 +112,9 @@ def field_speed(
     V = 0.106 L/T, friction is dry
     V = 0.064 L/T, friction is viscous
     """
-    found = _field_speed(field, alpha, load, friction, slip_speed, rtol, atol)
+    found = _field_speed(arguments.field(field), alpha, load, friction, slip_speed, rtol, atol)
     warn_if_viscous(found, slip_speed)
+    warn_if_beyond(alpha, found.beyond_reach)
     return found
 
 
@@ -122,6 +130,7 @@ def _field(sheet: Sheet, wave: Wave, rtol: float, method: str) -> LinearField:
     return ritz_field(sheet, wave, rtol=field_rtol)
 
 
+@one_blas_thread
 def _field_speed(
     field: LinearField,
     alpha: float,
@@ -143,7 +152,7 @@ def _field_speed(
         return _at_rest(field, load, law)
     crawl = Crawl(field, alpha, load, law, first_resolution(rtol))
     period = average(crawl, rtol, atol)
-    return CrawlSpeed(
+    found = CrawlSpeed(
         mean=period.mean,
         error=period.error,
         model_error=math.nan,
@@ -159,6 +168,16 @@ def _field_speed(
         rigid_mean=None if field.mirrored else period.rigid_mean,
         rigid_error=None if field.mirrored else period.rigid_error,
     )
+    return judged(found, _beyond_reach(field, alpha))
+
+
+def _beyond_reach(field: LinearField, alpha: float) -> str:
+    """Why small strain says nothing at this alpha, in words; empty if it does."""
+    x = y = np.zeros(1)  # a travelling wave shows all its phases at any point
+    if alpha and not isinstance(field.wave, TravellingWave):
+        grid = CellGrid.uniform(field.sheet, 4, 8, half=False)
+        x, y = field.motion(np.zeros(1), grid, order=5).position
+    return too_large_growth(field.wave, alpha, x, y, field.sheet.length)
 
 
 def friction_field(
@@ -174,7 +193,8 @@ def friction_field(
 ) -> "FrictionField":
     """Friction on a crawling sheet at time t and at the points x, y (broadcast).
 
-    Raises ValueError as `crawl_speed` does, and for points outside the sheet.
+    Raises ValueError as `crawl_speed` does, and for points outside the sheet. Warns
+    (BeyondReachWarning) as it does.
 
     >>> import numpy as np
     >>> from linear_theory import Sheet, SineWave, airy_series, friction_field
@@ -185,13 +205,33 @@ def friction_field(
     >>> print((friction.force * friction.slip).sum(0) < 0)  # against the slip
     [ True  True]
     """
+    field = arguments.field(field)
     alpha, t = validation.real("alpha", alpha), validation.real("t", t)
-    law = FrictionLaw(friction, slip_speed)
-    resolution = first_resolution(validation.tolerance(rtol))
-    motion = Crawl(field, alpha, load, law, resolution).balance(np.array([t]))
-    v_x, v_y, omega = alpha * (motion.leading + alpha * motion.remainder)[0]
     x, y = np.broadcast_arrays(validation.real_array("x", x), validation.real_array("y", y))
-    slip = alpha * field.velocity(x, y, t) + np.stack([v_x - omega * y, v_y + omega * x])
+    law, rtol = FrictionLaw(friction, slip_speed), validation.tolerance(rtol)
+    found = _friction_field(field, alpha, x, y, t, load, law, rtol)
+    warn_if_beyond(alpha, _beyond_reach(field, alpha))
+    return found
+
+
+@one_blas_thread
+def _friction_field(
+    field: LinearField,
+    alpha: float,
+    x: Array,
+    y: Array,
+    t: float,
+    load: str,
+    law: FrictionLaw,
+    rtol: float,
+) -> "FrictionField":
+    """`friction_field` without its checks and its warning."""
+    v_x = v_y = omega = 0.0
+    if alpha != 0:
+        motion = Crawl(field, alpha, load, law, first_resolution(rtol)).balance(np.array([t]))
+        v_x, v_y, omega = alpha * (motion.leading + alpha * motion.remainder)[0]
+    rigid = np.stack([v_x - omega * (y - field.centre[1]), v_y + omega * (x - field.centre[0])])
+    slip = alpha * field.velocity(x, y, t) + rigid
     speed = np.hypot(*slip)
     rate = load_rate(
         load, field.strain(x, y, t)[:2].sum(0), field.wave.value(x, y, t, field.sheet.length)

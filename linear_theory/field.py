@@ -7,6 +7,7 @@ A linear deformation is a sum of fixed fields times factors of time,
 and solvers differ only in the basis and in how they find it. All quantities are per unit alpha.
 """
 
+import math
 from abc import ABC, abstractmethod
 from functools import cached_property
 
@@ -16,6 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 from linear_theory import hooke, validation
 from linear_theory.motion import CellGrid, Motion
 from linear_theory.sheet import Sheet
+from linear_theory.threads import one_blas_thread
 from linear_theory.wave_survey import WaveSurvey
 from linear_theory.waves import Wave as Wave
 
@@ -38,6 +40,24 @@ class LinearField(ABC):
     mirrored: bool = False
     numbers: int = 0
     _kept: tuple[object, tuple[Array, Array, Array, Array]] | None = None
+
+    @property
+    def centre(self) -> tuple[float, float]:
+        """x, y of the centre of mass of the undeformed area, units of length; 0, 0 for rectangles.
+
+        The rigid motion of a sheet is that of this point and a rotation about it.
+        """
+        return 0.0, 0.0
+
+    @property
+    def gyration(self) -> float:
+        """Radius of gyration of the undeformed area about its centre of mass, units of length."""
+        return math.hypot(self.sheet.width, self.sheet.length) / math.sqrt(12)
+
+    def places(self, count: int) -> tuple[Array, Array]:
+        """x, y (broadcast) of points that cover the sheet, about count^2, to judge growth at."""
+        along = np.linspace(-0.5, 0.5, count)
+        return self.sheet.width * along[:, None], self.sheet.length * along
 
     @property
     @abstractmethod
@@ -69,18 +89,21 @@ class LinearField(ABC):
         """The field whose basis spans the motion at times t: itself, if its basis does so always."""
         return self
 
+    @one_blas_thread
     def displacement(self, x: ArrayLike, y: ArrayLike, t: ArrayLike) -> Array:
         """u, (2, ...), units of length. Raises ValueError for points outside the sheet."""
         x, y, t = self._checked(x, y, t)
         field = self._for_times(t)
         return combine(field._amplitudes(t), field._displacements(x, y))
 
+    @one_blas_thread
     def velocity(self, x: ArrayLike, y: ArrayLike, t: ArrayLike) -> Array:
         """du/dt in the frame of the mean motion, (2, ...), length per time."""
         x, y, t = self._checked(x, y, t)
         field = self._for_times(t)
         return combine(field._amplitude_rates(t), field._displacements(x, y))
 
+    @one_blas_thread
     def strain(self, x: ArrayLike, y: ArrayLike, t: ArrayLike) -> Array:
         """(xx, yy, xy) of the total strain, (3, ...), dimensionless."""
         x, y, t = self._checked(x, y, t)
@@ -93,6 +116,7 @@ class LinearField(ABC):
         growth = self.wave.value(x, y, t, self.sheet.length)
         return hooke.stress(strain, growth, self.sheet.poisson)
 
+    @one_blas_thread
     def motion(self, times: ArrayLike, grid: CellGrid, order: int) -> Motion:
         """The field at the Gauss points of cells, as the friction balance reads it.
 
@@ -109,6 +133,7 @@ class LinearField(ABC):
             dilation=np.tensordot(field._amplitudes(t).T, dilations, 1),
             growth=self.wave.value(position[0], position[1], growth_time, self.sheet.length),
             mirrored=self.mirrored and grid.half,
+            centre=self.centre,
         )
 
     def _on_cells(self, grid: CellGrid, order: int) -> tuple[Array, Array, Array, Array]:

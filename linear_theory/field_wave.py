@@ -26,10 +26,13 @@ class FieldWave:
     their common shape (or one that broadcasts to it); period in units of time, c must repeat after
     it. rate: dc/dt likewise; left out, it is a central difference of eighth order (see STEP), whose
     step solvers make shorter for waves of high harmonics. They refuse a wave that does not repeat after
-    its period, and a rate that is not the derivative of value.
+    its period, and a rate that is not the derivative of value. name: what the functions are known by
+    where a wave is to be known again, as in a snapshot of a run, and their code does not tell (see
+    `identity.content_key`); another function must have another name.
 
     Raises ValueError for a period that is not finite and positive, a value or rate that cannot be
-    called, and, once they are called, for results that are not finite, real and of that shape.
+    called, a name that is no text, and, once they are called, for results that are not finite, real and
+    of that shape.
 
     >>> import numpy as np
     >>> from linear_theory import FieldWave
@@ -38,11 +41,19 @@ class FieldWave:
     [-6.283185  6.283185]
     """
 
-    def __init__(self, value: Growth, period: float, rate: Growth | None = None) -> None:
+    def __init__(
+        self, value: Growth, period: float, rate: Growth | None = None, *, name: str | None = None
+    ) -> None:
         self._value = _function("value", value)
         self._rate = None if rate is None else _function("rate", rate)
         self._period = validation.positive("period", period)
         self._step = STEP
+        self.name = None if name is None else validation.label("name", name)
+
+    def identified_by(self) -> object:
+        """What its content key is made of."""
+        functions = (self._value, self._rate) if self.name is None else self.name
+        return functions, self.period
 
     @property
     def differenced(self) -> bool:
@@ -53,7 +64,7 @@ class FieldWave:
         """The same wave, its rate as accurate up to that harmonic in time as else up to HARMONIC."""
         if not self.differenced or harmonic <= HARMONIC:
             return self
-        finer = FieldWave(self._value, self._period)
+        finer = FieldWave(self._value, self._period, name=self.name)
         finer._step = STEP * HARMONIC / harmonic
         return finer
 

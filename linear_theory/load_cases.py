@@ -44,7 +44,7 @@ class LoadCases(Protocol):
 
 
 def phases(period: float, count: int) -> Array:
-    """Times in [0, period), ascending, (count,), at which errors are estimated: evenly spread, on no grid.
+    """Times in [0, period), ascending, (count,), at which errors are estimated: evenly, on no grid.
 
     Multiples of the golden section: no harmonic has the same value at all of them, and a front that
     travels lies on the lines of a mesh at no two.
@@ -53,9 +53,7 @@ def phases(period: float, count: int) -> Array:
 
 
 def load_cases(wave: Wave, length: float) -> LoadCases:
-    """Those of a wave on a sheet of that length. Raises ValueError for what is no wave."""
-    if not all(hasattr(wave, name) for name in ("value", "rate", "period")):
-        raise ValueError(f"wave = {wave!r}: must be a TravellingWave or a FieldWave")
+    """Those of a wave on a sheet of that length."""
     if isinstance(wave, TravellingWave):
         return Harmonics(wave, length)
     return Snapshots(wave, length, phases(wave.period, SAMPLES))
@@ -82,7 +80,7 @@ class Harmonics:
         return self._with_mean(np.cos(angle), np.sin(angle), 1.0)
 
     def samples(self) -> Array:
-        """Amplitudes at eight phases to the period of the highest harmonic, up to 256, (cases, phases)."""
+        """At eight phases to a period of the highest harmonic, 256 at most, (cases, phases)."""
         count = max(SAMPLES, min(8 * len(self.wave.orders), 256))
         return self.amplitudes(phases(self.wave.period, count))
 

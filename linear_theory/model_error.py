@@ -19,7 +19,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from linear_theory import validation
+from linear_theory import arguments, validation
 from linear_theory.field import Wave
 from linear_theory.friction import LOADS
 from linear_theory.records import read_rows
@@ -94,19 +94,22 @@ def model_error(
     level: "strip", "first order" or "second order"; the target's growth_law, area, load and friction as
     in `crawl_speed`. The numerical error of V itself is not in it.
 
-    NaN where the distance is not known: any wave but a sine of 1 or 2 waves on the sheet (the amplitude
-    of a wave counts as a part of alpha); widths beyond 0.1 to 2 L, with two waves 1 L, Poisson ratios
-    beyond 0 to 1/2, |alpha| beyond 0.4; friction other than dry; and where the level or the target has
-    no speed. Between points of the table the bound is mostly 1.5 to 3 times the difference, and more
-    where that changes its sign. Raises ValueError for names that do not exist and FileNotFoundError
-    where the table is missing.
+    0 without growth that changes. NaN where the distance is not known: any wave but a sine of 1 or 2
+    waves on the sheet (the amplitude of a wave counts as a part of alpha); widths beyond 0.1 to 2 L,
+    with two waves 1 L, Poisson ratios beyond 0 to 1/2, |alpha| beyond 0.4; friction other than dry; and
+    where the level or the target has no speed. Between points of the table the bound is mostly 1.5 to 3
+    times the difference, and more where that changes its sign. Raises ValueError for names that do not
+    exist and FileNotFoundError where the table is missing.
     """
     validation.choice("level", level, LEVELS)
+    sheet, wave = arguments.sheet(sheet), arguments.wave(wave)
     alpha = validation.real("alpha", alpha)
     validation.choice("growth_law", growth_law, tuple(GROWTH_LAWS))
     validation.choice("area", area, tuple(AREAS))
     validation.choice("load", load, LOADS)
     validation.choice("friction", friction, ("coulomb", "tanh", "viscous"))
+    if alpha == 0 or (isinstance(wave, TravellingWave) and not wave.moves):
+        return 0.0  # the sheet is at rest in every theory
     if friction != "coulomb" or not isinstance(wave, TravellingWave) or not is_sine(wave):
         return math.nan
     grid = table().get((growth_law, area, load, abs(wave.count)))

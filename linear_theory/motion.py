@@ -31,6 +31,7 @@ class Motion:
     second: (2, T, c, n, n), velocity per unit alpha^2 that adds to alpha times `velocity`; None in a
     theory of first order. displacement: likewise, alpha times which moves the points on which friction
     acts when the sheet turns; None where position is that of the points, or where it does not count.
+    centre: x, y of the centre of mass of the undeformed area, in the coordinates of `position`.
     """
 
     position: Array
@@ -41,6 +42,12 @@ class Motion:
     mirrored: bool = False
     second: Array | None = None
     displacement: Array | None = None
+    centre: tuple[float, float] = (0.0, 0.0)
+
+    @property
+    def arms(self) -> Array:
+        """Positions from the centre of mass, about which the sheet turns, the shape of `position`."""
+        return self.position - np.reshape(self.centre, (2, *(1,) * (self.position.ndim - 1)))
 
 
 @dataclass(frozen=True)

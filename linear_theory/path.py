@@ -1,6 +1,6 @@
 """The path of a sheet that crawls and turns: the rigid motion of one period, repeated.
 
-The body frame moves and turns with the sheet as a whole. Its origin is the mean position of the sheet
+The body frame moves and turns with the sheet as a whole. Its origin is the centre of mass of the sheet
 and its axes are turned so that the mean rotation is zero, both means over the undeformed area: for
 small strains that of (du_y/dx - du_x/dy)/2, else the rotation in the mean deformation gradient.
 `CrawlSpeed.rigid` is the velocity of its origin along its own axes and its rate of rotation,
@@ -27,13 +27,14 @@ from scipy.interpolate import CubicHermiteSpline
 
 from linear_theory import validation
 from linear_theory.speed import CrawlSpeed
+from linear_theory.threads import one_blas_thread
 from linear_theory.time_grid import TimeGrid
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
 SAME = 1e-6
-"""Relative difference of time steps that count as equal; times are kept to 1e-12 of the period."""
+"""Relative difference of time steps that count as equal; times have the roundoff of the period."""
 
 _NODES = np.arange(5.0)
 _POWERS = np.arange(5)
@@ -111,11 +112,13 @@ class Path(Poses):
         return float(np.linalg.norm(self.step) * arc_over_chord / self.period)
 
 
+@one_blas_thread
 def rigid_path(speed: CrawlSpeed, periods: int = 1, samples: int = 16) -> Path:
     """The path that the rigid motion of one period makes when it is repeated.
 
     speed: of `crawl_speed`, `field_speed` or `cycle_speed`; where `rigid` is None the motion is mirror
-    symmetric and its path straight. The path starts at speed.times[0], and with `periods` periods of
+    symmetric and its path straight. The path is that of the centre of mass, from where it is at
+    speed.times[0] (which counts as 0, 0 wherever an outline lies), and with `periods` periods of
     `samples` equal intervals it has N = periods samples + 1 times.
 
     The mean velocities and their errors are those of the speed. To d adds what comes of turning within
@@ -215,9 +218,8 @@ def _powers(count: Array, angle: float) -> Complex:
 
 def _checked_grid(speed: CrawlSpeed) -> TimeGrid:
     """Panels of the whole period with its end. Raises ValueError where the times are none."""
-    if not isinstance(speed, CrawlSpeed):
-        raise ValueError(f"speed = {speed!r}: must be a CrawlSpeed")
-    times = speed.times
+    hint = "crawl_speed, field_speed and cycle_speed make one"
+    times = validation.instance("speed", speed, CrawlSpeed, hint).times
     if times.size < 4 or times.size % 4:
         raise ValueError(f"speed.times has {times.size} times: must be panels of four, 4 or more")
     closed = np.append(times, 2 * times[-1] - times[-2])

@@ -151,7 +151,7 @@ class Crawl:
     @property
     def norm(self) -> RigidNorm:
         """By which motions and their errors are judged."""
-        return RigidNorm(self.field.sheet, self.field.mirrored)
+        return RigidNorm(self.field.gyration, self.field.mirrored)
 
     def counted(self, motion: RigidMotion) -> Array:
         """V_x, V_y, Omega at each time without what is known to have no mean, (3, times)."""

@@ -1,7 +1,8 @@
 """How large a rigid motion is: sideways, along and turning, in one unit.
 
-A rotation Omega moves the points of the sheet with the root mean square Omega g, g the radius of
-gyration, g^2 = (W^2 + L^2)/12. With it a motion has the size
+The motion is that of the centre of mass of the undeformed area and a rotation Omega about it, which
+moves the points of the sheet with the root mean square Omega g, g the radius of gyration of that area
+about that centre; of a rectangle, g^2 = (W^2 + L^2)/12. With it a motion has the size
 
     |V| = (V_x^2 + V_y^2 + (g Omega)^2)^(1/2),
 
@@ -9,33 +10,39 @@ the root mean square of the velocities of all points. Tolerances are shares of t
 next to V_x depends on how the axes lie, and where a wave runs along x it is 0.
 """
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from linear_theory.sheet import Sheet
-
 Array = NDArray[np.float64]
+
+
+def centre_and_gyration(place: Array, weights: Array) -> tuple[Array, float]:
+    """Centre of mass (2,) of an area and its radius of gyration about it, units of length.
+
+    place: (2, n) points of the area, weights: (n,) of a quadrature. The sums are about one of the
+    points and then about the centre, so that nothing cancels where the area is far from the origin.
+    """
+    shares, origin = weights / weights.sum(), place[:, :1]
+    centre = origin[:, 0] + (place - origin) @ shares
+    return centre, float(np.sqrt(((place - centre[:, None]) ** 2).sum(0) @ shares))
 
 
 @dataclass(frozen=True)
 class RigidNorm:
-    """Size of the motions of a sheet; of mirror symmetric ones V_y alone counts."""
+    """Size of the motions of a sheet; of mirror symmetric ones V_y alone counts.
 
-    sheet: Sheet
+    gyration: radius of gyration, units of length.
+    """
+
+    gyration: float
     mirrored: bool
-
-    @property
-    def radius(self) -> float:
-        """Radius of gyration."""
-        return math.hypot(self.sheet.width, self.sheet.length) / math.sqrt(12)
 
     def speeds(self, motion: ArrayLike) -> Array:
         """V_x, V_y, g Omega of a motion V_x, V_y, Omega (3, ...), or V_y alone, (1, ...)."""
         v_x, v_y, omega = np.asarray(motion, float)
-        return np.stack([v_y] if self.mirrored else [v_x, v_y, self.radius * omega])
+        return np.stack([v_y] if self.mirrored else [v_x, v_y, self.gyration * omega])
 
     def size(self, motion: ArrayLike) -> float:
         """|V| of one motion (3,)."""
@@ -43,7 +50,7 @@ class RigidNorm:
 
     def each(self, speed: float) -> Array:
         """V_x, V_y and Omega that have that size each, (3,); 0 where symmetry makes them 0."""
-        return speed * np.array([0.0, 1.0, 0.0] if self.mirrored else [1.0, 1.0, 1 / self.radius])
+        return speed * np.array([0.0, 1.0, 0.0] if self.mirrored else [1.0, 1.0, 1 / self.gyration])
 
     def tolerance(self, mean: ArrayLike, rtol: float, atol: float) -> float:
         """That of a mean motion (3,)."""

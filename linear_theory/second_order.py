@@ -29,17 +29,17 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from linear_theory import validation
+from linear_theory import arguments, validation
 from linear_theory.balance import RigidMotion
 from linear_theory.field import Wave
 from linear_theory.friction import LOADS, FrictionLaw
-from linear_theory.load_cases import phases
 from linear_theory.period import Crawl, Period, average, first_resolution
+from linear_theory.reach import growths, judged, too_large_growth, too_large_term
 from linear_theory.rigid import RigidNorm
 from linear_theory.second_field import AREAS, GROWTH_LAWS, SecondOrderField, second_order_field
 from linear_theory.sheet import Sheet
 from linear_theory.speed import CrawlSpeed
-from linear_theory.waves import TravellingWave
+from linear_theory.threads import one_blas_thread
 
 Array = NDArray[np.float64]
 
@@ -53,11 +53,8 @@ MORE_HALVINGS = 8
 """Of cells, than an alpha that is not tiny asks for: a point at rest next to which a cell is not halved
 enough makes q_1(t) uneven, and the mean over time would then be refined in vain."""
 
-PHASES = 256
-"""Phases per harmonic at which growth is checked."""
-
-POINTS, TIMES = 33, 64
-"""Points per direction and times at which growth is checked for waves of any shape."""
+POINTS = 33
+"""Points per direction at which growth of any shape is checked."""
 
 FIELD_SHARE = 0.1
 """Of rtol, for the deformation: it costs little."""
@@ -135,6 +132,7 @@ class _Coefficients(Crawl):
         return self.alpha**2 * _second_field_error(self.field, motion.fastest)
 
 
+@one_blas_thread
 def second_order(
     sheet: Sheet,
     wave: Wave,
@@ -170,6 +168,7 @@ def second_order(
     metric: V = 2.1 alpha^2 L/T True
     """
     start, rtol = time.perf_counter(), validation.tolerance(rtol)
+    sheet, wave = arguments.sheet(sheet), arguments.wave(wave)
     model = checked_model(growth_law, area, load, FrictionLaw(friction, slip_speed))
     field = second_order_field(sheet, wave, growth_law, area, field_tolerance(rtol))
     return coefficients(field, leading_period(field, load, model.law, rtol), model, start)
@@ -228,7 +227,7 @@ def field_errors(field: SecondOrderField, period: Period) -> Array:
     """
     fastest = period.fastest / TINY_ALPHA
     first = 0.0 if field.survey.changes_sign else FIRST_SHARE * field.error * fastest
-    norm = RigidNorm(field.sheet, field.mirrored)
+    norm = RigidNorm(field.gyration, field.mirrored)
     return np.stack([norm.each(first), norm.each(_second_field_error(field, fastest))])
 
 
@@ -241,6 +240,7 @@ def _second_field_error(field: SecondOrderField, fastest: float) -> float:
     return SECOND_SHARE * (field.error * fastest + field.second_error * field.second_speed)
 
 
+@one_blas_thread
 def second_order_speed(
     sheet: Sheet,
     wave: Wave,
@@ -262,13 +262,17 @@ def second_order_speed(
     atol = validation.absolute_tolerance(atol, rtol, alpha, unit)
     check_growth(growth_law, alpha, wave, sheet)
     period = leading_period(field, load, model.law, rtol)
-    both, norm = coefficients(field, period, model, start), RigidNorm(sheet, field.mirrored)
-    return replace(
+    both = coefficients(field, period, model, start)
+    norm = RigidNorm(field.gyration, field.mirrored)
+    fastest = abs(alpha) * period.fastest / TINY_ALPHA
+    found = replace(
         speed_at(alpha, both, period, field.mirrored),
         converged=norm.meets(both.rigid_mean(alpha), both.rigid_error(alpha), rtol, atol),
-        slip_ratio=law.slip_ratio(abs(alpha) * period.fastest / TINY_ALPHA),
+        slip_ratio=law.slip_ratio(fastest),
         seconds=time.perf_counter() - start,
     )
+    beyond = too_large_growth(wave, alpha, *_points(sheet), sheet.length)
+    return judged(found, beyond or too_large_term(alpha**2 * both.second, fastest))
 
 
 def speed_at(alpha: float, found: SecondOrder, period: Period, mirrored: bool) -> CrawlSpeed:
@@ -299,7 +303,7 @@ def check_growth(growth_law: str, alpha: float, wave: Wave, sheet: Sheet) -> Non
     if growth_law == "exp":
         return
     factor = 1.0 if growth_law == "linear" else 2.0
-    lowest = float((alpha * _growths(wave, sheet)).min())
+    lowest = float((alpha * growths(wave, *_points(sheet), sheet.length)).min())
     if 1 + factor * lowest <= 0:
         raise ValueError(
             f"alpha = {alpha:g}: alpha c reaches {lowest:.3g}; must be > {-1 / factor:g} for "
@@ -307,13 +311,10 @@ def check_growth(growth_law: str, alpha: float, wave: Wave, sheet: Sheet) -> Non
         )
 
 
-def _growths(wave: Wave, sheet: Sheet) -> Array:
-    """c at phases, or at points and times, that leave out no extreme of a smooth wave by much."""
-    if isinstance(wave, TravellingWave):
-        return wave.profile(np.linspace(0, 2 * np.pi, PHASES * wave.cosine.size))
+def _points(sheet: Sheet) -> tuple[Array, Array]:
+    """x and y of a grid over the sheet, edges included, (n,) each."""
     x, y = (s * np.linspace(-0.5, 0.5, POINTS) for s in (sheet.width, sheet.length))
-    times = phases(wave.period, TIMES)
-    return wave.value(x[:, None], y, times[:, None, None], sheet.length)
+    return np.repeat(x, POINTS), np.tile(y, POINTS)
 
 
 def check_model(order: int, growth_law: str, area: str) -> None:

@@ -35,10 +35,12 @@ class CrawlSpeed:
 
     mean: V averaged over one period; error: estimate of its numerical error, absolute;
     model_error: distance to the nonlinear sheet, absolute, NaN where it is not known;
-    converged: whether error met the tolerance that was asked for; where rigid_error is given, that.
+    converged: whether error met the tolerance that was asked for; where rigid_error is given, that; and
+    the theory reaches so far.
     times (T,), velocity (T,): V_y(t) over one period.
-    rigid: (3, T), V_x, V_y and the rate of rotation Omega about the origin (anticlockwise) in the frame
-    of the body (see `second_order`), for motions that are not mirror symmetric in x; None otherwise.
+    rigid: (3, T), V_x, V_y of the centre of mass of the undeformed area and the rate of rotation Omega
+    about it (anticlockwise) in the frame of the body (see `second_order`), for motions that are not
+    mirror symmetric in x; None otherwise.
     rigid_mean, rigid_error: (3,), their means and the estimates of their numerical errors, absolute;
     V_y again has mean and error. None for mirror symmetric motions.
     first_order, second_order: V_1 and V_2 of V = V_1 alpha + V_2 alpha**2 + ..., within this model;
@@ -49,6 +51,8 @@ class CrawlSpeed:
     sticks: whether at some time part of the sheet is at rest and a range of forces is balanced,
     so that V is the value that the regularised law selects.
     seconds: time spent, set-up and solution; model: what is assumed, in words.
+    beyond_reach: why a theory of small growth says nothing at this alpha (see `reach`), in words; empty
+    where it does. Such answers are never converged.
 
     >>> from linear_theory import Sheet, SineWave, crawl_speed
     >>> speed = crawl_speed(Sheet(), SineWave(), alpha=0.25, rtol=1e-3)
@@ -73,8 +77,20 @@ class CrawlSpeed:
     rigid: Array | None = None
     rigid_mean: Array | None = None
     rigid_error: Array | None = None
+    beyond_reach: str = ""
 
     @property
     def regime(self) -> Regime:
         """Friction as the sheet meets it: "dry", "mixed", "viscous", or "none" where there is none."""
         return regime_of(self.slip_ratio)
+
+    @property
+    def reach(self) -> str:
+        """What the answer says of the nonlinear sheet, in words."""
+        if self.beyond_reach:
+            return f"beyond the reach of the theory: {self.beyond_reach}"
+        if np.isnan(self.model_error):
+            return "distance to the nonlinear sheet not known"
+        if self.model_error == 0:
+            return "no distance to the nonlinear sheet"
+        return f"within {self.model_error:.1g} of the nonlinear sheet"

@@ -66,9 +66,7 @@ class TimeGrid(NamedTuple):
         panel = np.clip(np.searchsorted(self.times[::4], times, "right") - 1, 0, self.lengths.size - 1)
         local = (times - self.times[4 * panel]) / (self.lengths[panel] / 4)
         nodes = np.arange(5)
-        weights = [
-            np.prod([(local - j) / (i - j) for j in nodes if j != i], axis=0) for i in nodes
-        ]
+        weights = [np.prod([(local - j) / (i - j) for j in nodes if j != i], axis=0) for i in nodes]
         return np.asarray((values[..., 4 * panel + nodes[:, None]] * weights).sum(-2))
 
     def _cut(self, cut: NDArray[np.bool_]) -> tuple["TimeGrid", NDArray[np.bool_]]:

@@ -2,8 +2,10 @@
 
 import math
 import operator
+import reprlib
 import sys
 from collections.abc import Collection
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -12,11 +14,40 @@ SMALLEST_RTOL = 1e-13
 """Relative tolerance below which double precision cannot tell success from failure."""
 
 
+DIMENSIONLESS = ("", "dimensionless", "1")
+"""Names that libraries of units give to the unit of plain numbers."""
+
+T = TypeVar("T")
+
+
+def shown(value: object) -> str:
+    """`value` for a message: its repr on one line, shortened."""
+    if isinstance(value, type):
+        return f"the class {value.__name__}"
+    text = " ".join((repr if isinstance(value, str) else reprlib.repr)(value).split())
+    return text if len(text) <= 100 else f"{text[:97]}..."
+
+
+def instance(name: str, value: object, kind: type[T], hint: str = "") -> T:
+    """`value`, which must be an instance of `kind`; hint: what to do instead, for the message."""
+    if not isinstance(value, kind):
+        article = "an" if kind.__name__[0] in "AEIOU" else "a"
+        made = ", made with its arguments" if value is kind else ""
+        more = f"; {hint}" if hint else ""
+        wanted = f"must be {article} {kind.__name__}{made}{more}"
+        raise ValueError(f"{name} = {shown(value)}: {wanted}")
+    return value
+
+
 def real_array(name: str, value: ArrayLike) -> NDArray[np.float64]:
-    """`value` as an array of finite floats; complex, object, text and NaN are refused."""
-    array = np.asarray(value)
+    """`value` as an array of finite floats.
+
+    Complex, object, text and NaN are refused, and so are masked elements and units, which a plain
+    conversion to an array would drop. Tables and series of pandas count as their values.
+    """
+    array = _plain(name, value)
     if array.dtype.kind not in "iuf":
-        raise ValueError(f"{name} = {value!r}: must be real numbers, not dtype {array.dtype}")
+        raise ValueError(f"{name} = {shown(value)}: must be real numbers, not dtype {array.dtype}")
     array = array.astype(float, copy=False)
     if not np.all(np.isfinite(array)):
         bad = array[~np.isfinite(array)].flat[0]
@@ -24,11 +55,50 @@ def real_array(name: str, value: ArrayLike) -> NDArray[np.float64]:
     return array
 
 
+def _plain(name: str, value: Any) -> NDArray[Any]:
+    """`value` as an array of any type, unless that would drop a mask or a unit."""
+    if type(value) is np.ndarray:
+        return value
+    value = _without_wrapping(name, value)
+    try:
+        array = np.asarray(value)
+        words = any(isinstance(part, str) for part in array.flat) if array.dtype == object else True
+        if not words and hasattr(value, "to_numpy"):  # a column of pandas that can miss values
+            array = np.asarray(value.to_numpy(dtype=float))
+    except (ValueError, TypeError) as error:
+        raise ValueError(f"{name} = {shown(value)}: must be real numbers ({error})") from None
+    return array
+
+
+def _without_wrapping(name: str, value: Any) -> Any:
+    """`value` without a mask that hides nothing and without a unit that is 1."""
+    if isinstance(value, list | tuple):
+        return [_without_wrapping(name, part) for part in value]
+    if isinstance(value, np.ma.MaskedArray):
+        masked = int(np.ma.getmaskarray(value).sum())
+        if masked:
+            raise ValueError(
+                f"{name} has {masked} masked elements: must have none; leave them out with "
+                ".compressed() or replace them with .filled(number)"
+            )
+        return value.data
+    unit = getattr(value, "units", None) if hasattr(value, "units") else getattr(value, "unit", None)
+    if unit is None or callable(unit):
+        return value
+    if str(unit) not in DIMENSIONLESS:
+        raise ValueError(
+            f"{name} = {shown(value)}: has the unit {unit}, must be plain numbers; convert it to the "
+            "units of length and time that all arguments share, and pass the magnitude"
+        )
+    return getattr(value, "magnitude", value)
+
+
 def real(name: str, value: object) -> float:
     """`value` as one finite float."""
-    if isinstance(value, bool) or np.ndim(value) != 0:  # type: ignore[arg-type]
-        raise ValueError(f"{name} = {value!r}: must be a single real number")
-    return float(real_array(name, value))  # type: ignore[arg-type]
+    array = None if isinstance(value, bool) else real_array(name, value)  # type: ignore[arg-type]
+    if array is None or array.ndim != 0:
+        raise ValueError(f"{name} = {shown(value)}: must be a single real number")
+    return float(array)
 
 
 def positive(name: str, value: object) -> float:
@@ -54,7 +124,7 @@ def integer(name: str, value: object, minimum: int | None = None) -> int:
             raise TypeError
         number = operator.index(value)  # type: ignore[arg-type]
     except TypeError:
-        raise ValueError(f"{name} = {value!r}: must be an integer") from None
+        raise ValueError(f"{name} = {shown(value)}: must be an integer") from None
     if minimum is not None and number < minimum:
         raise ValueError(f"{name} = {number}: must be >= {minimum}")
     return number
@@ -93,5 +163,12 @@ def absolute_tolerance(atol: object, rtol: float, alpha: float, unit: float) -> 
 def choice(name: str, value: object, allowed: Collection[str]) -> str:
     """One of a few names."""
     if not isinstance(value, str) or value not in allowed:
-        raise ValueError(f"{name} = {value!r}: must be one of {', '.join(map(repr, allowed))}")
+        raise ValueError(f"{name} = {shown(value)}: must be one of {', '.join(map(repr, allowed))}")
+    return value
+
+
+def label(name: str, value: object) -> str:
+    """Text by which something is known; not empty."""
+    if not isinstance(value, str) or not value:
+        raise ValueError(f"{name} = {value!r}: must be text, not empty")
     return value

@@ -40,8 +40,8 @@ CHANGES_SIGN = 1e-12
 """Share of the largest |c| by which c(t + T/2) may differ from -c(t)."""
 
 FINE_SHARES = 1e-6, 1e-4
-"""Of dc/dt, that may lie in harmonics for which a rate by differences is not made fine enough: the first
-where it is known; a wave with kinks has neither."""
+"""Of dc/dt, that may lie in harmonics for which a rate by differences is not made fine enough: the
+first where it is known; a wave with kinks has neither."""
 
 PER_HARMONIC = 5
 """Times to a period of a harmonic with which it is seen: two, and every second of four, can all fall on
@@ -59,7 +59,8 @@ class WaveSurvey:
     >>> import numpy as np
     >>> from linear_theory import FieldWave, Sheet
     >>> from linear_theory.wave_survey import WaveSurvey
-    >>> wave = FieldWave(lambda x, y, t: np.sin(2 * np.pi * (y - t)) + 0.1 * np.sin(80 * np.pi * t), 1.0)
+    >>> w = 2 * np.pi
+    >>> wave = FieldWave(lambda x, y, t: np.sin(w * (y - t)) + 0.1 * np.sin(40 * w * t), 1.0)
     >>> survey = WaveSurvey.on_sheet(wave, Sheet())
     >>> print(survey.rates.highest(share=1e-3), survey.rates.highest(share=0.99))
     40.0 1.0
@@ -92,7 +93,9 @@ class WaveSurvey:
         """Raise ValueError where c does not repeat after its period or `rate` is not its derivative."""
         self.check_period()
         known = TravellingWave, FieldWave
-        if not isinstance(self.wave, known) or isinstance(self.wave, FieldWave) and not self.wave.differenced:
+        if not isinstance(self.wave, known) or (
+            isinstance(self.wave, FieldWave) and not self.wave.differenced
+        ):
             self._check_rate()
 
     @cached_property
@@ -102,6 +105,14 @@ class WaveSurvey:
             return self.wave.is_half_period_antisymmetric
         again = self._at(self._times + self.wave.period / 2)
         return bool(abs(self._seen + again).max() <= CHANGES_SIGN * abs(self._seen).max())
+
+    @cached_property
+    def depends_on_x(self) -> bool:
+        """Whether c is another one off the axis x = 0."""
+        if isinstance(self.wave, TravellingWave):
+            return False
+        on_axis = self._value(0 * self.x, self.y, self._times[:, None])
+        return bool(abs(self._seen - on_axis).max() > REPEATS * abs(self._seen).max())
 
     @cached_property
     def size(self) -> float:
@@ -224,8 +235,9 @@ class WaveSurvey:
         i, j = np.unravel_index(apart.argmax(), apart.shape)
         if apart[i, j] > RATE_RIGHT * size:
             raise ValueError(
-                f"rate = {rate[i, j]:.6g} at {self._place(i, j)}: must be the time derivative of value, "
-                f"whose differences give {quotients[-1, i, j]:.6g} there; correct it, or leave it out"
+                f"rate = {rate[i, j]:.6g} at {self._place(i, j)}: must be the time derivative of "
+                f"value, whose differences give {quotients[-1, i, j]:.6g} there; correct it, or leave "
+                "it out"
             )
 
     def _quotient(self, step: float) -> Array:

@@ -12,9 +12,9 @@ Sign convention: n > 0 runs towards +y. The printed amplitudes of the seed paper
 a_r = delta_1r cos wt, b_s = delta_1s sin wt) belong to cos(2 pi y/L - wt), not to this sine.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
-from typing import NamedTuple, Protocol
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -58,6 +58,8 @@ class TravellingWave:
     0 are left out at the end: they are lost in the rounding of c, but would ask for fine meshes and
     break symmetries.
 
+    Waves of the same numbers are equal, a SineWave and the TravellingWave of its one harmonic, too.
+
     >>> from linear_theory import TravellingWave
     >>> pulse = TravellingWave(cosine=[1.0, 0.5], sine=[0.0, 0.0])
     >>> print(pulse.value(x=0.0, y=[0.0, 0.5], t=0.0).round(12))
@@ -84,6 +86,22 @@ class TravellingWave:
             object.__setattr__(self, name, value)
         object.__setattr__(self, "count", validation.wave_count(self.count))
         object.__setattr__(self, "period", validation.positive("period", self.period))
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        self.__dict__.update(state)
+        for array in (self.cosine, self.sine):
+            array.setflags(write=False)  # arrays come out of pickle as writeable
+
+    def __eq__(self, other: object) -> bool:
+        return self._key == other._key if isinstance(other, TravellingWave) else NotImplemented
+
+    def __hash__(self) -> int:
+        return hash(self._key)
+
+    @property
+    def _key(self) -> tuple[object, ...]:
+        """All numbers of the wave."""
+        return *self.cosine.tolist(), *self.sine.tolist(), self.count, self.period, self.mean
 
     @classmethod
     def from_samples(cls, samples: ArrayLike, count: int = 1, period: float = 1.0) -> "TravellingWave":
@@ -112,6 +130,11 @@ class TravellingWave:
     def orders(self) -> NDArray[np.int64]:
         """r = |k count|, the number of full waves on the sheet of each harmonic."""
         return self.harmonics * abs(self.count)
+
+    @property
+    def moves(self) -> bool:
+        """Whether growth changes in time."""
+        return bool(np.any(self.cosine) or np.any(self.sine))
 
     @property
     def is_half_period_antisymmetric(self) -> bool:
@@ -144,14 +167,11 @@ class TravellingWave:
 
     def value(self, x: ArrayLike, y: ArrayLike, t: ArrayLike, length: float = 1.0) -> Array:
         """c at points of a sheet of that `length`; x, y, t broadcast (c does not depend on x)."""
-        x, y, t = np.broadcast_arrays(x, y, t)
-        return self.profile(2 * np.pi * (self.count * y / length - t / self.period))
+        return self.profile(self._phase(x, y, t, length))
 
     def rate(self, x: ArrayLike, y: ArrayLike, t: ArrayLike, length: float = 1.0) -> Array:
         """dc/dt at points of a sheet of that `length`; x, y, t broadcast."""
-        x, y, t = np.broadcast_arrays(x, y, t)
-        phase = 2 * np.pi * (self.count * y / length - t / self.period)
-        return -2 * np.pi / self.period * self.profile_slope(phase)
+        return -2 * np.pi / self.period * self.profile_slope(self._phase(x, y, t, length))
 
     def factors(self, t: ArrayLike) -> TimeFactors:
         """c = mean + sum_j even[j] cos(2 pi r_j y/L) + odd[j] sin(2 pi r_j y/L), r = `orders`."""
@@ -168,6 +188,11 @@ class TravellingWave:
         even = -rate * (p * np.sin(angle) + q * np.cos(angle))
         odd = rate * (p * np.cos(angle) - q * np.sin(angle))
         return TimeFactors(even, np.sign(self.count) * odd)
+
+    def _phase(self, x: ArrayLike, y: ArrayLike, t: ArrayLike, length: float) -> Array:
+        named = ("x", x), ("y", y), ("t", t)
+        _, y, t = np.broadcast_arrays(*(validation.real_array(name, v) for name, v in named))
+        return np.asarray(2 * np.pi * (self.count * y / length - t / self.period))
 
     @cached_property
     def _present(self) -> tuple[NDArray[np.int64], Array, Array]:
@@ -214,6 +239,7 @@ def _roundoff(samples: Array) -> float:
     return 4 * EPS * float(abs(samples).max())
 
 
+@dataclass(frozen=True, eq=False, repr=False)
 class SineWave(TravellingWave):
     """c(y, t) = sin(2 pi count y/L - 2 pi t/period), the wave of the seed paper's section 3.1.
 
@@ -226,8 +252,16 @@ class SineWave(TravellingWave):
     [1. 1.]
     """
 
-    def __init__(self, count: int = 1, period: float = 1.0) -> None:
-        super().__init__(np.zeros(1), np.ones(1), count, period)
+    cosine: Array = field(init=False)
+    sine: Array = field(init=False)
+    count: int = 1
+    period: float = 1.0
+    mean: float = field(default=0.0, init=False)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "cosine", np.zeros(1))
+        object.__setattr__(self, "sine", np.ones(1))
+        super().__post_init__()
 
     def __repr__(self) -> str:
         return f"SineWave(count={self.count}, period={self.period:g})"

@@ -21,12 +21,14 @@ PUBLIC = {
 CONSTANTS = {"LAPLACE_LIMIT"}
 RESULTS = {  # what the user does not make, and the function that makes it in the example
     "AirySeries": "airy_series",
+    "BeyondReachWarning": "crawl_speed",
     "CrawlSpeed": "crawl_speed",
     "NotConvergedError": "ritz_field",
     "PlaneStressField": "plane_stress_field",
     "Prediction": "predict",
     "RitzField": "ritz_field",
     "SecondOrder": "second_order",
+    "SheetcrawlError": "NotConvergedError",
     "Trajectory": "simulate",
     "ViscousRegimeWarning": "line_balance",
 }

@@ -122,8 +122,8 @@ def test_tanh_tends_to_dry_friction(name):
 @pytest.mark.parametrize("name", ["skewed", "turning median"])
 def test_subnormal_slip_speeds_are_dry(name, slip_speed):
     for wave in (WAVES[name], Anonymous(WAVES[name])):
-        dry = line_balance(wave, 0.3)
-        blunt = line_balance(wave, 0.3, friction="tanh", slip_speed=slip_speed)
+        dry = line_balance(wave, 0.3, length=1)
+        blunt = line_balance(wave, 0.3, friction="tanh", slip_speed=slip_speed, length=1)
         assert abs(blunt.mean - dry.mean) <= blunt.error + dry.error
 
 
@@ -170,11 +170,11 @@ def test_a_pulse_with_gaps_sticks_where_the_regularised_law_says(points):
 def test_no_growth_no_motion():
     for wave in (SineWave(), Anonymous(SineWave()), TravellingWave([0.0], [0.0], mean=0.5)):
         for friction, slip_speed in (("coulomb", None), ("tanh", 0.1), ("viscous", None)):
-            result = line_balance(wave, 0.0, friction=friction, slip_speed=slip_speed)
+            result = line_balance(wave, 0.0, friction=friction, slip_speed=slip_speed, length=1)
             assert (result.mean, result.converged) == (0.0, True)
     constant = line_balance(TravellingWave([0.0], [0.0], mean=0.5), 0.3)
     assert constant.mean == 0
-    assert constant.sticks
+    assert not constant.sticks  # all is at rest, and not a part of it
 
 
 @pytest.mark.parametrize("name", WAVES)
@@ -204,7 +204,7 @@ def test_general_way_agrees_with_the_travelling_one(name, kind):
     friction = "coulomb" if kind == "material" else kind
     slip_speed = 0.02 if kind == "tanh" else None
     exact = line_balance(wave, alpha, load, friction, slip_speed)
-    general = line_balance(Anonymous(wave), alpha, load, friction, slip_speed, rtol=1e-3)
+    general = line_balance(Anonymous(wave), alpha, load, friction, slip_speed, rtol=1e-3, length=1)
     assert general.converged
     assert abs(general.mean - exact.mean) <= general.error
     assert general.first_order == pytest.approx(exact.first_order, abs=3e-3)
@@ -222,7 +222,7 @@ def standing_pulse(x, y, t):
 def test_general_wave_minimises_the_dissipation():
     wave = FieldWave(standing_pulse, 1.0)
     alpha = 0.4
-    result = line_balance(wave, alpha, rtol=1e-3)
+    result = line_balance(wave, alpha, rtol=1e-3, length=1)
     assert result.converged
     cells = 2000
     y = (np.arange(cells) + 0.5) / cells - 0.5
@@ -238,9 +238,10 @@ def test_general_wave_minimises_the_dissipation():
 def test_error_of_a_general_wave_is_honest(friction):
     wave = FieldWave(standing_pulse, 1.0)
     slip_speed = 0.05 if friction == "tanh" else None
-    fine = line_balance(wave, 0.4, friction=friction, slip_speed=slip_speed, rtol=3e-4)
+    law = {"friction": friction, "slip_speed": slip_speed, "length": 1}
+    fine = line_balance(wave, 0.4, rtol=3e-4, **law)
     for rtol in (1e-1, 1e-2, 3e-3):
-        rough = line_balance(wave, 0.4, friction=friction, slip_speed=slip_speed, rtol=rtol)
+        rough = line_balance(wave, 0.4, rtol=rtol, **law)
         assert rough.converged
         assert abs(rough.mean - fine.mean) <= rough.error + fine.error
 
@@ -254,7 +255,7 @@ def test_a_general_pulse_with_gaps_sticks():
         inside = abs(p - 3) < 1
         return np.where(inside, np.pi**2 * np.sin((p - 3) * np.pi), 0.0) + 0 * x
 
-    result = line_balance(FieldWave(value, 1.0, rate), 0.5, rtol=1e-3)
+    result = line_balance(FieldWave(value, 1.0, rate), 0.5, rtol=1e-3, length=1)
     mean = 1 / (2 * np.pi)
     assert result.sticks
     assert abs(result.mean + 0.5 * mean) <= result.error
@@ -276,7 +277,7 @@ def test_result_says_what_it_is():
 
 def test_missed_tolerance_is_said(monkeypatch):
     monkeypatch.setattr(line_samples, "MOST_SAMPLES", 1 << 14)
-    result = line_balance(FieldWave(standing_pulse, 1.0), 0.4, atol=1e-12, rtol=1e-12)
+    result = line_balance(FieldWave(standing_pulse, 1.0), 0.4, atol=1e-12, rtol=1e-12, length=1)
     assert not result.converged
     assert result.error > 1e-12
 
@@ -285,7 +286,7 @@ BAD = [
     (lambda: line_balance(SineWave(), 1.0), r"alpha = 1: alpha c = -1 at the phase 4\.712.* < 1"),
     (lambda: line_balance(SineWave(), 1.4e154), r"alpha = 1\.4e\+154: alpha\^2 L/T must be finite"),
     (lambda: line_balance(SineWave(), -1.5), r"alpha = -1\.5.*> -1"),
-    (lambda: line_balance(Anonymous(SineWave()), 1.5), r"alpha = 1\.5: .* at S = "),
+    (lambda: line_balance(Anonymous(SineWave()), 1.5, length=1), r"alpha = 1\.5: .* at S = "),
     (lambda: line_balance(SineWave(), np.nan), "alpha contains nan"),
     (lambda: line_balance(SineWave(), [0.1]), "alpha"),
     (lambda: line_balance(SineWave(), 0.1, load="heavy"), "load = 'heavy'"),
@@ -295,6 +296,9 @@ BAD = [
     (lambda: line_balance(SineWave(), 0.1, slip_speed=1.0), r"slip_speed = 1\.0"),
     (lambda: line_balance(SineWave(), 0.1, rtol=0), "rtol = 0"),
     (lambda: line_balance(SineWave(), 0.1, atol=0), "atol = 0"),
+    (lambda: line_balance(SineWave(), 0.1, length=0), "length = 0: must be > 0"),
+    (lambda: line_balance(FieldWave(standing_pulse, 1.0), 0.1), "length = None: must be given"),
+    (lambda: line_balance(Anonymous(SineWave()), 0.1), "length = None: must be given"),
 ]
 
 

@@ -345,7 +345,7 @@ def test_sampled_way_agrees_with_the_travelling_one(law, power, friction):
     wave, alpha = WAVES["two harmonics"], -0.28
     kind = {"load": load, "friction": friction, "slip_speed": slip, "growth_law": law, "body": body}
     exact = line_balance(wave, alpha, **kind)
-    general = line_balance(Anonymous(wave), alpha, rtol=1e-3, **kind)
+    general = line_balance(Anonymous(wave), alpha, rtol=1e-3, **kind, length=1)
     assert general.converged
     assert abs(general.mean - exact.mean) <= general.error + exact.error
     # Linear between some hundred points
@@ -360,8 +360,8 @@ def test_sampled_wave_minimises_the_dissipation_and_knows_its_error(law, power):
     load, body = LOADS[power]
     wave, alpha = FieldWave(standing_pulse, 1.0), 0.3
     kind = {"load": load, "growth_law": law, "body": body}
-    fine = line_balance(wave, alpha, rtol=1e-3, atol=1e-5, **kind)
-    rough = line_balance(wave, alpha, rtol=3e-2, atol=1e-4, **kind)
+    fine = line_balance(wave, alpha, rtol=1e-3, atol=1e-5, **kind, length=1)
+    rough = line_balance(wave, alpha, rtol=3e-2, atol=1e-4, **kind, length=1)
     assert fine.converged
     assert rough.converged
     assert abs(rough.mean - fine.mean) <= rough.error + fine.error
@@ -380,8 +380,8 @@ def test_coefficients_of_a_sampled_wave_are_limits(law):
     wave, h = FieldWave(standing_pulse, 1.0), 3e-3
     for load, body in LOADS.values():
         kind = {"load": load, "growth_law": law, "body": body, "rtol": 1e-3, "atol": 2e-6}
-        result = line_balance(wave, h, **kind)
-        up, down = result.mean, line_balance(wave, -h, **kind).mean
+        result = line_balance(wave, h, **kind, length=1)
+        up, down = result.mean, line_balance(wave, -h, **kind, length=1).mean
         errors = 2 * result.error
         assert abs((up - down) / (2 * h) - result.first_order) <= errors / h + 20 * h**2
         # Where the median turns, V(t) has terms |alpha|^(5/2): the limit is approached slowly.
@@ -399,7 +399,7 @@ def test_a_pulse_with_gaps_sticks(law):
 
     for candidate in (wave, FieldWave(value, 1.0)):
         for load, body in LOADS.values():
-            found = line_balance(candidate, alpha, load, growth_law=law, body=body, rtol=1e-3)
+            found = line_balance(candidate, alpha, load, growth_law=law, body=body, rtol=1e-3, length=1)
             assert found.sticks
             # The gaps are at rest; the series of the pulse rings there by points^-2.
             truth = 1 - LAWS[law](alpha * c).mean()
@@ -430,10 +430,13 @@ BAD = [
     (lambda: line_balance(SineWave(), 150, growth_law="exp"), r"alpha = 150: .* phase .* < 100"),
     (lambda: line_balance(WAVES["pulse"], -1, growth_law="metric"), r"phase 1 of.* > -0\.5$"),
     (
-        lambda: line_balance(Anonymous(SineWave()), 0.6, growth_law="metric"),
+        lambda: line_balance(Anonymous(SineWave()), 0.6, growth_law="metric", length=1),
         r"0\.6: .*at S = .* < 0\.5",
     ),
-    (lambda: line_balance(Anonymous(SineWave()), -120, growth_law="exp"), r"120: .*at S = .* > -100"),
+    (
+        lambda: line_balance(Anonymous(SineWave()), -120, growth_law="exp", length=1),
+        r"120: .*at S = .* > -100",
+    ),
     (lambda: line_balance(SineWave(), 0.1, growth_law="cubic"), "growth_law = 'cubic': .*'metric'"),
     (lambda: line_balance(SineWave(), 0.1, body="sheet"), "body = 'sheet': .*'line', 'strip'"),
     (lambda: line_cycle_speed(0.5, "metric"), r"alpha = 0\.5: must be in \(-0\.5, 0\.5\)"),

@@ -238,7 +238,7 @@ def test_poisson_ratio_comes_from_the_sheet_unless_given():
         ({"poisson": 0.7}, r"poisson = 0.7: must be in \(-1, 0.5\]"),
         (
             {"outline": MeshTri([[0, 1, 2.0], [0, 0, 0.0]], [[0], [1], [2]])},
-            "triangle 0 has the area 0",
+            "outline: 1 of 1 elements are inverted or without area",
         ),
         (
             {
@@ -246,7 +246,7 @@ def test_poisson_ratio_comes_from_the_sheet_unless_given():
                     [[0, 1, 0, 5, 6, 5.0], [0, 0, 1, 5, 5, 6.0]], [[0, 3], [1, 4], [2, 5]]
                 )
             },
-            "the mesh has 2 parts, must be one",
+            "outline: has 2 separate pieces, must be one",
         ),
     ],
 )

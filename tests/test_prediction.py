@@ -8,7 +8,7 @@ import pytest
 from fem_check.levels import LEVELS, MESHES, TARGET, Question, cycle, scene
 from fem_check.prediction import predict
 from fem_check.shell.cycle.speed import cycle_speed
-from linear_theory import Sheet, SineWave, TravellingWave, crawl_speed, line_cycle_speed
+from linear_theory import FieldWave, Sheet, SineWave, TravellingWave, crawl_speed, line_cycle_speed
 
 PULSE = TravellingWave(np.array([0.5, 0.3]), np.array([0.2, 0.1]))
 
@@ -117,3 +117,11 @@ def test_no_growth_no_motion():
 def test_bad_input(arguments, message):
     with pytest.raises(ValueError, match=message):
         predict(**{"sheet": Sheet(), "wave": SineWave(), "alpha": 0.1, **arguments})
+
+
+def test_a_strip_refuses_a_wave_that_it_does_not_see():
+    """It is the axis x = 0, where this wave is a sine."""
+    lopsided = FieldWave(lambda x, y, t: (1 + 2 * x) * np.sin(2 * np.pi * (y - t)), 1.0)
+    with pytest.raises(ValueError, match="'strip': cannot represent a wave that depends on x"):
+        predict(Sheet(), lopsided, 0.1, method="strip")
+    assert predict(Sheet(), lopsided, 0.1, rtol=0.5).level == TARGET

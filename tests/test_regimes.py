@@ -174,9 +174,15 @@ LEVELS: dict[str, Callable[..., CrawlSpeed]] = {
     ),
     "line, travelling": lambda alpha, **law: line_balance(SINE, alpha, **law),
     "line, sampled": lambda alpha, **law: line_balance(
-        FieldWave(lambda x, y, t: np.sin(2 * np.pi * (y - t)) + 0 * x, 1.0), alpha, rtol=1e-2, **law
+        FieldWave(lambda x, y, t: np.sin(2 * np.pi * (y - t)) + 0 * x, 1.0),
+        alpha,
+        rtol=1e-2,
+        length=1,
+        **law,
     ),
-    "cycle_speed": lambda alpha, **law: cycle_speed(planar(alpha, cells=(2, 4)), rtol=2e-2, **law),
+    "cycle_speed": lambda alpha, **law: cycle_speed(
+        Scene(PAPER, SINE, alpha, effects=(Membrane(MATERIAL),), cells=(2, 4)), rtol=2e-2, **law
+    ),
 }
 """The lambdas are the user's code: the warning is to point to them."""
 

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 import skfem
 
-from fem_check.shell import mesh_checks, region
+from fem_check.shell import elements, region
 from fem_check.shell.cycle.speed import cycle_speed
 from fem_check.shell.effects import koiter
 from fem_check.shell.effects.friction import Friction
@@ -275,7 +275,7 @@ def test_a_planar_scene_builds_nothing_of_a_shell(monkeypatch: pytest.MonkeyPatc
     for effect in (Ground, Bending, Inertia):
         for name in ("energy", "gradient", "hessian"):
             monkeypatch.setattr(effect, name, refuse(f"{effect.__name__}.{name}"))
-    monkeypatch.setattr(mesh_checks, "require_h2", refuse("require_h2"))
+    monkeypatch.setattr(elements, "require_h2", refuse("require_h2"))
     orders = []
     original = region.shape_functions
 

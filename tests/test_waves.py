@@ -1,5 +1,7 @@
 """Sheets and waves: values, Fourier factors, symmetries, bad input."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -109,6 +111,28 @@ def test_bad_sizes(name, value):
 def test_bad_poisson(poisson):
     with pytest.raises(ValueError, match="poisson"):
         Sheet(poisson=poisson)
+
+
+def test_waves_of_the_same_numbers_are_equal():
+    sine = TravellingWave([0.0], [1.0], count=2, period=3.0)
+    assert SineWave(2, 3.0) == sine
+    assert sine == SineWave(2, 3.0)
+    assert hash(sine) == hash(SineWave(2, 3.0))
+    assert len({SineWave(), SineWave(), TravellingWave([-0.0], [1.0])}) == 1  # -0.0 is 0.0
+    others = [
+        *(SineWave(1, 3.0), SineWave(2, 2.0), TravellingWave([0.0], [1.0], 2, 3.0, 0.1)),
+        *(TravellingWave([1.0], [1.0], 2, 3.0), TravellingWave([0.0, 0.0], [1.0, 1.0], 2, 3.0), "sine"),
+    ]
+    assert all(sine != other for other in others)
+
+
+def test_waves_are_replaced_in_part():
+    found = replace(SineWave(2), period=3.0)
+    assert (type(found), found) == (SineWave, SineWave(2, 3.0))
+    pulse = TravellingWave([0.4, 0.3], [0.0, 0.1], -1, 2.0)
+    assert replace(pulse, mean=0.1) == TravellingWave([0.4, 0.3], [0.0, 0.1], -1, 2.0, 0.1)
+    with pytest.raises(ValueError, match="mean"):  # a sine has none
+        replace(SineWave(), mean=0.1)
 
 
 def test_sheet_defaults_are_the_papers():

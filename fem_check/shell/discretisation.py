@@ -8,11 +8,13 @@ import numpy as np
 import skfem
 from numpy.typing import ArrayLike, NDArray
 
-from fem_check.shell import mesh_checks
+from fem_check.mesh_checks import check_mesh
+from fem_check.shell import elements
 from fem_check.shell.region import Region
-from fem_check.shell.shape_functions import edge_frame
+from fem_check.shell.shape_functions import derivatives, edge_frame
 from fem_check.shell.surface import Flat, Surface
 from linear_theory import validation
+from linear_theory.units import power_of_two
 
 Array = NDArray[np.float64]
 Where = Callable[[Array], NDArray[np.bool_]]
@@ -33,7 +35,8 @@ class Discretisation:
     degree: of the polynomials that quadrature integrates exactly.
 
     Unknowns u are displacements in space, (size,): the components of a scalar degree of freedom are
-    neighbours. Raises ValueError for meshes with inverted elements and elements that do not fit.
+    neighbours. Raises ValueError for meshes that are not one sheet (see `mesh_checks`) and for
+    elements that do not fit.
     """
 
     def __init__(
@@ -44,8 +47,9 @@ class Discretisation:
         components: int = 3,
         degree: int | None = None,
     ) -> None:
-        mesh_checks.check_element(mesh, element)
-        mesh_checks.check_mesh(mesh, element)
+        check_mesh(mesh)
+        elements.check_element(mesh, element)
+        elements.check_rectangles(mesh, element)
         if components not in (2, 3):
             raise ValueError(f"components = {components!r}: must be 2 (planar) or 3")
         self.mesh, self.element = mesh, element
@@ -82,6 +86,20 @@ class Discretisation:
             for row in numbers:
                 places[:, row] = points
         return places
+
+    @cached_property
+    def units(self) -> Array:
+        """Units of the scalar degrees of freedom over that of length, (scalars,): 1, 1/size, 1/size^2.
+
+        Those of values, first and second derivatives by the parameters; size: about that of the mesh.
+        Comparisons between degrees of freedom need them, else they depend on the unit of length.
+        """
+        size = power_of_two(float(np.ptp(self.mesh.p, axis=1).max()))
+        rows = [*self._dofs.nodal_dofs, *self._dofs.facet_dofs, *self._dofs.interior_dofs]
+        units = np.ones(self.scalars)
+        for order, row in zip(derivatives(self.element), rows, strict=True):
+            units[row] = size**-order
+        return units
 
     def zeros(self) -> Array:
         """The undeformed state, (size,)."""

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from fem_check.shell.discretisation import Discretisation
 from fem_check.shell.effects.effect import PAIRS, Effect
 from fem_check.shell.effects.gravity import Gravity
-from fem_check.shell.mesh_checks import require_h2
+from fem_check.shell.elements import require_h2
 from fem_check.shell.point_state import PointState
 from fem_check.shell.rates import Step
 from fem_check.shell.region import Entries, Region

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fem_check.shell.mesh_checks import require_h2
+from fem_check.shell.elements import require_h2
 from fem_check.shell.shape_functions import is_global, shape_functions
 from fem_check.shell.surface import Surface
 

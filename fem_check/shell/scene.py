@@ -4,7 +4,8 @@ What a scene does not name is neither built nor evaluated. Where no effect needs
 the scene is planar: two displacement components on continuous elements and first derivatives only.
 """
 
-from collections.abc import Sequence
+import math
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -13,6 +14,7 @@ import numpy as np
 import skfem
 from numpy.typing import ArrayLike, NDArray
 
+from fem_check.mesh_checks import check_fits, check_mesh
 from fem_check.shell.discretisation import Discretisation
 from fem_check.shell.effects.effect import Effect
 from fem_check.shell.effects.friction import Friction, load_bearer
@@ -27,7 +29,7 @@ from fem_check.shell.rates import Step
 from fem_check.shell.region import Region
 from fem_check.shell.rest_state import CURVATURE_FORMS, MEASURES, RestState, grown_state
 from fem_check.shell.shape_functions import is_global
-from linear_theory import validation
+from linear_theory import arguments, validation
 from linear_theory.field import Wave
 from linear_theory.load_cases import phases
 from linear_theory.sheet import Sheet
@@ -42,6 +44,9 @@ distances between points of the 2 : 1 sheet at alpha = 0.25 are right to 7e-5 of
 
 PLANAR_DEGREE = 5
 
+SAME = 1e-12
+"""Difference of two descriptions of one material that is roundoff."""
+
 
 @dataclass(frozen=True, eq=False)
 class Scene:
@@ -51,9 +56,9 @@ class Scene:
     lengths per c; curvature_coupling: beta of eq. 4, 1/length. effects: Membrane(material) in any
     case, and of Bending, Gravity, Ground, Friction, Inertia, DeadLoad those that are wanted, each once.
     growth_law, curvature, area: as law, curvature and area of `rest_state.grown_state`.
-    cells: elements across and along. mesh: instead of cells, a scikit-fem mesh of another outline in
-    the coordinates of the sheet. element: of scikit-fem; by default degree 4 in the plane, BFS on
-    rectangles and Argyris on triangles in space.
+    cells: elements across and along, two integers. mesh: instead of cells, a scikit-fem mesh of another
+    outline in the coordinates of the sheet. element: of scikit-fem; by default degree 4 in the plane,
+    BFS on rectangles and Argyris on triangles in space.
 
     Raises ValueError, naming the argument, for values out of range, for effects that contradict each
     other or the sheet, and for effects that miss what they need (friction without load).
@@ -81,14 +86,18 @@ class Scene:
     element: Any = None
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "effects", tuple(self.effects))
+        object.__setattr__(self, "sheet", arguments.sheet(self.sheet))
+        object.__setattr__(self, "wave", arguments.wave(self.wave))
+        effects = _checked_effects(self.effects)
+        placed = (e.under(self.sheet) if isinstance(e, Ground) else e for e in effects)
+        object.__setattr__(self, "effects", tuple(placed))
         for name in ("alpha", "curvature_coupling"):
             object.__setattr__(self, name, validation.real(name, getattr(self, name)))
         validation.choice("growth_law", self.growth_law, GROWTH_LAWS)
         validation.choice("curvature", self.curvature, CURVATURE_FORMS)
         validation.choice("area", self.area, MEASURES)
         metric_factor(self.growth_law, self.alpha, self._extremes())
-        self._check_cells()
+        self._check_mesh()
         check_effects(self.effects, self.components, self.sheet)
         if self.curvature_coupling and self.find(Bending) is None:
             raise ValueError(
@@ -192,15 +201,20 @@ class Scene:
             return None
         return 2 * round(float(np.sqrt(element.maxdeg))) + 1
 
-    def _check_cells(self) -> None:
+    def _check_mesh(self) -> None:
+        """And make them two plain integers."""
+        if self.mesh is not None:
+            hint = "outline.mesh(size) makes one of an Outline"
+            check_mesh(validation.instance("mesh", self.mesh, skfem.Mesh, hint))
+            check_fits(self.mesh, self.sheet)
+        if self.element is not None:
+            validation.instance("element", self.element, skfem.Element)
         if self.cells is None:
             return
         if self.mesh is not None:
-            raise ValueError(f"cells = {self.cells!r}: must be None where a mesh is given")
-        if np.shape(self.cells) != (2,):
-            raise ValueError(f"cells = {self.cells!r}: must be two integers, across and along")
-        for count in self.cells:
-            validation.integer("cells", count, 1)
+            shown = validation.shown(self.cells)
+            raise ValueError(f"cells = {shown}: must be None where a mesh is given")
+        object.__setattr__(self, "cells", _two_integers(self.cells))
 
     def _extremes(self) -> Array:
         """c on a grid of places and times, to find growth that no rest state can have."""
@@ -208,6 +222,35 @@ class Scene:
         t = np.append(phases(self.period, 64), 0.0)
         y = y * self.sheet.length
         return np.stack([self.growth(s, x[:, None], y[None]) for s in t])
+
+
+def _two_integers(cells: Any) -> tuple[int, int]:
+    """Elements across and along, from any sequence of two."""
+    if not isinstance(cells, Sequence | np.ndarray) or len(cells) != 2:
+        shown = validation.shown(cells)
+        raise ValueError(f"cells = {shown}: must be two integers, across and along")
+    across, along = (validation.integer("cells", count, 1) for count in cells)
+    return across, along
+
+
+def _checked_effects(effects: Any) -> tuple[Effect, ...]:
+    """The effects, one of them alone, too. Raises ValueError for what is no instance of an effect."""
+    if _is_effect(effects):
+        return (effects,)
+    if isinstance(effects, type | str) or not isinstance(effects, Iterable):
+        shown = validation.shown(effects)
+        raise ValueError(f"effects = {shown}: must be a sequence of effects, as [Membrane(material)]")
+    found = tuple(effects)
+    for i, effect in enumerate(found):
+        if not _is_effect(effect):
+            hint = "an instance, made with its arguments" if isinstance(effect, type) else "an effect"
+            raise ValueError(f"effects[{i}] = {validation.shown(effect)}: must be {hint}")
+    return found
+
+
+def _is_effect(value: object) -> bool:
+    """Whether it is an object, and no class, that has an energy."""
+    return not isinstance(value, type) and hasattr(value, "energy") and hasattr(value, "entries")
 
 
 def needs_space(effect: Effect) -> bool:
@@ -250,5 +293,6 @@ def _check_materials(effects: Sequence[Effect], sheet: Sheet) -> None:
             raise ValueError(f"effects: materials {materials[0]} and {material} must be the same")
         for name in ("thickness", "poisson"):
             mine, theirs = getattr(material, name), getattr(sheet, name)
-            if not np.isclose(mine, theirs, rtol=1e-12):
+            none = 0.0 if name == "thickness" else SAME  # a length has no size but its own
+            if not math.isclose(mine, theirs, rel_tol=SAME, abs_tol=none):
                 raise ValueError(f"effects: material has {name} = {mine:g}, the sheet has {theirs:g}")

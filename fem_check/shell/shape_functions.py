@@ -4,7 +4,7 @@ scikit-fem expresses the elements of its kind `ElementGlobal` (BFS, Argyris) in 
 global coordinates and inverts the matrix of the degrees of freedom of those monomials. Far from the
 origin, relative to the size of an element, that matrix is nearly singular: on 32 x 64 elements second
 derivatives of BFS and Argyris functions keep five digits. Here the same degrees of freedom act on
-monomials that are centred and scaled per element, and all digits are kept.
+monomials that are centred and scaled per element, in units of its size, and all digits are kept.
 """
 
 from itertools import product
@@ -61,7 +61,24 @@ def _global_shapes(mesh: Any, element: Any, elements: Integers, points: Array, o
         [_monomials(powers, x, y, *d) / scale[:, None, None] ** sum(d) for d in orders], axis=2
     )
     matrix = _degrees_of_freedom(mesh, element, elements, powers, centre, scale)
-    return np.ascontiguousarray(monomials @ np.linalg.inv(matrix)[:, None])
+    units = scale[:, None, None, None] ** _local_derivatives(mesh, element)
+    return np.ascontiguousarray((monomials @ np.linalg.inv(matrix)[:, None]) * units)
+
+
+def derivatives(element: Any) -> Integers:
+    """Order of the derivative that each of `element.dofnames` is: 0 of u, 1 of u_x and u_n, 2 of u_xy.
+
+    All of an element that is not defined globally are values.
+    """
+    orders = [len(name.removeprefix("u").removeprefix("_")) for name in element.dofnames]
+    return np.array(orders) if is_global(element) else np.zeros(len(orders), np.int64)
+
+
+def _local_derivatives(mesh: Any, element: Any) -> Integers:
+    """The same for all shape functions of an element: those of the corners, then of the edges."""
+    orders, corners = derivatives(element), mesh.t.shape[0]
+    ends = element.nodal_dofs, element.nodal_dofs + element.facet_dofs
+    return np.concatenate([np.tile(orders[: ends[0]], corners), np.tile(orders[slice(*ends)], corners)])
 
 
 def _exponents(element: Any) -> Integers:
@@ -87,7 +104,10 @@ def _power(x: Array, exponents: Integers, derivative: int) -> Array:
 def _degrees_of_freedom(
     mesh: Any, element: Any, elements: Integers, powers: Integers, centre: Array, scale: Array
 ) -> Array:
-    """Degree of freedom j of monomial i, (elements, j, i), through the element's own `gdof`."""
+    """Degree of freedom j of monomial i, (elements, j, i), through the element's own `gdof`.
+
+    Derivatives are by coordinates over the scale of the element: all entries are of order 1.
+    """
     edges = edge_frame(mesh, elements)
     matrix = np.empty((elements.size, len(powers), len(powers)))
 
@@ -98,7 +118,7 @@ def _degrees_of_freedom(
             values = _monomials(
                 powers[i : i + 1], (x - centre[0]) / scale, (y - centre[1]) / scale, dx, dy
             )
-            return np.asarray(values[:, 0] / scale ** len(axes))
+            return np.asarray(values[:, 0])
 
         return function
 

@@ -12,6 +12,9 @@ Array = NDArray[np.float64]
 
 _ALL = (0, 1, 2)
 
+NEAR = 0.25
+"""Of the largest distance from the anchor, below which a vertex is no lever against turning."""
+
 
 class Supports:
     """The set of held unknowns, none at first; each method adds to it and returns the object.
@@ -71,16 +74,17 @@ class Supports:
         """Take the rigid motions from a free sheet without straining it, at the vertex nearest to xi.
 
         motions: "xyz" all; "xy" those in the plane z = const, for a sheet that lies on the ground or
-        for a planar scene. The parameter lines must run along x and y there (the first suffices for
-        "xy"). The support is statically determinate, so that it carries no force. Raises ValueError
-        otherwise.
+        for a planar scene. The support is statically determinate, so that it carries no force: that
+        vertex is held and, against turning, a slope there (BFS, Argyris) or one component of another
+        vertex. Raises ValueError where slopes are held and the parameter lines do not run along x and y
+        there (the first suffices for "xy").
         """
         if motions not in ("xy", "xyz"):
             raise ValueError(f"motions = {motions!r}: must be 'xy' or 'xyz'")
         dofs = self.discretisation.dofs_at(xi)
         self.held[dofs["u"], : len(motions) if self.discretisation.components == 3 else 2] = True
         if "u_x" not in dofs:
-            self.held[self._far_along_x(xi), 1] = True
+            self.held[self._lever(xi)] = True
             return self
         self._check_frame(xi, motions)
         self.held[dofs["u_x"], 1] = True
@@ -98,16 +102,21 @@ class Supports:
                 f"xi = {place}: parameter lines of the surface must run along x (and y) there"
             )
 
-    def _far_along_x(self, xi: ArrayLike) -> NDArray[np.int64]:
-        """The vertex on the line through the anchor along x that is farthest from it."""
+    def _lever(self, xi: ArrayLike) -> tuple[NDArray[np.int64], int]:
+        """Degree of freedom of a vertex far from the anchor, and its component that stops the turning.
+
+        The farthest on the line along x, which keeps mirror images mirror images, unless that is near;
+        else the farthest of all, and the component across the longer of its distances.
+        """
         mesh = self.discretisation.mesh
         position = self.discretisation.surface(*mesh.p)[0]
         origin = position[:, np.abs(mesh.p - np.reshape(xi, (2, 1))).sum(0).argmin()]
-        away = np.abs(position - origin[:, None])
-        distance = np.where(away[1] < 1e-9 * away.max(), away[0], 0)
-        if distance.max() == 0:
-            raise ValueError(f"xi = {origin[:2]}: no other vertex of the mesh lies on its line along x")
-        return self.discretisation.dofs_at(mesh.p[:, distance.argmax()])["u"]
+        away = np.abs(position - origin[:, None])[:2]
+        distance = np.hypot(*away)
+        beside = np.where(away[1] < 1e-9 * distance.max(), away[0], 0.0)
+        far = int((beside if beside.max() > NEAR * distance.max() else distance).argmax())
+        across = 1 if away[0, far] >= away[1, far] else 0
+        return self.discretisation.dofs_at(mesh.p[:, far])["u"], across
 
     def _hold(self, where: Where, components: Collection[int], across: bool) -> "Supports":
         wrong = [c for c in components if c not in range(self.discretisation.components)]

@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from linear_theory import hooke, validation
+from linear_theory import arguments, hooke, validation
 from linear_theory.airy import loads, system
 from linear_theory.airy.cases import Cases
 from linear_theory.airy.error import missing_mean_square
@@ -18,6 +18,7 @@ from linear_theory.errors import NotConvergedError
 from linear_theory.field import LinearField, combine
 from linear_theory.load_cases import phases
 from linear_theory.sheet import Sheet
+from linear_theory.threads import one_blas_thread
 from linear_theory.waves import TravellingWave
 
 Array = NDArray[np.float64]
@@ -40,6 +41,7 @@ class AiryAmplitudes(NamedTuple):
     D: Array
 
 
+@one_blas_thread
 def airy_series(
     sheet: Sheet,
     wave: TravellingWave,
@@ -69,8 +71,10 @@ def airy_series(
     """
     printed = validation.choice("form", form, FORMS) == "printed"
     rtol = validation.tolerance(rtol)
-    if not isinstance(wave, TravellingWave):
-        raise ValueError(f"wave = {wave!r}: must be a TravellingWave; ritz_field takes any c(x, y, t)")
+    sheet = arguments.sheet(sheet)
+    if not isinstance(arguments.wave(wave), TravellingWave):
+        shown = validation.shown(wave)
+        raise ValueError(f"wave = {shown}: must be a TravellingWave; ritz_field takes any c(x, y, t)")
     if printed and not math.isclose(sheet.width, sheet.length / 2):
         raise ValueError(f"width = {sheet.width:g}: must be length/2 for form='printed'")
     tail = tail and not printed
@@ -193,12 +197,14 @@ class AirySeries(LinearField):
             constant = constant + self._line().constant * loads.end_slopes(cases.orders)
         return np.tensordot(cases.even.constant, even, 1), np.tensordot(constant, odd, 1)
 
+    @one_blas_thread
     def stress(self, x: ArrayLike, y: ArrayLike, t: ArrayLike) -> Array:
         """(xx, yy, xy) of the stress, (3, ...), units of Young's modulus; independent of nu."""
         x, y, t = self._checked(x, y, t)
         return combine(self._amplitudes(t), self._cases.stresses(x, y))
 
     @cached_property
+    @one_blas_thread
     def error(self) -> float:
         """Estimated relative L2 error of the displacement over the sheet at the worst phase."""
         cases = self._cases

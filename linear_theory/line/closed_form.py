@@ -51,8 +51,8 @@ def line_speed(alpha: ArrayLike, count: int = 1, period: float = 1.0, form: str 
     """Speed of the sine wave with dry friction, eq. 8: V = (alpha/nT) sin(theta).
 
     alpha: dimensionless growth coupling, any shape, |alpha| < 1; count: waves on the body, any
-    non-zero integer; period: units of time. Returns the shape of alpha, length/time, within 2 ulp
-    for count = period = 1 and 3 ulp otherwise, as alpha/count/period is rounded too.
+    non-zero integer; period: units of time. Returns the shape of alpha, lengths of the body per time,
+    within 2 ulp for count = period = 1 and 3 ulp otherwise, as alpha/count/period is rounded too.
     form="printed" solves eq. 8 as it stands in the paper, which does not balance eq. 7.
     Raises ValueError for |alpha| >= 1, where a contracted part would have no length left.
 
@@ -91,9 +91,9 @@ def line_speed_tanh(
     """Speed of the sine wave with friction tanh(v/v0), for any v0 = slip_speed > 0.
 
     The root V of int (1 + alpha sin phi) tanh((V - (alpha/nT) sin phi)/v0) dphi = 0; alpha and
-    slip_speed (length/time) broadcast, other arguments as for `line_speed`. Joins dry (v0 -> 0) and
-    viscous friction (v0 -> infinity); relative accuracy 1e-13. Raises ValueError as `line_speed` does
-    and for slip_speed <= 0.
+    slip_speed (lengths of the body per time) broadcast, other arguments as for `line_speed`. Joins dry
+    (v0 -> 0) and viscous friction (v0 -> infinity); relative accuracy 1e-13. Raises ValueError as
+    `line_speed` does and for slip_speed <= 0.
 
     The integrand is symmetrised under phi -> -phi by hand, so that the small speed (of order
     alpha^2) is not the difference of large numbers.

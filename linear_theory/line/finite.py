@@ -70,9 +70,9 @@ def line_cycle_speed(
     count: waves on the body, any non-zero integer. period: units of time. friction: "coulomb" or
     "viscous"; the law tanh(v/v0) is in `line_balance`.
 
-    Returns the shape of alpha, length/time, positive towards +y, with a relative error of about 1e-15
-    of the terms of the formulas above. Raises ValueError for other names and for |alpha| so large that
-    a length would vanish.
+    Returns the shape of alpha, lengths of the body per time, positive towards +y, with a relative error
+    of about 1e-15 of the terms of the formulas above. Raises ValueError for other names and for |alpha|
+    so large that a length would vanish.
 
     >>> from linear_theory import line_cycle_speed
     >>> for body in ("line", "strip"):

@@ -41,10 +41,14 @@ MOST_CELLS, MOST_TIMES, MOST_SAMPLES = 1 << 14, 1 << 10, 1 << 21
 CHECKS, SEED = 32, 7
 """Random times of a check at first; at most twice as many as equidistant ones."""
 
+CHANCE = 2.0
+"""Of the last change, which is three times the error where that falls with the square of the spacing.
+Medians do not fall so evenly: of 200 random waves, laws and bodies one was off by 1.3 changes."""
+
 HIDDEN, PER_HARMONIC = 0.1, 64
-"""Share of the tolerance up to which harmonics of the wave may go without a check: those with fewer times
-to their period. Dry friction turns a harmonic k into 2k, 3k, ..., of which doublings of N see nothing
-where N is a multiple of k."""
+"""Share of the tolerance up to which harmonics of the wave may go without a check: those with fewer
+times to their period. Dry friction turns a harmonic k into 2k, 3k, ..., of which doublings of N see
+nothing where N is a multiple of k."""
 
 BLOCK = 1 << 19
 """Cells times times held at once."""
@@ -63,7 +67,7 @@ class Snapshot(NamedTuple):
 def sampled_balance(
     wave: Wave, alpha: float, law: FrictionLaw, growth: Growth, rtol: float, atol: float
 ) -> Balance:
-    """Speed of a general wave.
+    """Speed of a general wave on |y| <= 1/2, the length of the body being 1.
 
     Raises ValueError if a sampled strain is out of the range of the law, and for a wave that does not
     repeat after its period or whose rate is not its derivative.
@@ -79,8 +83,8 @@ def sampled_balance(
         fine, coarse = sampled(instants, 2 * cells), sampled(instants, cells)
         mean = float(fine.velocity.mean())
         # A difference may vanish by chance; a quarter of the one before, for second order, does not.
-        last_space, space = space, abs(mean - float(coarse.velocity.mean()))
-        last_time, time = time, abs(mean - float(fine.velocity[::2].mean()))
+        last_space, space = space, CHANCE * abs(mean - float(coarse.velocity.mean()))
+        last_time, time = time, CHANCE * abs(mean - float(fine.velocity[::2].mean()))
         in_space, in_time = max(space, last_space / 4), max(time, last_time / 4)
         goal = max(rtol * abs(mean), atol)
         room = cells * times < MOST_SAMPLES
@@ -195,7 +199,7 @@ def _check_strain(alpha: float, c: Array, times: Array, y: Array, growth: Growth
     worst = growth.misplaced(alpha * c)
     if worst is not None:
         row, column = np.unravel_index(worst, c.shape)
-        place = f"S = {y[column] + 0.5:.4g}, t = {times[row, 0]:.4g}"
+        place = f"S = {y[column] + 0.5:.4g} length, t = {times[row, 0]:.4g}"
         raise growth.refusal(alpha, float(alpha * c[row, column]), place)
 
 

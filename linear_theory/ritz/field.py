@@ -16,7 +16,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from linear_theory import validation
+from linear_theory import arguments, validation
 from linear_theory.errors import NotConvergedError
 from linear_theory.field import LinearField, Wave
 from linear_theory.load_cases import Harmonics, LoadCases, Snapshots, load_cases
@@ -24,6 +24,7 @@ from linear_theory.ritz import error as ritz_error
 from linear_theory.ritz import legendre
 from linear_theory.ritz.solver import RitzSolver, matrix_size
 from linear_theory.sheet import Sheet
+from linear_theory.threads import one_blas_thread
 from linear_theory.wave_survey import WaveSurvey
 from linear_theory.waves import TravellingWave
 
@@ -34,6 +35,7 @@ DEFAULT_RTOL = 1e-6
 MOST_NUMBERS = 25_000_000  # in the matrix of one parity, 200 MB
 
 
+@one_blas_thread
 def ritz_field(
     sheet: Sheet, wave: Wave, degree: int | Pair | None = None, rtol: float | None = None
 ) -> "RitzField":
@@ -53,6 +55,7 @@ def ritz_field(
     >>> print(field.error <= 1e-4, field.mirrored)  # it crawls to the side, too
     True False
     """
+    sheet, wave = arguments.sheet(sheet), arguments.wave(wave)
     if degree is None:
         rtol = DEFAULT_RTOL if rtol is None else validation.tolerance(rtol)
         return _with_enough_degrees(sheet, wave, rtol)
@@ -63,9 +66,9 @@ def ritz_field(
 
 
 def _checked_degree(degree: int | Pair) -> Pair:
-    pair = degree if isinstance(degree, tuple) else (degree, degree)
+    pair = (degree, degree) if isinstance(degree, int | np.integer) else tuple(np.atleast_1d(degree))
     if len(pair) != 2:
-        raise ValueError(f"degree = {degree}: must be one integer or (across, along)")
+        raise ValueError(f"degree = {validation.shown(degree)}: must be one integer or (across, along)")
     across, along = (ritz_error.odd(validation.integer("degree", d, 3)) for d in pair)
     if matrix_size((across, along)) > MOST_NUMBERS:
         raise ValueError(f"degree = {degree}: must make a matrix of <= {MOST_NUMBERS} numbers")

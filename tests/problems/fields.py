@@ -324,6 +324,6 @@ PROBLEMS: tuple[Problem, ...] = family(
         "area > 0",
         degenerate_mesh,
         expected="refused",
-        limit="triangle 0 has the area 0",
+        limit="1 of 2 elements are inverted or without area",
     ),
 )

@@ -75,7 +75,7 @@ def gap(points: int) -> Outcome:
 def jump() -> Outcome:
     """c = +-1: half of the body is heavier by (1 + alpha)/(1 - alpha), and stays where it is."""
     wave = FieldWave(lambda x, y, t: np.where(np.sin(2 * np.pi * (y - t)) > 0, 1.0, -1.0) + 0 * x, 1.0)
-    return of_speed(line_balance(wave, 0.1, rtol=1e-3), 0.1)
+    return of_speed(line_balance(wave, 0.1, rtol=1e-3, length=1), 0.1)
 
 
 def slow_clock(t: object) -> np.ndarray:
@@ -91,11 +91,11 @@ def stopping(load: str = "current") -> FieldWave:
 
 def stops() -> Outcome:
     """Dry friction knows no rate: over a period the body comes as far as with the steady wave."""
-    return of_speed(line_balance(stopping(), 0.1, rtol=1e-3), float(line_speed(0.1)))
+    return of_speed(line_balance(stopping(), 0.1, rtol=1e-3, length=1), float(line_speed(0.1)))
 
 
 def stops_viscous() -> Outcome:
-    found = line_balance(stopping(), 0.1, friction="viscous", rtol=1e-3)
+    found = line_balance(stopping(), 0.1, friction="viscous", rtol=1e-3, length=1)
     return of_speed(found, float(line_speed_viscous(0.1)))
 
 

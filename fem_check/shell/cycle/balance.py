@@ -14,8 +14,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fem_check.shell.cycle.contact import Contact
+from fem_check.shell.cycle.frame import gyration
 from fem_check.shell.cycle.motion import CycleMotion, is_mirrored
 from fem_check.shell.cycle.shapes import Shapes
+from fem_check.shell.places import ROUNDOFF, distinct
 from linear_theory.balance import Balance, RigidMotion
 from linear_theory.rigid import RigidNorm
 from linear_theory.time_grid import TimeGrid, first_grid
@@ -39,8 +41,8 @@ STICKING = 0.01
 """Share of the sheet at rest that counts as sticking."""
 
 TIME_SHARE, HIDDEN = 0.3, 0.1
-"""Share of the tolerance that the quadrature in time may take, and share of that up to which harmonics of
-the wave may go unseen by it."""
+"""Share of the tolerance that the quadrature in time may take, and share of that up to which harmonics
+of the wave may go unseen by it."""
 
 
 class Period(NamedTuple):
@@ -88,7 +90,7 @@ class CycleBalance:
     @cached_property
     def norm(self) -> RigidNorm:
         """By which motions and their errors are judged."""
-        return RigidNorm(self.shapes.scene.sheet, self.mirrored)
+        return RigidNorm(gyration(self.shapes.discretisation), self.mirrored)
 
     @property
     def noise(self) -> float:
@@ -169,8 +171,10 @@ class CycleBalance:
         if self.reversal_time is not None:
             times = np.concatenate([times, self.reversal_time - times])
             rigid = np.concatenate([rigid, rigid], axis=1)
-        times, first = np.unique(np.round(np.mod(times / length, 1), 12) % 1, return_index=True)
-        return times * length, rigid[:, first]
+        share = np.mod(times / length, 1)
+        share[share > 1 - ROUNDOFF] = 0.0  # the end of a period is the start of the next
+        _, first = np.unique(distinct(share)[1], return_index=True)
+        return share[first] * length, rigid[:, first]
 
     def _finer(self, grid: TimeGrid, speeds: Array, goal: float) -> TimeGrid | None:
         """The grid that the goal asks for; None where it is met and no harmonic of the shapes hides."""

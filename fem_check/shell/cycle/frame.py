@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from fem_check.shell.cycle.shapes import Shapes, harmonics, time_factors
 from fem_check.shell.discretisation import Discretisation
 from linear_theory.path import Poses
+from linear_theory.rigid import centre_and_gyration
 
 Array = NDArray[np.float64]
 
@@ -34,6 +35,12 @@ def moments(discretisation: Discretisation, states: Array) -> Array:
         place, along_x, along_y = region.position(state, (0, 1, 2))[:, :2] @ mass
         found.append([*place, along_x[0] + along_y[1], along_x[1] - along_y[0]])
     return np.array(found)
+
+
+def gyration(discretisation: Discretisation) -> float:
+    """Radius of gyration of the undeformed area about its centre of mass, units of length."""
+    region = discretisation.interior
+    return centre_and_gyration(region.reference[0, :2], region.measure)[1]
 
 
 def poses(discretisation: Discretisation, times: Array, states: Array) -> Poses:

@@ -13,20 +13,18 @@ from fem_check.shell.cycle.shapes import Shapes, time_factors
 from fem_check.shell.discretisation import Discretisation
 from fem_check.shell.effects.ground import Ground
 from fem_check.shell.growth import metric_factor
+from fem_check.shell.places import ROUNDOFF
 from fem_check.shell.region import Region
 from fem_check.triangles import quadrilateral_points
+from linear_theory.errors import SheetcrawlError
 from linear_theory.motion import Motion
 from linear_theory.waves import TravellingWave
 
 Array = NDArray[np.float64]
 
 
-class UnresolvedError(ArithmeticError):
+class UnresolvedError(SheetcrawlError, ArithmeticError):
     """The shapes are too few: between them the interpolated sheet is inverted or leaves the ground."""
-
-
-ROUNDOFF = 1e-9
-"""Distances of vertices from the line x = 0 that count as none, units of length over the size 1."""
 
 
 def is_mirrored(shapes: Shapes, axis: int = 0) -> bool:
@@ -89,7 +87,8 @@ class CycleMotion:
         sheet = self.shapes.discretisation
         elements = np.arange(sheet.mesh.nelements)
         across = sheet.mesh.p[0, sheet.mesh.t]
-        if self.mirrored and not np.any((across.min(0) < -ROUNDOFF) & (across.max(0) > ROUNDOFF)):
+        none = ROUNDOFF * np.ptp(across)
+        if self.mirrored and not np.any((across.min(0) < -none) & (across.max(0) > none)):
             elements = elements[across.mean(0) > 0]  # no element crosses x = 0: one half will do
         points, jacobian = cell_points(sheet, self.order)
         mapping = sheet.mesh._mapping()
@@ -180,4 +179,4 @@ def _centres(mesh: Any) -> Array:
 
 def _same_points(p: Array, q: Array) -> bool:
     """Whether two sets of points (2, n) are the same but for their order and roundoff."""
-    return bool(cKDTree(p.T).query(q.T)[0].max() < 1e-9 * np.ptp(p))
+    return bool(cKDTree(p.T).query(q.T)[0].max() < ROUNDOFF * np.ptp(p))

@@ -24,6 +24,7 @@ from fem_check.shell.statics.newton import Minimiser
 from fem_check.shell.statics.ramp import follow_mode, ramp
 from fem_check.shell.supports import Supports
 from linear_theory import validation
+from linear_theory.threads import one_blas_thread
 
 Array = NDArray[np.float64]
 
@@ -111,6 +112,7 @@ def time_factors(times: ArrayLike, period: float, highest: int) -> tuple[Array, 
     return values, slopes
 
 
+@one_blas_thread
 def cycle_of_shapes(scene: Scene, count: int = 16, known: Shapes | None = None) -> Shapes:
     """Static shapes at `count` equidistant phases of one period, growth ramped up at the first.
 

@@ -22,10 +22,12 @@ from fem_check.shell.cycle.motion import UnresolvedError, is_mirrored
 from fem_check.shell.cycle.shapes import Shapes, cycle_of_shapes, static_effects
 from fem_check.shell.effects.friction import Friction
 from fem_check.shell.effects.koiter import Membrane
+from fem_check.shell.places import distinct
 from fem_check.shell.scene import Scene
 from linear_theory import validation
 from linear_theory.friction import warn_if_viscous
 from linear_theory.speed import CrawlSpeed
+from linear_theory.threads import one_blas_thread
 from linear_theory.waves import TravellingWave
 
 Array = NDArray[np.float64]
@@ -97,10 +99,12 @@ class Cycle:
     """
 
     def __init__(self, scene: Scene) -> None:
-        CYCLE.require(scene)
-        self.scene = scene
+        hint = "its arguments are sheet, wave, alpha and effects"
+        self.scene = validation.instance("scene", scene, Scene, hint)
+        CYCLE.require(self.scene)
         self._shapes = KeptShapes(scene)
 
+    @one_blas_thread
     def speed(
         self,
         load: str | None = None,
@@ -120,6 +124,7 @@ class Cycle:
         balance, period, phase_error = _with_enough_phases(self._shapes, contact, rtol, atol)
         error = period.error + phase_error + self._mesh_error(balance, period)
         times, rigid = balance.whole_period(period)
+        fastest = period.fastest if period.fastest > balance.noise else 0.0
         return CrawlSpeed(
             mean=float(period.mean[1]),
             error=float(error[1]),
@@ -129,7 +134,7 @@ class Cycle:
             velocity=rigid[1],
             seconds=time.perf_counter() - start,
             model=_words(scene, contact),
-            slip_ratio=contact.law.slip_ratio(period.fastest),
+            slip_ratio=contact.law.slip_ratio(fastest),
             first_order=0.0 if _starts_at_second_order(scene, contact) else math.nan,
             sticks=period.sticks,
             rigid=None if balance.mirrored else rigid,
@@ -221,8 +226,8 @@ def _hidden(balance: CycleBalance, count: int) -> float:
 
 def _speeds_of_harmonics(shapes: Shapes) -> Array:
     """Size of the velocity of each harmonic 1 ... K, (K,), any unit."""
-    count = len(shapes.states) // 2
-    size = np.linalg.norm(shapes.harmonics[1:], axis=1)
+    count, sheet = len(shapes.states) // 2, shapes.discretisation
+    size = np.linalg.norm(shapes.harmonics[1:] / np.repeat(sheet.units, sheet.components), axis=1)
     return np.hypot(size[:count], size[count:]) * np.arange(1, count + 1)
 
 
@@ -232,7 +237,7 @@ def other_mesh(mesh: Any) -> tuple[Any, float]:
     Of a grid of rectangles one with half as many lines, which costs a quarter; of any other mesh its
     refinement, which costs more than the speed itself.
     """
-    lines = [np.unique(np.round(p, 12)) for p in mesh.p]
+    lines = [distinct(p)[0] for p in mesh.p]
     counts = np.array([line.size - 1 for line in lines])
     if (
         mesh.t.shape[0] != 4

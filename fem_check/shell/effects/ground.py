@@ -1,29 +1,24 @@
 """The ground: a repulsion that grows with the square of the penetration, and contact damping."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import Protocol
+from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from fem_check.shell.effects.effect import Effect, outer
 from fem_check.shell.effects.gravity import check_area
+from fem_check.shell.effects.terrain import Terrain
 from fem_check.shell.point_state import AREAS, PointState
 from fem_check.shell.rates import Step
 from fem_check.shell.region import Entries
 from linear_theory import validation
+from linear_theory.sheet import Sheet
 
 Array = NDArray[np.float64]
 
 FORMS = ("clipped", "printed")
-
-
-class Height(Protocol):
-    """The height of the ground, z = f(x, y)."""
-
-    def __call__(self, x: Array, y: Array) -> Array:
-        """f, f_x, f_y, f_xx, f_yy, f_xy at the points, (6, points)."""
 
 
 @dataclass(frozen=True)
@@ -33,14 +28,16 @@ class Ground:
     The pressure acts along the gradient of the gap, (-f_x, -f_y, 1). stiffness: k > 0, force per
     length^4. damping: beta >= 0, force times time per length^3; v is the rate of the gap. form:
     "clipped", the pressure is never negative; "printed": as eq. 2 stands, damping pulls at a sheet
-    that leaves. area: what the pressure is counted in, see `AREAS`. height: None is the plane z = 0.
-    Raises ValueError for a stiffness <= 0, a damping < 0 and for other names.
+    that leaves. area: what the pressure is counted in, see `AREAS`. height: None is the plane z = 0;
+    else a function z = f(x, y), one that returns f with its derivatives, a sympy expression in x and y,
+    or a `Terrain` of one of these, which it becomes.
+    Raises ValueError for a stiffness <= 0, a damping < 0, other names and as `Terrain` does.
     """
 
     stiffness: float
     damping: float = 0.0
     area: str = "grown"
-    height: Height | None = None
+    height: Any = None
     form: str = "clipped"
     entries: Entries = (0,)
 
@@ -50,6 +47,12 @@ class Ground:
             raise ValueError(f"damping = {self.damping:g}: must be >= 0")
         validation.choice("area", self.area, AREAS)
         validation.choice("form", self.form, FORMS)
+        if self.height is not None and not isinstance(self.height, Terrain):
+            object.__setattr__(self, "height", Terrain(self.height))
+
+    def under(self, sheet: Sheet) -> "Ground":
+        """The ground of a scene: its terrain knows the sheet and has been checked around it."""
+        return self if self.height is None else replace(self, height=self.height.under(sheet))
 
     @property
     def reads_rest(self) -> bool:
@@ -60,7 +63,7 @@ class Ground:
         """z - f(x, y), (points,), at positions (3, points)."""
         if self.height is None:
             return np.asarray(position[2])
-        return np.asarray(position[2] - self.height(position[0], position[1])[0])
+        return np.asarray(position[2] - self.height.values(*position[:2]))
 
     def pressure(self, state: PointState) -> Array:
         """Minus the derivative of the potential per area by the gap, (points,)."""
@@ -106,7 +109,7 @@ class Ground:
         slope = self.gap_slope(state)
         out = rate * outer(slope, slope)
         if self.height is not None:
-            f = self.height(state.position[0], state.position[1])
+            f = self.height(*state.position[:2])
             for pair, entry in ((0, 3), (1, 5), (3, 4)):  # xx, xy, yy among the component pairs
                 out[pair] += pressure * area * f[entry]
         return np.asarray(out)[None, None]
@@ -116,7 +119,7 @@ class Ground:
         slope = np.zeros_like(state.position)
         slope[2] = 1
         if self.height is not None:
-            slope[:2] = -self.height(state.position[0], state.position[1])[1:3]
+            slope[:2] = -self.height.slopes(*state.position[:2])
         return slope
 
     def _drag(self, state: PointState) -> tuple[float, Array]:

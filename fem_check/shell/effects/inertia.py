@@ -31,6 +31,7 @@ class Inertia:
 
     def __post_init__(self) -> None:
         validation.positive("density", self.density)
+        validation.instance("material", self.material, Material)
 
     def _mass(self, state: PointState) -> Array:
         return np.asarray(self.density * self.material.thickness * state.measure)

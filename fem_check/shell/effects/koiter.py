@@ -23,6 +23,7 @@ from fem_check.shell.material import Material
 from fem_check.shell.point_state import PointState, dot
 from fem_check.shell.rates import Step
 from fem_check.shell.region import Entries
+from linear_theory import validation
 
 Array = NDArray[np.float64]
 
@@ -44,6 +45,9 @@ class Membrane(NoConditions):
     material: Material
     entries: Entries = (1, 2)
     reads_rest: bool = True
+
+    def __post_init__(self) -> None:
+        validation.instance("material", self.material, Material)
 
     def strain(self, state: PointState) -> Array:
         """alpha = (a - abar)/2, (3, points), covariant."""
@@ -91,6 +95,9 @@ class Bending:
     material: Material
     entries: Entries = (1, 2, 3, 4, 5)
     reads_rest: bool = True
+
+    def __post_init__(self) -> None:
+        validation.instance("material", self.material, Material)
 
     def moment(self, state: PointState) -> Array:
         """-m^ab of appendix A.2, D H (b - bbar), (3, points), contravariant, times the measure."""

@@ -5,10 +5,12 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from linear_theory.errors import SheetcrawlError
+
 Array = NDArray[np.float64]
 
 
-class ConvergenceError(RuntimeError):
+class ConvergenceError(SheetcrawlError, RuntimeError):
     """No minimum was found. `state` (size,): the last that was reached, at `parameter` of a ramp."""
 
     def __init__(self, message: str, state: Array, parameter: float = 1.0) -> None:
@@ -28,8 +30,8 @@ class Equilibrium:
     method, all steps of a ramp together. residual: root mean square over the sheet of the last
     correction, in units of length; what is left after it is smaller, about its square. seconds: time
     spent. negative_curvature: lowest eigenvalue of the Hessian scaled to a unit diagonal, NaN where
-    it is positive definite. mode (size,): its direction, largest component 1; None where there is
-    none.
+    it is positive definite. mode (size,): its direction, largest component 1 in the units of
+    `Discretisation.units`; None where there is none.
     """
 
     state: Array

@@ -4,15 +4,14 @@ On a sheet that is long and narrow a banded Cholesky factor after reverse Cuthil
 solvers; a wide unstructured outline goes to SuperLU.
 """
 
-from typing import Any, Protocol
+from typing import Protocol
 
 import numpy as np
-import scipy.sparse as sp
-import scipy.sparse.linalg as spla
 from numpy.typing import NDArray
 from scipy.linalg import lapack
 
 from fem_check.shell.statics.sparsity import Sparsity
+from fem_check.sparse_factor import SparseFactor
 
 Array = NDArray[np.float64]
 
@@ -39,17 +38,6 @@ class BandedFactor:
         return np.asarray(solution)
 
 
-class SparseFactor:
-    """SuperLU factor without pivoting, of a positive definite matrix."""
-
-    def __init__(self, factor: Any) -> None:
-        self._factor = factor
-
-    def solve(self, right: Array) -> Array:
-        """See Factor."""
-        return np.asarray(self._factor.solve(right))
-
-
 def factorise(sparsity: Sparsity, values: Array) -> Factor | None:
     """Factor of the matrix with these stored entries; None if it is not positive definite."""
     if not np.all(np.isfinite(values)):
@@ -68,12 +56,8 @@ def _banded(sparsity: Sparsity, values: Array) -> Factor | None:
 
 
 def _sparse(sparsity: Sparsity, values: Array) -> Factor | None:
-    matrix = sp.csc_matrix(sparsity.matrix(values))
-    options = {"SymmetricMode": True}
+    factor = SparseFactor(sparsity.matrix(values))
     try:
-        factor = spla.splu(matrix, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options=options)
+        return factor if factor.is_definite else None
     except RuntimeError:  # exactly singular
         return None
-    # Without row exchanges the signs of U's diagonal are those of the eigenvalues.
-    definite = np.array_equal(factor.perm_r, factor.perm_c) and bool(np.all(factor.U.diagonal() > 0))
-    return SparseFactor(factor) if definite else None

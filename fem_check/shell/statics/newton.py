@@ -14,6 +14,7 @@ from fem_check.shell.statics.sparsity import Sparsity
 from fem_check.shell.statics.stability import NEUTRAL, lowest_mode
 from fem_check.shell.supports import Supports
 from linear_theory import validation
+from linear_theory.threads import one_blas_thread
 
 Array = NDArray[np.float64]
 
@@ -60,8 +61,11 @@ class Minimiser:
         self.iterations = validation.integer("iterations", self.iterations, 1)
         self.sparsity = Sparsity(self.supports.discretisation, self.supports.free)
         self.region = self.supports.discretisation.interior
+        units = np.repeat(self.supports.discretisation.units, self.sparsity.components)
+        self.units = units[self.sparsity.order]
         self.orientation = Orientation(self.region)
 
+    @one_blas_thread
     def minimise(self, potential: Potential, start: Array, patience: int = 1) -> Equilibrium:
         """The minimum next to `start` (size,), within `patience` times the usual iterations.
 
@@ -97,15 +101,27 @@ class Minimiser:
         values = self.sparsity.assemble(potential.hessian_blocks(u))
         if not np.all(np.isfinite(values)):
             raise ConvergenceError("the Hessian is not finite", u)
-        diagonal = np.abs(values[self.sparsity.diagonal])
-        scale = np.maximum(diagonal, 1e-12 * diagonal.max())
         factor, used = factorise(self.sparsity, values), 0.0
         while factor is None:
             used = max(FIRST_SHIFT, shift / 10) if used == 0 else 10 * used
-            shifted = values.copy()
-            shifted[self.sparsity.diagonal] += used * scale
-            factor = factorise(self.sparsity, shifted)
-        return Factorised(values, scale, used, factor)
+            factor = factorise(self.sparsity, self._shifted(values, used))
+        return Factorised(values, self._scale(values), used, factor)
+
+    def factorised_again(self, values: Array, shift: float) -> "Factorised":
+        """Bit for bit the factor that had these entries and this shift."""
+        factor = factorise(self.sparsity, values if shift == 0 else self._shifted(values, shift))
+        assert factor is not None
+        return Factorised(values, self._scale(values), shift, factor)
+
+    def _scale(self, values: Array) -> Array:
+        """What shifts of the diagonal are multiples of, (n,)."""
+        diagonal = np.abs(values[self.sparsity.diagonal]) * self.units**2
+        return np.asarray(np.maximum(diagonal, 1e-12 * diagonal.max()) / self.units**2)
+
+    def _shifted(self, values: Array, shift: float) -> Array:
+        shifted = values.copy()
+        shifted[self.sparsity.diagonal] += shift * self._scale(values)
+        return shifted
 
 
 @dataclass(frozen=True, eq=False)
@@ -191,7 +207,8 @@ class _Search:
         """Whether a step at the bottom of the energy halves the forces."""
         assert self.current is not None
         flat = self.current.shift == 0 and -slope <= UNSEEN * abs(self.energy)
-        return bool(flat and 4 * (force @ force) <= self.gradient @ self.gradient)
+        after, before = ((f**2 / self.current.scale).sum() for f in (force, self.gradient))
+        return bool(flat and 4 * after <= before)
 
     @property
     def shifted(self) -> bool:
@@ -207,9 +224,10 @@ class _Search:
         self.minimiser.kept = here
         if here.shift == 0:
             return np.nan, None
-        lowest, direction = lowest_mode(sparsity, here.values, here.factor, here.shift, here.scale)
+        lowest, direction = lowest_mode(sparsity, here.factor, here.shift, here.scale)
         if lowest > -NEUTRAL:
             return np.nan, None
         mode = np.zeros_like(self.state)
-        mode[sparsity.order] = direction
+        lengths = direction / self.minimiser.units
+        mode[sparsity.order] = direction / lengths[np.abs(lengths).argmax()]
         return lowest, mode

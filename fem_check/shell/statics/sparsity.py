@@ -10,6 +10,7 @@ from scipy.sparse.csgraph import reverse_cuthill_mckee
 
 from fem_check.shell.discretisation import Discretisation
 from fem_check.shell.effects.effect import PAIRS
+from fem_check.shell.places import distinct
 from fem_check.shell.potential import Blocks
 from fem_check.shell.region import Region
 
@@ -112,7 +113,7 @@ def _narrowest(dofs: Integers, places: Array) -> Integers:
     shapes, count = dofs.shape[1], places.shape[1]
     rows, columns = np.repeat(dofs, shapes, axis=1).ravel(), np.tile(dofs, (1, shapes)).ravel()
     graph = sp.csr_matrix((np.ones(rows.size), (rows, columns)), shape=(count, count))
-    x, y = np.round(places, 12)
+    x, y = (distinct(along)[1] for along in places)
     candidates = [
         reverse_cuthill_mckee(graph, symmetric_mode=True),
         np.lexsort((x, y)),

@@ -13,14 +13,12 @@ NEUTRAL = 1e-10
 """Eigenvalues closer to 0 than this are rigid motions and roundoff, not buckling."""
 
 
-def lowest_mode(
-    sparsity: Sparsity, values: Array, factor: Factor, shift: float, scale: Array
-) -> tuple[float, Array]:
+def lowest_mode(sparsity: Sparsity, factor: Factor, shift: float, scale: Array) -> tuple[float, Array]:
     """Lowest eigenvalue and eigenvector of H x = lambda diag(scale) x.
 
-    values: stored entries of H. factor: of H + shift diag(scale), positive definite. scale (n,).
-    The eigenvector (n,) of the free unknowns has a largest component of 1. Lanczos iteration on the
-    inverse of the shifted matrix, from a fixed start, so that results repeat.
+    factor: of H + shift diag(scale), positive definite. scale (n,). The eigenvector (n,) of the free
+    unknowns has any size and sign. Lanczos iteration on the inverse of the shifted matrix, from a fixed
+    start, so that results repeat.
     """
     root = np.sqrt(scale)
     inverse = LinearOperator(
@@ -28,5 +26,4 @@ def lowest_mode(
     )
     start = np.random.default_rng(0).standard_normal(sparsity.size)
     largest, vectors = eigsh(inverse, k=1, which="LA", v0=start, tol=1e-6)
-    mode = vectors[:, 0] / root
-    return float(1 / largest[0] - shift), mode / mode[np.abs(mode).argmax()]
+    return float(1 / largest[0] - shift), np.asarray(vectors[:, 0] / root)

@@ -25,11 +25,12 @@ COLUMNS = (
 class Record:
     """Rows of COLUMNS, one per accepted step and one for the start, and some of the states.
 
-    times, states: kept states and when. rejected: steps that were repeated, for their error or because
-    no minimum was found.
+    probes: positions (points, components) of a few points, one for each row. times, states: kept states
+    and when. rejected: steps that were repeated, for their error or because no minimum was found.
     """
 
     rows: list[Array] = field(default_factory=list)
+    probes: list[Array] = field(default_factory=list)
     times: list[float] = field(default_factory=list)
     states: list[Array] = field(default_factory=list)
     rejected: int = 0
@@ -40,18 +41,30 @@ class Record:
         centre: Array,
         works: Works,
         slide: Sliding,
-        counts: tuple[int, int, bool] = (0, 0, False),
+        probes: Array,
+        counts: tuple[int, int, bool],
     ) -> None:
         """One more row; centre (components,)."""
         place = np.zeros(3)
         place[: centre.size] = centre
         numbers = [slide.fastest, slide.linear, *slide.step, *slide.slip, *counts]
         self.rows.append(np.array([time, *place, *(float(w) for w in works), *numbers]))
+        self.probes.append(np.array(probes))
 
     def keep(self, time: float, state: Array) -> None:
         """One more state."""
         self.times.append(time)
         self.states.append(state)
+
+    def cut(self, rows: int, kept: int) -> None:
+        """Drop what is beyond so many rows and kept states."""
+        for entries, count in (
+            (self.rows, rows),
+            (self.probes, rows),
+            (self.times, kept),
+            (self.states, kept),
+        ):
+            del entries[count:]
 
     @property
     def table(self) -> dict[str, Array]:

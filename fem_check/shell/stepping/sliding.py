@@ -39,7 +39,8 @@ def sliding(friction: Friction, state: PointState, error: Array, measure: Array)
     assert state.step.velocity is not None
     velocity, load = friction.velocity(state)[:2], state.step.load
     speed = np.sqrt(dot(velocity, velocity))
-    share = load[speed < friction.slip_speed].sum() / max(load.sum(), 1e-300)
+    total = load.sum()
+    share = load[speed < friction.slip_speed].sum() / total if total > 0 else 0.0
     tangent = friction.hessian(state)[0, 0] / state.step.velocity.rate
     pairs = tangent[[0, 1, 3]] if state.components == 3 else tangent
     # Of a velocity error the mean over the sheet is seen directly, and the rest through friction.
@@ -76,7 +77,8 @@ def _slip_change(friction: Friction, velocity: Array, load: Array) -> Array:
         change = _solve(_tangent(moved, load, slip), lacking)
         after = target - _forces(moved + change[:, None], load, slip)
         if not np.abs(after).max() < np.abs(lacking).max():
-            change = lacking / max((load * _secants(moved, slip)).sum(), 1e-300)
+            stiffness = (load * _secants(moved, slip)).sum()
+            change = lacking / stiffness if stiffness > 0 else np.zeros(2)
             after = target - _forces(moved + change[:, None], load, slip)
         w, lacking = w + change, after
         if np.abs(change).max() < 1e-6 * slip:

@@ -1,23 +1,29 @@
 """Snapshots of a run: plain npz files, written atomically, refused when they are not what they were."""
 
+import contextlib
 import hashlib
 import io
+import json
 import os
+import platform
 import struct
 import zipfile
 import zlib
-from dataclasses import fields, is_dataclass
+from dataclasses import fields
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from fem_check.shell.effects.ground import Ground
 from fem_check.shell.scene import Scene
+from fem_check.shell.stepping.settings import Settings
+from linear_theory.errors import SheetcrawlError, Unidentifiable
+from linear_theory.identity import content_key
 
 Array = NDArray[np.float64]
 
-VERSION = 1
+VERSION = 2
 
 _DAMAGED = (
     *(zipfile.BadZipFile, zlib.error, struct.error, UnicodeDecodeError),
@@ -25,11 +31,35 @@ _DAMAGED = (
 )
 """What numpy and zipfile raise for files that are not what they should be."""
 
-_LABELS = ("version", "checksum", "fingerprint")
+_LABELS = ("version", "checksum", "fingerprint", "python")
+
+_PHASES = (0.0, 0.1234, 0.5678)
+"""Of the period; no usual wave repeats itself there."""
 
 
-class SnapshotError(ValueError):
-    """A snapshot that cannot be gone on from: truncated, altered, of another version or another run."""
+class SnapshotError(SheetcrawlError, ValueError):
+    """A snapshot that cannot be written, or not be gone on from: damaged, altered or of another run."""
+
+
+def check_path(path: Path) -> None:
+    """Raise SnapshotError if there can be no snapshot at a path."""
+    if os.path.isdir(path):  # not path.is_dir(), which fails for names that are too long
+        raise SnapshotError(f"snapshot = {path}: must be a file, is a folder")
+    if not os.path.isdir(path.parent):
+        raise SnapshotError(f"snapshot = {path}: must be in a folder that exists; make {path.parent}")
+
+
+def check_writable(path: Path) -> None:
+    """Raise SnapshotError if the snapshot cannot be written, found out by writing next to it."""
+    temporary = _temporary(path)
+    try:
+        temporary.touch()
+    except OSError as error:
+        reason = error.strerror or str(error)
+        raise SnapshotError(f"snapshot = {path}: cannot be written there ({reason})") from None
+    finally:
+        with contextlib.suppress(OSError):
+            temporary.unlink()
 
 
 def save_snapshot(path: Path, arrays: dict[str, Array], owner: str) -> None:
@@ -38,8 +68,9 @@ def save_snapshot(path: Path, arrays: dict[str, Array], owner: str) -> None:
         "version": np.array(VERSION),
         "fingerprint": np.array(owner),
         "checksum": np.array(checksum(arrays, owner)),
+        "python": np.array(platform.python_version()),
     }
-    temporary = path.with_name(f"{path.name}.{os.getpid()}.tmp")
+    temporary = _temporary(path)
     try:
         with open(temporary, "wb") as file:
             np.savez(file, allow_pickle=False, **arrays, **labels)
@@ -50,26 +81,35 @@ def save_snapshot(path: Path, arrays: dict[str, Array], owner: str) -> None:
         temporary.unlink(missing_ok=True)
 
 
+def _temporary(path: Path) -> Path:
+    return path.with_name(f"{path.name}.{os.getpid()}.tmp")
+
+
 def load_snapshot(path: Path, owner: str) -> dict[str, Array]:
     """Arrays of a snapshot. Raises SnapshotError, saying why, if they are not to be trusted."""
-    contents = io.BytesIO(path.read_bytes())
+    try:
+        contents = io.BytesIO(path.read_bytes())
+    except OSError as error:
+        raise SnapshotError(f"snapshot {path}: cannot be read ({error.strerror})") from None
     try:
         with np.load(contents, allow_pickle=False) as file:
             found = {name: file[name] for name in file.files}
     except _DAMAGED as error:
         raise SnapshotError(f"snapshot {path}: is truncated or damaged ({error})") from error
+    version = found.get("version")
+    if version is not None and version != VERSION:
+        raise SnapshotError(
+            f"snapshot {path}: has version {version}, this program reads {VERSION}; remove the "
+            "file, or name another one, to start from the beginning"
+        )
     missing = [name for name in _LABELS if name not in found]
     if missing:
         raise SnapshotError(f"snapshot {path}: is no snapshot of a simulation (no {missing[0]})")
-    version, stored, fingerprint = (found.pop(name) for name in _LABELS)
-    if version != VERSION:
-        raise SnapshotError(f"snapshot {path}: has version {version}, this program reads {VERSION}")
+    _, stored, fingerprint, python = (found.pop(name) for name in _LABELS)
     if str(stored) != checksum(found, str(fingerprint)):
         raise SnapshotError(f"snapshot {path}: was altered, its checksum does not fit its contents")
     if str(fingerprint) != owner:
-        raise SnapshotError(
-            f"snapshot {path}: belongs to another scene or to a run with other settings"
-        )
+        raise SnapshotError(f"snapshot {path}: {_differences(str(fingerprint), owner, str(python))}")
     return found
 
 
@@ -83,33 +123,53 @@ def checksum(arrays: dict[str, Array], owner: str) -> str:
     return digest.hexdigest()
 
 
-def fingerprint(scene: Scene, settings: Any) -> str:
-    """SHA-256 of all that determines a run: the scene's values, mesh and element, and settings.
+def fingerprint(scene: Scene, settings: Settings) -> str:
+    """All that determines a run, as JSON: the key of the content of each part by its name.
 
-    A wave or height that is a function of no dataclass is known by its values at the points.
+    Values of the functions belong to it too: a name that stands for another one shall not pass.
+    Raises Unidentifiable for a function without content or name.
     """
     discretisation = scene.discretisation()
+    mesh = discretisation.mesh
     x, y = discretisation.interior.parameters.reshape(2, -1)
-    digest = hashlib.sha256(f"{VERSION} {settings!r} ".encode())
-    for name in ("sheet", "alpha", "curvature_coupling", "growth_law", "curvature", "area", "effects"):
-        digest.update(_canonical(getattr(scene, name), x, y).encode())
-    for t in (0.0, 0.1234, 0.5678):  # phases at which no usual wave repeats itself
-        digest.update(scene.growth(t * scene.period, x, y).tobytes())
-    digest.update(f"{scene.period!r} {type(discretisation.element).__name__} {x.size}".encode())
-    digest.update(np.ascontiguousarray(discretisation.mesh.p).tobytes())
-    digest.update(np.ascontiguousarray(discretisation.mesh.t).tobytes())
-    return digest.hexdigest()
+    values = [scene.growth(phase * scene.period, x, y) for phase in _PHASES]
+    ground: Ground | None = scene.find(Ground)
+    hill = None if ground is None else ground.height
+    parts = {
+        **{f.name: getattr(scene, f.name) for f in fields(scene) if f.name != "cells"},
+        **{f.name: getattr(settings, f.name) for f in fields(settings)},
+        "mesh": (type(mesh).__name__, mesh.doflocs, mesh.t, discretisation.degree),
+        # An element object fills up with tables; its functions are what tells it apart.
+        "element": (type(discretisation.element), discretisation.interior.shapes((0,))[0]),
+        "values of the wave": values,
+        "values of the ground": None if hill is None else hill.values(x, y),
+    }
+    return json.dumps({name: content_key(part, name) for name, part in parts.items()}, sort_keys=True)
 
 
-def _canonical(value: Any, x: Array, y: Array) -> str:
-    """Text that is the same whenever the values are."""
-    if is_dataclass(value):
-        inner = [f"{f.name}={_canonical(getattr(value, f.name), x, y)}" for f in fields(value)]
-        return f"{type(value).__name__}({', '.join(inner)})"
-    if isinstance(value, tuple | list):
-        return f"[{', '.join(_canonical(v, x, y) for v in value)}]"
-    if callable(value):
-        return hashlib.sha256(np.asarray(value(x, y)).tobytes()).hexdigest()
-    if isinstance(value, np.ndarray):
-        return f"{value.shape}{value.tobytes().hex()}"
-    return repr(value)
+def run_fingerprint(path: Path, scene: Scene, settings: Settings) -> str:
+    """The same for a run with a snapshot. Raises SnapshotError, saying what to do, without one."""
+    try:
+        return fingerprint(scene, settings)
+    except Unidentifiable as error:
+        raise SnapshotError(
+            f"snapshot = {path}: must be None unless the run can be known again, and {error}; give the "
+            "function a name: FieldWave(..., name=...), Terrain(..., name=...)"
+        ) from error
+
+
+def _differences(theirs: str, mine: str, python: str) -> str:
+    """What two fingerprints do not share, as the end of a sentence."""
+    text = "belongs to another scene or to a run with other settings"
+    try:
+        old, new = json.loads(theirs), json.loads(mine)
+        names = sorted(name for name in old.keys() | new.keys() if old.get(name) != new.get(name))
+    except (ValueError, AttributeError):  # no fingerprint of this program
+        return text
+    text += f": other {', '.join(names)}"
+    if python != platform.python_version():
+        text += (
+            f" (it was written by Python {python}; functions are known by their compiled code, which "
+            "is not the same in all versions)"
+        )
+    return text

@@ -6,7 +6,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fem_check.shell.rates import Affine, newmark, two_step
-from linear_theory import validation
 from linear_theory.spectrum import Spectrum
 from linear_theory.wave_survey import PER_HARMONIC
 
@@ -14,6 +13,9 @@ Array = NDArray[np.float64]
 
 GROWTH = 1.6
 """Largest ratio of neighbouring steps; the two-step rule is stable up to 1 + sqrt 2."""
+
+LANDED = 1e-9
+"""Share of the period within which two times are one: ends of steps, of periods and those asked for."""
 
 SAFETY = 0.9
 
@@ -28,8 +30,8 @@ SHORT_HARMONIC = 8
 """The highest harmonic of the wave up to which steps so short serve."""
 
 FEWEST, GIVEN_SHARE = 4, 0.1
-"""Steps to the period of a harmonic, at least, where their number is given, and the share of the rate of
-growth that may lie in higher ones."""
+"""Steps to the period of a harmonic, at least, where their number is given, and the share of the rate
+of growth that may lie in higher ones."""
 
 SINE = Spectrum(np.ones(1), 0.0)
 """A wave that is a sine in time."""
@@ -152,20 +154,14 @@ class StepSize:
         return dt > (1 + 1e-9) * self.smallest
 
 
-def step_size(
-    period: float, rtol: float | None, steps: int | None, rates: Spectrum = SINE
-) -> StepSize:
+def step_size(period: float, rtol: float | None, steps: int | None, rates: Spectrum = SINE) -> StepSize:
     """Step of period/steps, or one that adapts to rtol and starts with an eighth of what a sine needs.
 
-    rates: harmonics in time of the rate of growth; each that matters is met by PER_HARMONIC steps to its
-    period at least, since what falls between the steps is in no error of theirs.
-    Raises ValueError for values out of range, if both are given, and for steps too few, or a wave too
-    rough, for them to see how it grows.
+    rates: harmonics in time of the rate of growth; each that matters is met by PER_HARMONIC steps to
+    its period at least, since what falls between the steps is in no error of theirs.
+    Raises ValueError for steps too few, or a wave too rough, for them to see how it grows.
     """
     if steps is not None:
-        if rtol is not None:
-            raise ValueError(f"steps = {steps!r}: must be None where rtol = {rtol!r} is given")
-        steps = validation.integer("steps", steps, 4)
         needed = FEWEST * _harmonic(rates, GIVEN_SHARE)
         if steps < needed:
             raise ValueError(
@@ -173,18 +169,16 @@ def step_size(
                 f"{needed // FEWEST} of the wave, beyond which is less than {GIVEN_SHARE:.0%} of its rate"
             )
         return StepSize(period / steps, period / steps / 1024, period / steps)
-    rtol = validation.tolerance(1e-2 if rtol is None else rtol)
+    assert rtol is not None
     harmonic = _harmonic(rates, rtol)
     # The slope of a sine of this period is right to (2 pi dt/period)^2/3.
     natural = period * np.sqrt(3 * rtol) / (2 * np.pi)
     shortest = natural / SHORTEST / max(harmonic / SHORT_HARMONIC, 1)
-    return StepSize(
-        natural / 8 / harmonic, shortest, period / max(12, PER_HARMONIC * harmonic), rtol
-    )
+    return StepSize(natural / 8 / harmonic, shortest, period / max(12, PER_HARMONIC * harmonic), rtol)
 
 
 def _harmonic(rates: Spectrum, share: float) -> int:
-    """The harmonic beyond which dc/dt has no more than that share; ten times that where it is not known.
+    """The harmonic beyond which dc/dt has no more than that share, or ten times it if that is unknown.
 
     Raises ValueError where even a tenth of dc/dt is beyond what is known: growth that jumps in time.
     """

@@ -109,10 +109,6 @@ class Stepper:
         """Rest state at time t, counted from the start of the ramp."""
         return self.scene.rest(t, self.amplitude(t))
 
-    def forget(self) -> None:
-        """Drop the kept factor, as at every snapshot, so that a resumed run does the same."""
-        self.minimiser.kept = None
-
     def attempt(
         self, history: History, dt: float, patience: int = 1, check: bool = False
     ) -> StepResult:
@@ -185,9 +181,13 @@ def amplitude(t: float, ramp: float) -> float:
 def change(before: Step, after: Step) -> float:
     """Largest relative change of what two steps hold fixed, summed over the points."""
     pairs = [(before.load, after.load), (before.area, after.area), (before.normal, after.normal)]
-    changes = [
-        float(np.abs(new - old).sum() / max(np.abs(new).sum(), 1e-300))
-        for old, new in pairs
-        if old is not None and new is not None
-    ]
+    changes = [_relative(old, new) for old, new in pairs if old is not None and new is not None]
     return max(changes, default=0.0)
+
+
+def _relative(before: Array, after: Array) -> float:
+    """Sum of the changes over the sum of the sizes after them; 0 where nothing changes."""
+    moved, size = float(np.abs(after - before).sum()), float(np.abs(after).sum())
+    if moved == 0:
+        return 0.0
+    return moved / size if size > 0 else np.inf

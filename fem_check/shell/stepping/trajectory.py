@@ -10,9 +10,10 @@ from numpy.typing import ArrayLike, NDArray
 from fem_check.shell.cycle.frame import poses
 from fem_check.shell.effects.friction import Friction
 from fem_check.shell.scene import Scene
+from fem_check.shell.stepping.between import between, interpolation_error, motion_around
 from fem_check.shell.stepping.power import Works
 from fem_check.shell.stepping.sliding import COMPARED
-from fem_check.shell.stepping.step_control import extrapolated
+from fem_check.shell.stepping.step_control import LANDED
 from fem_check.shell.stepping.stepper import amplitude
 from linear_theory import validation
 from linear_theory.path import Poses
@@ -20,8 +21,12 @@ from linear_theory.speed import CrawlSpeed, Regime, regime_of
 
 Array = NDArray[np.float64]
 
-NEIGHBOURS = 4
-"""Kept states that a shape between them is interpolated from."""
+SEEN = 1e-2
+"""Error of a shape between kept ones that is accepted unless another is asked for, as a share of the
+way that points of the sheet move in a period."""
+
+ROUNDOFF = 1e-8
+"""Error of any shape, in sizes of the sheet: what the minimisations leave (see `Minimiser`)."""
 
 MARGIN, UNCERTAIN = 1.25, 0.1
 """The step's error is this multiple of its estimate, which leaves out higher orders, and this share of
@@ -52,7 +57,8 @@ class Trajectory:
     """A simulated motion.
 
     start: when the first counted period begins, after the ramp of growth. table: columns of
-    `record.COLUMNS`. stored_times (n,), states (n, size): kept states. rejected: repeated steps.
+    `record.COLUMNS`. stored_times (n,), states (n, size): kept states. probes (steps + 1, points,
+    components): positions of a few points at all `times`. rejected: repeated steps.
     resumed_at: time of the snapshot that the run went on from, NaN if none. mesh_error: see
     `SpeedErrors`. seconds: spent, in this process.
 
@@ -70,6 +76,7 @@ class Trajectory:
     table: dict[str, Array] = field(repr=False)
     stored_times: Array = field(repr=False)
     states: Array = field(repr=False)
+    probes: Array = field(repr=False)
     rejected: int
     seconds: float
     resumed_at: float = np.nan
@@ -128,27 +135,62 @@ class Trajectory:
         """Share of the growth at time t: below 1 during the ramp."""
         return amplitude(t, self.start)
 
-    def shape(self, t: float) -> Array:
-        """Unknowns (size,) at time t, by a cubic through kept states. ValueError outside of them."""
-        t = validation.real("t", t)
-        first, last = self.stored_times[[0, -1]]
-        if not first <= t <= last:
-            raise ValueError(f"t = {t:g}: must be in [{first:g}, {last:g}], where states were kept")
+    def shape_error(self, t: float) -> float:
+        """Estimated error of the positions at time t from interpolation, length; 0 at kept times.
+
+        The largest over the sheet, of a cubic through kept states against the motion by all steps; the
+        error of the steps themselves is that of `errors`. Raises ValueError outside of the kept times.
+        """
+        t = self._within(t)
+        return interpolation_error(self.times, self.probes, self.buckled, self.stored_times, t)
+
+    def shape(self, t: float, rtol: float | None = SEEN) -> Array:
+        """Unknowns (size,) at time t: those of a kept state, or by a cubic through the four nearest.
+
+        rtol: largest `shape_error` as a share of the way that points move in the period around t; None
+        for any. Raises ValueError where it is larger, and outside of the kept times.
+        """
+        t = self._within(t)
         exact = np.flatnonzero(self.stored_times == t)
         if exact.size:
             return np.asarray(self.states[exact[0]])
-        count = min(NEIGHBOURS, self.stored_times.size)
-        place = int(np.searchsorted(self.stored_times, t)) - count // 2
-        begin = int(np.clip(place, 0, self.stored_times.size - count))
-        near = slice(begin, begin + count)
-        return extrapolated(self.stored_times[near], self.states[near], t)
+        if rtol is not None:
+            self._check_shape(t, validation.positive("rtol", rtol))
+        return between(self.stored_times, self.states, t)
 
-    def positions(self, t: float, points: ArrayLike | None = None) -> Array:
+    def _check_shape(self, t: float, rtol: float) -> None:
+        error = self.shape_error(t)
+        motion = motion_around(self.times, self.probes, t, self.scene.period)
+        size = np.sqrt(self.scene.discretisation().interior.measure.sum())
+        if error > rtol * motion + ROUNDOFF * size:
+            raise ValueError(
+                f"t = {t:g}: lies between kept states; there positions are known to {error:.2g}, more "
+                f"than rtol = {rtol:g} of the motion, {motion:.2g}. Take one of stored_times, or a "
+                "larger rtol, or simulate with a smaller keep_every or smaller steps"
+            )
+
+    def _within(self, t: float) -> float:
+        """A time at which shapes are known: a kept one where it is as good as that, or between them.
+
+        Raises ValueError for others.
+        """
+        t, kept = validation.real("t", t), self.stored_times
+        nearest = float(kept[np.abs(kept - t).argmin()])
+        if abs(nearest - t) <= LANDED * self.scene.period:
+            return nearest
+        if not kept[0] <= t <= kept[-1]:
+            raise ValueError(
+                f"t = {t:g}: must be in [{kept[0]:g}, {kept[-1]:g}], where states were kept"
+            )
+        return t
+
+    def positions(self, t: float, points: ArrayLike | None = None, rtol: float | None = SEEN) -> Array:
         """Positions (components, n) at time t of points (2, n) of the sheet; by default the vertices.
 
-        Raises ValueError outside the sheet and the kept times.
+        rtol: as of `shape`. Raises ValueError outside the sheet and the kept times, and where the shape
+        is not known to rtol.
         """
-        discretisation, u = self.scene.discretisation(), self.shape(t)
+        discretisation, u = self.scene.discretisation(), self.shape(t, rtol)
         mesh = discretisation.mesh
         region = discretisation.points(mesh.p if points is None else points)
         return np.asarray(region.position(u, (0,))[0])

@@ -1,0 +1,276 @@
+"""A simulation under way: everything that the next step depends on, saved, resumed and rewound."""
+
+import time
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fem_check.shell.effects.friction import Friction
+from fem_check.shell.point_state import PointState
+from fem_check.shell.rates import Affine, Step
+from fem_check.shell.scene import Scene
+from fem_check.shell.statics.equilibrium import ConvergenceError
+from fem_check.shell.statics.newton import Factorised
+from fem_check.shell.stepping.between import probe_region
+from fem_check.shell.stepping.power import Ledger, Moment, Works
+from fem_check.shell.stepping.record import Record
+from fem_check.shell.stepping.settings import Settings
+from fem_check.shell.stepping.sliding import Sliding, sliding
+from fem_check.shell.stepping.snapshot import check_writable, load_snapshot, save_snapshot
+from fem_check.shell.stepping.start import first_history
+from fem_check.shell.stepping.step_control import LANDED, History, step_size
+from fem_check.shell.stepping.stepper import Stepper, StepResult
+from fem_check.shell.stepping.trajectory import Trajectory
+from linear_theory.threads import one_blas_thread
+
+Array = NDArray[np.float64]
+
+SNAP, PATIENCE = 3, 10
+"""After so many failures in a row a step may take so many times the usual iterations: a sheet that
+snaps over goes a long way however short the step is."""
+
+CHECKED = 8
+"""Of so many steps one is checked for negative curvature at its end, which costs a Hessian: a kept
+factor, and symmetry, can hide it from the minimisations."""
+
+MOMENT = ("area", "sliding", "drag", "velocity")
+"""Arrays of a Moment that not every scene has."""
+
+
+class Progress(NamedTuple):
+    """time and end of the run, accepted and rejected steps, seconds spent and left (estimated)."""
+
+    time: float
+    end: float
+    steps: int
+    rejected: int
+    seconds: float
+    left: float
+
+
+class Target(NamedTuple):
+    """Where snapshots go: file, fingerprint of the run, steps between two of them."""
+
+    path: Path
+    owner: str
+    every: int
+
+
+class Landing(NamedTuple):
+    """The run after an accepted step: what the next one depends on, and how much was recorded.
+
+    sizes: of the next step and the largest velocity so far. counts: rejected steps, rows and kept
+    states of the record. factor: kept by the minimiser.
+    """
+
+    history: History
+    moment: Moment
+    sizes: tuple[float, float]
+    counts: tuple[int, int, int]
+    factor: Factorised | None
+
+
+class Run:
+    """A scene on its way through time."""
+
+    @one_blas_thread
+    def __init__(self, scene: Scene, settings: Settings) -> None:
+        self.scene, self.settings, period = scene, settings, scene.period
+        scene.survey.check_period()
+        self.size = step_size(period, settings.rtol, settings.steps, scene.survey.rates)
+        self.size.scale = abs(scene.alpha) * scene.sheet.length / period
+        self.start = settings.ramp * period
+        self.stepper = Stepper(scene, self.start, self.size.dt)
+        self.marks = self.start + period * np.arange(settings.periods + 1)
+        self.ledger, self.record = Ledger(scene), Record()
+        self.region, self.probes = self.stepper.region, probe_region(scene.discretisation())
+        self.history = first_history(self.stepper, self.size.dt, settings.velocity)
+        self.moment = self._first_moment()
+        self.landing = self._land()
+
+    @property
+    def steps(self) -> int:
+        """Accepted so far."""
+        return len(self.record.rows) - 1
+
+    @one_blas_thread
+    def finish(self, target: Target | None, report: Callable[[Progress], None] | None) -> None:
+        """Steps to the end, with a snapshot after every so many if there is a target for them."""
+        begin, before = time.perf_counter(), self.history.time
+        if target is not None and self._remaining() > 0:
+            check_writable(target.path)
+        while self._remaining() > 0:
+            self._advance()
+            self.landing = self._land()
+            if target is not None and (self.steps % target.every == 0 or self._remaining() <= 0):
+                self.save(target)
+            if report is not None:
+                now, end, spent = self.history.time, self.marks[-1], time.perf_counter() - begin
+                left = spent * (end - now) / max(now - before, 1e-300)
+                report(Progress(now, end, self.steps, self.record.rejected, spent, left))
+
+    def trajectory(self) -> Trajectory:
+        """What has been found so far."""
+        record = self.record
+        return Trajectory(
+            self.scene,
+            self.start,
+            record.table,
+            np.array(record.times),
+            np.array(record.states),
+            np.array(record.probes),
+            record.rejected,
+            0.0,
+            rtol=self.size.rtol,
+        )
+
+    def _remaining(self) -> float:
+        """Time to the next end of a period (or of the ramp); 0 at the end."""
+        tolerance = LANDED * self.scene.period
+        ahead = self.marks[self.marks > self.history.time + tolerance]
+        return float(ahead[0] - self.history.time) if ahead.size else 0.0
+
+    def _advance(self) -> None:
+        """One accepted step."""
+        failures, check = 0, len(self.record.rows) % CHECKED == 0
+        while True:
+            dt = self.size.within(self._remaining())
+            patience = PATIENCE if failures >= SNAP else 1
+            try:
+                result = self.stepper.attempt(self.history, dt, patience, check)
+            except ConvergenceError as error:
+                self._shorten(dt, error, last=patience > 1)
+                failures += 1
+                continue
+            wrong = self.history.velocity_error(result.state, dt)
+            velocity, _ = self.history.rules(dt)
+            if self.size.judge(dt, self._rms(wrong), self._rms(velocity(result.state))):
+                return self._accept(result, dt, wrong, velocity)
+            self.record.rejected += 1
+
+    def _shorten(self, dt: float, error: ConvergenceError, last: bool) -> None:
+        self.record.rejected += 1
+        if not self.size.halve(dt) and last:
+            text = f"no step from t = {self.history.time:g}, however short: {error}"
+            raise ConvergenceError(text, self.history.state, self.history.time) from error
+
+    def _accept(self, result: StepResult, dt: float, wrong: Array, velocity: Affine) -> None:
+        after = self.ledger.moment(result.state, result.rest, result.step, velocity(result.state))
+        works = self.ledger.works(self.moment, after)
+        slide = self._sliding(result, wrong)
+        self.history, self.moment = self.history.advanced(result.state, dt), after
+        counts = (result.iterations, result.repeats, result.buckled)
+        self._note(result.state, works, slide, counts)
+        if self.steps % self.settings.keep_every == 0 or self._remaining() <= 0:
+            self.record.keep(result.time, result.state)
+
+    def _note(
+        self, state: Array, works: Works, slide: Sliding, counts: tuple[int, int, bool] = (0, 0, False)
+    ) -> None:
+        """A row of the record for the state at this time."""
+        centre, probes = self._centre(state), self.probes.position(state, (0,))[0].T
+        self.record.add(self.history.time, centre, works, slide, probes, counts)
+
+    def _sliding(self, result: StepResult, wrong: Array) -> Sliding:
+        friction: Friction | None = self.scene.find(Friction)
+        if friction is None:
+            return Sliding(0.0, 0.0, np.zeros(2), np.zeros(2))
+        state = PointState(self.region, result.state, (0,), result.rest, result.step)
+        error = self.region.displacement(wrong, (0,))[0]
+        return sliding(friction, state, error, self.region.measure)
+
+    def _first_moment(self) -> Moment:
+        """Of the start, which is also the first row of the record."""
+        history, rest = self.history, self.stepper.rest(0.0)
+        moving = history.velocity
+        velocity = np.zeros_like(history.state) if moving is None else moving
+        rule = self.stepper.at_points(Affine(1.0, history.state - velocity))
+        step = self.stepper.held(Step(rule), history.state, rest)
+        nothing = Works(*(np.zeros(()) for _ in Works._fields))
+        still = Sliding(0.0, 0.0, np.zeros(2), np.zeros(2))
+        self._note(history.state, nothing, still)
+        self.record.keep(0.0, history.state)
+        return self.ledger.moment(history.state, rest, step, velocity)
+
+    def _centre(self, u: Array) -> Array:
+        """Centre of mass, (components,)."""
+        measure = self.region.measure
+        return np.asarray(self.region.position(u, (0,))[0] @ measure / measure.sum())
+
+    def _rms(self, u: Array) -> float:
+        """Root mean square over the sheet of a velocity along the ground."""
+        square = (self.region.displacement(u, (0,))[0, :2] ** 2).sum(0)
+        return float(np.sqrt(square @ self.region.measure / self.region.measure.sum()))
+
+    def _land(self) -> Landing:
+        record, size = self.record, self.size
+        counts = record.rejected, len(record.rows), len(record.times)
+        factor = self.stepper.minimiser.kept
+        return Landing(self.history, self.moment, (size.dt, size.scale), counts, factor)
+
+    def rewind(self) -> None:
+        """Back to the end of the last accepted step, from anywhere in the next one."""
+        landing = self.landing
+        self.history, self.moment = landing.history, landing.moment
+        self.size.dt, self.size.scale = landing.sizes
+        self.record.rejected, rows, kept = landing.counts
+        self.record.cut(rows, kept)
+        self.stepper.minimiser.kept = landing.factor
+
+    def save(self, target: Target) -> None:
+        """Write a snapshot, at the end of a step."""
+        save_snapshot(target.path, self._arrays(), target.owner)
+
+    def _arrays(self) -> dict[str, Array]:
+        """All that the next step depends on and all that was recorded."""
+        size, record, history = self.size, self.record, self.history
+        found: dict[str, Any] = {
+            "past_times": history.times,
+            "past_states": history.states,
+            "velocity": history.velocity,
+            "acceleration": history.acceleration,
+            "control": np.array([size.dt, size.scale, record.rejected]),
+            "rows": np.array(record.rows),
+            "probes": np.array(record.probes),
+            "stored_times": np.array(record.times),
+            "states": np.array(record.states),
+            "moment_position": self.moment.position,
+            **{f"moment_{name}": getattr(self.moment, name) for name in MOMENT},
+        }
+        kept = self.stepper.minimiser.kept
+        if kept is not None:
+            found |= {"hessian": kept.values, "shift": np.array(kept.shift)}
+        return {name: value for name, value in found.items() if value is not None}
+
+    def resume(self, target: Target) -> float:
+        """Go on from a snapshot, if there is one; returns its time, else NaN."""
+        if not target.path.exists():
+            return np.nan
+        found = load_snapshot(target.path, target.owner)
+        get, minimiser = found.get, self.stepper.minimiser
+        self.history = History(
+            found["past_times"], found["past_states"], get("velocity"), get("acceleration")
+        )
+        self.size.dt, self.size.scale = (float(v) for v in found["control"][:2])
+        self.record = Record(
+            list(found["rows"]),
+            list(found["probes"]),
+            [float(t) for t in found["stored_times"]],
+            list(found["states"]),
+            int(found["control"][2]),
+        )
+        self.moment = replace(
+            self.moment,
+            state=self.history.state,
+            rest=self.stepper.rest(self.history.time),
+            position=found["moment_position"],
+            **{name: get(f"moment_{name}") for name in MOMENT},
+        )
+        if "hessian" in found:
+            minimiser.kept = minimiser.factorised_again(found["hessian"], float(found["shift"]))
+        self.landing = self._land()
+        return self.history.time

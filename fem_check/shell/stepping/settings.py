@@ -1,0 +1,46 @@
+"""What a run is asked for, checked once and in one form."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from linear_theory import validation
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Settings:
+    """Arguments of `simulate` that its numbers depend on; numpy's numbers become plain ones.
+
+    rtol and steps: at most one of them; without both rtol is 1e-2. velocity: array or None.
+    Raises ValueError for values out of range.
+    """
+
+    periods: int = 2
+    rtol: float | None = None
+    steps: int | None = None
+    ramp: float = 0.5
+    velocity: ArrayLike | None = None
+    keep_every: int = 1
+
+    def __post_init__(self) -> None:
+        self._set("periods", validation.integer("periods", self.periods, 1))
+        self._set("keep_every", validation.integer("keep_every", self.keep_every, 1))
+        self._set("ramp", validation.real("ramp", self.ramp))
+        if self.ramp < 0:
+            raise ValueError(f"ramp = {self.ramp:g}: must be >= 0")
+        if self.velocity is not None:
+            self._set("velocity", np.array(validation.real_array("velocity", self.velocity)))
+        if self.steps is None:
+            self._set("rtol", validation.tolerance(1e-2 if self.rtol is None else self.rtol))
+            return
+        if self.rtol is not None:
+            raise ValueError(
+                f"steps = {self.steps!r}: must be None where rtol = {self.rtol!r} is given"
+            )
+        self._set("steps", validation.integer("steps", self.steps, 4))
+
+    def _set(self, name: str, value: object) -> None:
+        object.__setattr__(self, name, value)
