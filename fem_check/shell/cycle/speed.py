@@ -36,7 +36,7 @@ from linear_theory.waves import TravellingWave
 
 Array = NDArray[np.float64]
 
-FIRST_PHASES, MOST_PHASES = 16, 256
+FIRST_PHASES, MOST_PHASES = 16, 128
 
 PHASE_SHARE = 0.2
 """Share of the tolerance that the interpolation between phases may take."""

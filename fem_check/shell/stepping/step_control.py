@@ -165,8 +165,8 @@ def step_size(period: float, rtol: float | None, steps: int | None, rates: Spect
         needed = FEWEST * _harmonic(rates, GIVEN_SHARE)
         if steps < needed:
             raise ValueError(
-                f"steps = {steps}: must be >= {needed}, or {1 - GIVEN_SHARE:.0%} of the rate of growth "
-                f"is not seen, which has harmonics up to {needed // FEWEST} in time"
+                f"steps = {steps}: must be >= {needed}, {FEWEST} to the period of harmonic "
+                f"{needed // FEWEST} of the wave, beyond which is less than {GIVEN_SHARE:.0%} of its rate"
             )
         return StepSize(period / steps, period / steps / 1024, period / steps)
     assert rtol is not None
