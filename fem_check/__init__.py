@@ -1,45 +1,18 @@
 """Finite elements that check the linear theory across alpha: plane stress and a nonlinear shell."""
 
-from fem_check.outline import Outline
-from fem_check.plane_stress import PlaneStressField, plane_stress_field
-from fem_check.prediction import Prediction, predict
-from fem_check.shell.cycle.speed import cycle_speed
-from fem_check.shell.effects.friction import Friction
-from fem_check.shell.effects.gravity import Gravity
-from fem_check.shell.effects.ground import Ground
-from fem_check.shell.effects.inertia import Inertia
-from fem_check.shell.effects.koiter import Bending, Membrane
-from fem_check.shell.effects.loads import DeadLoad
-from fem_check.shell.effects.terrain import Terrain
-from fem_check.shell.growth import bilayer
-from fem_check.shell.material import Material
-from fem_check.shell.scene import Scene
-from fem_check.shell.stepping.paraview import write_paraview
-from fem_check.shell.stepping.simulation import simulate
-from fem_check.shell.stepping.trajectory import Trajectory
-from linear_theory.version import current_version
+from typing import Any
 
-__version__ = current_version()
+import lazy_loader
 
-__all__ = [
-    "Bending",
-    "DeadLoad",
-    "Friction",
-    "Gravity",
-    "Ground",
-    "Inertia",
-    "Material",
-    "Membrane",
-    "Outline",
-    "PlaneStressField",
-    "Prediction",
-    "Scene",
-    "Terrain",
-    "Trajectory",
-    "bilayer",
-    "cycle_speed",
-    "plane_stress_field",
-    "predict",
-    "simulate",
-    "write_paraview",
-]
+# Each name is imported when it is first used: the command answers `--version` without loading finite
+# elements. The list of names is `__init__.pyi`.
+_lazy, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)
+
+
+def __getattr__(name: str) -> Any:
+    """Of the names in the list, and the version."""
+    if name == "__version__":
+        from linear_theory.version import current_version
+
+        return current_version()
+    return _lazy(name)

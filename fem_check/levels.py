@@ -12,17 +12,21 @@ it is known where it was measured (`linear_theory.model_error`).
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
 
 from fem_check.shell.cycle.speed import cycle_speed
 from fem_check.shell.effects.koiter import Membrane
 from fem_check.shell.material import Material
 from fem_check.shell.scene import Scene, default_cells
 from linear_theory import arguments, validation
-from linear_theory.crawl import crawl_speed
+from linear_theory.crawl import SHOWN_RTOL, crawl_speed
+from linear_theory.deformation import LinearDeformation
 from linear_theory.field import Wave
 from linear_theory.friction import LOADS, FrictionLaw
 from linear_theory.line import line_balance
 from linear_theory.model_error import model_error
+from linear_theory.progress import part_of
+from linear_theory.ritz import ritz_field
 from linear_theory.second_field import AREAS, GROWTH_LAWS
 from linear_theory.sheet import Sheet
 from linear_theory.shown import Shown
@@ -82,7 +86,14 @@ def strip(question: Question, rtol: float, atol: float) -> CrawlSpeed:
         "strip",
         length=q.sheet.length,
     )
-    return replace(found, model_error=distance("strip", q))
+    return replace(found, model_error=distance("strip", q), deformation=shape(q))
+
+
+def shape(question: Question) -> LinearDeformation:
+    """The sheet of the question as linear theory deforms it: a picture for a level that has none."""
+    q = question
+    field = partial(ritz_field, q.sheet, q.wave, rtol=SHOWN_RTOL)
+    return LinearDeformation(field, q.alpha, q.load, FrictionLaw(q.friction, q.slip_speed))
 
 
 def first_order(question: Question, rtol: float, atol: float) -> CrawlSpeed:
@@ -99,9 +110,11 @@ def cycle(question: Question, rtol: float, atol: float) -> CrawlSpeed:
     """The target, on finer meshes until the tolerance is met or the last one is reached."""
     seconds = 0.0
     for factor in MESHES:
-        found = cycle_speed(
-            scene(question, factor), question.load, question.friction, question.slip_speed, rtol, atol
-        )
+        sheet = scene(question, factor)
+        with part_of("{} x {} elements".format(*sheet.cells or ())):
+            found = cycle_speed(
+                sheet, question.load, question.friction, question.slip_speed, rtol, atol
+            )
         seconds += found.seconds
         if found.converged:
             break

@@ -19,7 +19,7 @@ from fem_check.mesh_checks import check_mesh
 from fem_check.mesh_shown import MeshShown
 from fem_check.outline import Outline
 from fem_check.plane_stress_solver import ELEMENTS, PlaneStressSolver
-from fem_check.triangles import TriangleFinder, quadrilateral_points
+from fem_check.triangles import TriangleFinder, covering, quadrilateral_points
 from linear_theory import arguments, validation
 from linear_theory.field import LinearField, Wave
 from linear_theory.load_cases import SAMPLES, LoadCases, load_cases, mixed_norms, phases
@@ -180,6 +180,10 @@ class PlaneStressField(LinearField):
         """x, y (n,) of about count^2 points in the triangles."""
         every = max(1, self._solver.x.size // count**2)
         return self._solver.x.ravel()[::every], self._solver.y.ravel()[::every]
+
+    def covering(self) -> tuple[Array, NDArray[np.int64]]:
+        """Points and triangles of the mesh, finer where that is coarse."""
+        return covering(self.mesh)
 
     @cached_property
     def survey(self) -> WaveSurvey:

@@ -5,14 +5,17 @@ import time
 import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, NamedTuple
 
+from fem_check.answer.block import block
 from fem_check.levels import LEVELS, TARGET_EFFECTS, Question, distance
 from fem_check.shell.abilities import left_out
 from linear_theory import validation
+from linear_theory.drawable import Drawable
 from linear_theory.errors import BeyondReachWarning, NotConvergedError, ViscousRegimeWarning
 from linear_theory.field import Wave
 from linear_theory.friction import warn_if_viscous
+from linear_theory.progress import Report, part_of, watched
 from linear_theory.reach import warn_if_beyond
 from linear_theory.sheet import Sheet
 from linear_theory.shown import Shown, number
@@ -26,20 +29,24 @@ SHARE = 0.5
 
 
 @dataclass(frozen=True)
-class Prediction(Shown):
+class Prediction(Drawable, Shown):
     """A speed with the level that gave it.
 
     speed: its `error` is that of the numbers and `model_error` the distance to the target, NaN where it
     is unknown (never so for method = "auto"). level: a key of `levels.LEVELS`; reason: why this one and
     none of those before it, in words. converged: whether `error` meets the tolerance that was asked
     for. seconds: of all that was tried. left_out: what the target itself leaves out, in words: a flat
-    sheet of no thickness on which friction acts and nothing else.
+    sheet of no thickness on which friction acts and nothing else. question, goal: what was asked, and
+    to which tolerance. passed: the levels that were not taken, and why. `str` tells all of it in a
+    dozen lines (see `answer.block`), in lengths L of the sheet and periods T of the wave.
 
     >>> from fem_check import predict
     >>> from linear_theory import Sheet, SineWave
     >>> found = predict(Sheet(), SineWave(), alpha=0.25, rtol=0.2)
     >>> print(f"V = {found.mean:.2f} +- {found.error:.2f} L/T: {found.reason}")
     V = 0.10 +- 0.01 L/T: strip is near enough
+    >>> print(str(found).splitlines()[2])
+      speed     0.101 ± 0.015 L/T, along the wave; 10.1 % of its length per period
     """
 
     speed: CrawlSpeed
@@ -47,7 +54,10 @@ class Prediction(Shown):
     reason: str
     converged: bool
     seconds: float
-    left_out: tuple[str, ...] = ()
+    left_out: tuple[str, ...]
+    question: Question
+    goal: "Goal"
+    passed: tuple["Passed", ...] = ()
 
     @property
     def mean(self) -> float:
@@ -72,9 +82,12 @@ class Prediction(Shown):
     def _contents(self) -> Mapping[str, Any]:
         return {"mean": self.mean, "error": self.error, **super()._contents()}
 
+    def __str__(self) -> str:
+        return block(self)
+
 
 @dataclass(frozen=True)
-class Goal:
+class Goal(Shown):
     """Tolerances, relative and absolute, for the error of numbers and model together."""
 
     rtol: float
@@ -83,6 +96,16 @@ class Goal:
     def tolerance(self, mean: float) -> float:
         """Allowed error of that speed."""
         return max(self.rtol * abs(mean), self.atol)
+
+
+class _Passed(NamedTuple):
+    level: str
+    why: str
+    seconds: float
+
+
+class Passed(Shown, _Passed):
+    """A level that was not taken, why, in words, and the seconds that it took to see that."""
 
 
 def predict(
@@ -97,6 +120,8 @@ def predict(
     rtol: float = 1e-2,
     atol: float | None = None,
     method: str = "auto",
+    *,
+    progress: bool | Report | None = None,
 ) -> Prediction:
     """How fast the nonlinear sheet crawls, by the cheapest level that is known to be near enough.
 
@@ -107,7 +132,8 @@ def predict(
     model error is unknown (see `model_error`) is never taken. Any of the names takes that level.
     A tolerance that the last level misses shows in `converged`; what the target leaves out (bending,
     and with it the thickness; the ground; friction that deforms the sheet), in `left_out`: scenes with
-    these effects are for `cycle_speed` and `simulate`.
+    these effects are for `cycle_speed` and `simulate`. progress: True prints on stderr, a function is
+    called with a `linear_theory.progress.Progress`.
 
     Raises ValueError for bad input and what the level that is asked for raises. Warns as `crawl_speed`
     does of the level that answers.
@@ -122,11 +148,13 @@ def predict(
     question = Question(sheet, wave, alpha, growth_law, area, load, friction, slip_speed)
     rtol = validation.tolerance(rtol)
     goal = Goal(rtol, validation.absolute_tolerance(atol, rtol, question.alpha, question.unit))
-    if validation.choice("method", method, METHODS) == "auto":
-        found = _cheapest(question, goal)
-    else:
-        found = _answer(question, method, goal, "asked for")
-        found = replace(found, reason=f"{found.reason}; {found.speed.reach}")
+    validation.choice("method", method, METHODS)
+    with watched(progress, "predict"):
+        if method == "auto":
+            found = _cheapest(question, goal)
+        else:
+            found = _answer(question, method, goal, "asked for")
+            found = replace(found, reason=f"{found.reason}; {found.speed.reach}")
     warn_if_viscous(found.speed, slip_speed)
     warn_if_beyond(question.alpha, found.speed.beyond_reach)
     return replace(found, seconds=time.perf_counter() - start)
@@ -139,21 +167,29 @@ def total_error(speed: CrawlSpeed) -> float:
 
 def _cheapest(question: Question, goal: Goal) -> Prediction:
     """Try those levels in turn that could do, the target last."""
-    passed, largest = "", math.inf
+    passed: list[Passed] = []
+    largest = math.inf
     for level in LEVELS:
+        begin = time.perf_counter()
         obstacle = _obstacle(question, level, goal.tolerance(largest))
         if not obstacle:
             try:
-                found = _answer(question, level, goal, f"{level} is near enough{passed}")
+                found = _answer(question, level, goal, "")
             except NotConvergedError as failure:
                 obstacle = str(failure)
             else:
                 if found.converged:
-                    return found
+                    return _explained(found, f"{level} is near enough", passed)
                 largest = abs(found.mean) + found.error
                 obstacle = f"error {found.error:.1g} is above {goal.tolerance(found.mean):.1g}"
-        passed += f"; not {level}: {obstacle}"
-    return replace(found, reason=f"the last level{passed}")
+        passed.append(Passed(level, obstacle, time.perf_counter() - begin))
+    return _explained(found, "the last level", passed)
+
+
+def _explained(found: Prediction, reason: str, passed: list[Passed]) -> Prediction:
+    """With the reason why this level was taken, and none of those before."""
+    others = "".join(f"; not {one.level}: {one.why}" for one in passed)
+    return replace(found, reason=reason + others, passed=tuple(passed))
 
 
 def _obstacle(question: Question, level: str, tolerance: float) -> str:
@@ -172,6 +208,8 @@ def _answer(question: Question, level: str, goal: Goal, reason: str) -> Predicti
         for kind in (ViscousRegimeWarning, BeyondReachWarning):  # `predict` says it, of the answer
             warnings.simplefilter("ignore", kind)
         rtol = max(SHARE * goal.rtol, validation.SMALLEST_RTOL)
-        speed = LEVELS[level](question, rtol, SHARE * goal.atol)
+        with part_of(level):
+            speed = LEVELS[level](question, rtol, SHARE * goal.atol)
     converged = not speed.beyond_reach and total_error(speed) <= goal.tolerance(speed.mean)
-    return Prediction(speed, level, reason, converged, speed.seconds, left_out(TARGET_EFFECTS))
+    omitted = left_out(TARGET_EFFECTS)
+    return Prediction(speed, level, reason, converged, speed.seconds, omitted, question, goal)

@@ -3,6 +3,8 @@
 A point of a triangle has the local coordinates (X, Y), X, Y >= 0, X + Y <= 1, of scikit-fem.
 """
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
@@ -14,6 +16,9 @@ Indices = NDArray[np.int64]
 TOLERANCE = (
     1e-9  # of a triangle's size: how far outside the mesh roundoff may put a point near the origin
 )
+DRAWN = 500
+"""Elements that show the shape of a sheet."""
+
 _CANDIDATES = 12
 _BLOCK = 2**22  # numbers in one temporary array
 
@@ -89,3 +94,17 @@ def quadrilateral_points(order: int) -> tuple[Array, Array]:
         along_t = ((1 - s) * (d - a) + (1 + s) * (c - b)) / 4
         jacobians.append(along_s[0] * along_t[1] - along_s[1] * along_t[0])
     return np.stack(points, axis=1), np.stack(jacobians)
+
+
+def covering(mesh: Any) -> tuple[Array, Indices]:
+    """Points (2, n) and triangles (m, 3) of a mesh, halved until its shape can be drawn.
+
+    A few elements of high degree carry more than their corners show. Quadrilaterals become two
+    triangles each.
+    """
+    while mesh.nelements < DRAWN:
+        mesh = mesh.refined()
+    corners = np.asarray(mesh.t, np.int64)
+    if len(corners) == 4:
+        corners = np.concatenate([corners[:3], corners[[0, 2, 3]]], axis=1)
+    return np.asarray(mesh.p), corners[:3].T

@@ -17,69 +17,28 @@ from pathlib import Path
 from typing import Any
 
 import matplotlib as mpl
-from cycler import cycler
 from matplotlib.figure import Figure
 
+from fem_check.output.look import CM_PER_INCH, COLORS, COLUMN_CM, DOUBLE_CM, STYLE
 from figures.output import replacing
 
-COLUMN_CM = 8.5
-"""Width of a figure in one column of the journal."""
-
-DOUBLE_CM = 17.5
-"""Width of a figure across both columns."""
-
-CM_PER_INCH = 2.54
+__all__ = [
+    "CM_PER_INCH",
+    "COLORS",
+    "COLUMN_CM",
+    "DOUBLE_CM",
+    "METADATA",
+    "OUTPUT_DIR",
+    "STYLE",
+    "figure",
+    "options",
+    "output_path",
+    "save",
+    "use",
+]
 
 OUTPUT_DIR = Path(__file__).resolve().parent / "out"
 """Where figures and their data go unless --out says otherwise."""
-
-COLORS = {
-    "blue": "#0072B2",
-    "vermillion": "#D55E00",
-    "green": "#009E73",
-    "purple": "#CC79A7",
-    "orange": "#E69F00",
-    "sky": "#56B4E9",
-    "black": "#000000",
-    "yellow": "#F0E442",
-}
-"""Okabe and Ito's colours, told apart with any colour vision; the cycle takes them in this order,
-which keeps those of little contrast with white paper for last."""
-
-# Any for the keys too: some releases of matplotlib type them as text, newer ones as a list of names.
-STYLE: dict[Any, Any] = {
-    "axes.linewidth": 0.6,
-    "axes.prop_cycle": cycler(color=list(COLORS.values())),
-    "axes.spines.right": False,
-    "axes.spines.top": False,
-    "figure.constrained_layout.use": True,
-    "figure.dpi": 150,
-    # The font that comes with matplotlib, by name: the same glyphs on every machine.
-    "font.family": ["DejaVu Sans"],
-    "mathtext.fontset": "dejavusans",
-    "font.size": 8,
-    "axes.labelsize": 8,
-    "axes.titlesize": 8,
-    "figure.titlesize": 8,
-    "legend.fontsize": 7,
-    "xtick.labelsize": 7,
-    "ytick.labelsize": 7,
-    "image.cmap": "viridis",
-    "legend.frameon": False,
-    "lines.linewidth": 1.2,
-    "lines.markersize": 4,
-    "pdf.fonttype": 42,  # text stays text; journals refuse Type 3
-    "savefig.dpi": 400,
-    # Never "tight": it would crop the page, and with it the width that was asked for.
-    "savefig.bbox": None,
-    # Element names in SVG are random without it.
-    "svg.hashsalt": "sheetcrawl",
-    "svg.fonttype": "path",
-    "xtick.direction": "in",
-    "xtick.major.width": 0.6,
-    "ytick.direction": "in",
-    "ytick.major.width": 0.6,
-}
 
 # Dates and versions would change the bytes of a file whose picture did not change.
 METADATA: dict[str, dict[str, Any]] = {

@@ -21,6 +21,7 @@ from linear_theory.line import (
     line_speed_viscous,
 )
 from linear_theory.path import rigid_path
+from linear_theory.pulse import pulse_wave
 from linear_theory.ritz import RitzField, ritz_field
 from linear_theory.second_order import SecondOrder, second_order
 from linear_theory.sheet import Sheet
@@ -58,6 +59,7 @@ __all__ = [
     "line_speed_series",
     "line_speed_tanh",
     "line_speed_viscous",
+    "pulse_wave",
     "rigid_path",
     "ritz_field",
     "second_order",

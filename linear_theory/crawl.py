@@ -3,6 +3,7 @@
 import math
 import time
 from dataclasses import replace
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -10,11 +11,13 @@ from numpy.typing import ArrayLike, NDArray
 
 from linear_theory import arguments, validation
 from linear_theory.airy import airy_series
+from linear_theory.deformation import LinearDeformation
 from linear_theory.field import LinearField, Wave
 from linear_theory.friction import LOADS, FrictionLaw, load_rate, warn_if_viscous
 from linear_theory.model_error import LEVELS, model_error
 from linear_theory.motion import CellGrid
 from linear_theory.period import Crawl, average, first_resolution
+from linear_theory.progress import Report, watched
 from linear_theory.reach import judged, too_large_growth, warn_if_beyond
 from linear_theory.ritz import ritz_field
 from linear_theory.second_order import check_model, second_order_speed
@@ -27,6 +30,9 @@ from linear_theory.waves import TravellingWave
 Array = NDArray[np.float64]
 
 METHODS = ("auto", "airy", "ritz")
+
+SHOWN_RTOL = 1e-3
+"""Relative error of a deformation that is only drawn: less than a line is wide."""
 
 
 def crawl_speed(
@@ -42,6 +48,8 @@ def crawl_speed(
     order: int = 1,
     growth_law: str = "exp",
     area: str = "grown",
+    *,
+    progress: bool | Report | None = None,
 ) -> CrawlSpeed:
     """Mean speed of a rectangular sheet in the small-strain theory (eqs 10 and 11), or to second order.
 
@@ -60,6 +68,7 @@ def crawl_speed(
     for a sine alpha^4; any wave, by Ritz. It says nothing of large alpha. order = 1 does not depend on
     growth_law and area but for its `model_error`: the distance to the nonlinear sheet of that
     growth_law, area and load where it was measured (`model_error.model_error`), else NaN.
+    progress: True prints on stderr, a function is called with a `progress.Progress`.
 
     Raises ValueError for bad input, among it an alpha so large that the area element
     1 + alpha tr(strain) is not positive somewhere (order 1) or that lengths vanish (order 2), and
@@ -77,16 +86,21 @@ def crawl_speed(
     """
     sheet, wave = arguments.sheet(sheet), arguments.wave(wave)
     check_model(order, growth_law, area)
-    if order == 2:
-        validation.choice("method", method, ("auto", "ritz"))
-        found = second_order_speed(
-            sheet, wave, alpha, growth_law, area, load, friction, slip_speed, rtol, atol
-        )
-    else:
-        field = _field(sheet, wave, rtol, method)
-        found = _field_speed(field, alpha, load, friction, slip_speed, rtol, atol)
+    with watched(progress, "crawl_speed"):
+        if order == 2:
+            validation.choice("method", method, ("auto", "ritz"))
+            found = second_order_speed(
+                sheet, wave, alpha, growth_law, area, load, friction, slip_speed, rtol, atol
+            )
+        else:
+            field = _field(sheet, wave, rtol, method)
+            found = _field_speed(field, alpha, load, friction, slip_speed, rtol, atol)
     distance = model_error(LEVELS[order], sheet, wave, alpha, growth_law, area, load, friction)
-    found = replace(found, model_error=distance)
+    # Found anew if it is drawn, so that a speed does not hold on to a solution and its tables.
+    shown = partial(_field, sheet, wave, SHOWN_RTOL, "ritz" if order == 2 else method)
+    law = FrictionLaw(friction, slip_speed)
+    deformation = LinearDeformation(shown, float(alpha), load, law)
+    found = replace(found, model_error=distance, deformation=deformation)
     warn_if_viscous(found, slip_speed)
     warn_if_beyond(alpha, found.beyond_reach)
     return found
@@ -149,8 +163,9 @@ def _field_speed(
     law = FrictionLaw(friction, slip_speed)
     unit = field.sheet.length / field.wave.period
     atol = validation.absolute_tolerance(atol, rtol, alpha, unit)
+    deformation = LinearDeformation(lambda: field, alpha, load, law)
     if alpha == 0:
-        return _at_rest(field, load, law)
+        return replace(_at_rest(field, load, law), deformation=deformation)
     crawl = Crawl(field, alpha, load, law, first_resolution(rtol))
     period = average(crawl, rtol, atol)
     found = CrawlSpeed(
@@ -168,6 +183,7 @@ def _field_speed(
         rigid=None if field.mirrored else period.rigid,
         rigid_mean=None if field.mirrored else period.rigid_mean,
         rigid_error=None if field.mirrored else period.rigid_error,
+        deformation=deformation,
     )
     return judged(found, _beyond_reach(field, alpha))
 

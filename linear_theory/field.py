@@ -26,6 +26,9 @@ from linear_theory.waves import Wave as Wave
 
 Array = NDArray[np.float64]
 
+ACROSS, ALONG = 12, 48
+"""Cells of a rectangle that is drawn: a wave is a smooth curve with so many along."""
+
 
 class LinearField(Shown, ABC):
     """Small-strain deformation of a sheet by a wave, per unit alpha.
@@ -74,6 +77,15 @@ class LinearField(Shown, ABC):
         """x, y (broadcast) of points that cover the sheet, about count^2, to judge growth at."""
         along = np.linspace(-0.5, 0.5, count)
         return self.sheet.width * along[:, None], self.sheet.length * along
+
+    def covering(self) -> tuple[Array, NDArray[np.int64]]:
+        """Points (2, n) and triangles (m, 3) that cover the undeformed sheet, fine enough to draw."""
+        across, along = np.linspace(-0.5, 0.5, ACROSS + 1), np.linspace(-0.5, 0.5, ALONG + 1)
+        x, y = np.meshgrid(self.sheet.width * across, self.sheet.length * along, indexing="ij")
+        corner = np.arange(x.size).reshape(x.shape)
+        a, b, c, d = corner[:-1, :-1], corner[1:, :-1], corner[1:, 1:], corner[:-1, 1:]
+        cells = np.stack([a, b, c, a, c, d], axis=-1).reshape(-1, 3)
+        return np.stack([x.ravel(), y.ravel()]), cells
 
     @property
     @abstractmethod

@@ -13,6 +13,7 @@ from linear_theory.course import Course, Known
 from linear_theory.field import LinearField
 from linear_theory.friction import FrictionLaw, check_load, load_rate
 from linear_theory.motion import CellGrid, Motion
+from linear_theory.progress import track
 from linear_theory.rigid import RigidNorm
 from linear_theory.time_grid import TimeGrid, first_grid
 from linear_theory.wave_survey import WaveSurvey
@@ -116,7 +117,7 @@ class Crawl:
         """Rigid motion at the given times, in lots; known: times before and after to start from."""
         lot = max(_LOT // self._motion(times[:1]).area.size, 1)
         lots = []
-        for i in range(0, times.size, lot):
+        for i in track("friction through the period", range(0, times.size, lot)):
             some = times[i : i + lot]
             lots.append(self._balance(some).solve(known and known.between(some)))
         leading, remainder, rest, fastest = zip(*lots, strict=True)

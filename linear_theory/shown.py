@@ -187,8 +187,9 @@ def _unshown(value: Any) -> set[str]:
 
 
 def _field_names(value: Any) -> list[str]:
+    """Of a dataclass those that count when values are compared."""
     if is_dataclass(value):
-        return [f.name for f in fields(value) if not f.name.startswith("_")]
+        return [f.name for f in fields(value) if f.compare and not f.name.startswith("_")]
     return list(getattr(value, "_fields", ()))
 
 

@@ -1,14 +1,18 @@
 """The answer to the one question: how fast, how sure, at what cost."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
-from typing import Any, Literal
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
+from linear_theory.drawable import Drawable
 from linear_theory.shown import with_error
 from linear_theory.tables import SPEED, SPIN, TIME, Column, Tabular
+
+if TYPE_CHECKING:
+    from linear_theory.deformation import Deformation
 
 Array = NDArray[np.float64]
 
@@ -34,7 +38,7 @@ def regime_of(slip_ratio: float) -> Regime:
 
 
 @dataclass(frozen=True)
-class CrawlSpeed(Tabular):
+class CrawlSpeed(Drawable, Tabular):
     """Speed of a crawling sheet, in length/time; positive is towards +y, the way of the wave.
 
     mean: V averaged over one period; error: estimate of its numerical error, absolute;
@@ -57,6 +61,8 @@ class CrawlSpeed(Tabular):
     seconds: time spent, set-up and solution; model: what is assumed, in words.
     beyond_reach: why a theory of small growth says nothing at this alpha (see `reach`), in words; empty
     where it does. Such answers are never converged.
+    deformation: how the sheet deforms, for pictures (see `deformation.Deformation`); None where there
+    is no shape. It is not part of the value, and a copy or a pickle goes without it.
 
     >>> from linear_theory import Sheet, SineWave, crawl_speed
     >>> speed = crawl_speed(Sheet(), SineWave(), alpha=0.25, rtol=1e-3)
@@ -82,6 +88,11 @@ class CrawlSpeed(Tabular):
     rigid_mean: Array | None = None
     rigid_error: Array | None = None
     beyond_reach: str = ""
+    deformation: "Deformation | None" = field(default=None, repr=False, compare=False)
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Without the deformation: a speed that travels between processes is numbers only."""
+        return self.__dict__ | {"deformation": None}
 
     @property
     def regime(self) -> Regime:

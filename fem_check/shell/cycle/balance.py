@@ -19,6 +19,7 @@ from fem_check.shell.cycle.motion import CycleMotion, is_mirrored
 from fem_check.shell.cycle.shapes import Shapes
 from fem_check.shell.places import ROUNDOFF, distinct
 from linear_theory.balance import Balance, RigidMotion
+from linear_theory.progress import track
 from linear_theory.rigid import RigidNorm
 from linear_theory.time_grid import TimeGrid, first_grid
 from linear_theory.wave_survey import PER_HARMONIC
@@ -138,7 +139,8 @@ class CycleBalance:
     def balance(self, times: Array) -> RigidMotion:
         """Motion at times and half a period later, leading and remainder (2, times, 3)."""
         later = self._with_partners(times)
-        lots = [self._balance(later[i : i + LOT]).solve() for i in range(0, later.size, LOT)]
+        starts = track("friction through the period", range(0, later.size, LOT))
+        lots = [self._balance(later[i : i + LOT]).solve() for i in starts]
         leading, remainder, rest, fastest = zip(*lots, strict=True)
         shape = 2, times.size
         return RigidMotion(

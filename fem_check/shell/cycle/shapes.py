@@ -24,6 +24,7 @@ from fem_check.shell.statics.newton import Minimiser
 from fem_check.shell.statics.ramp import follow_mode, ramp
 from fem_check.shell.supports import Supports
 from linear_theory import validation
+from linear_theory.progress import track
 from linear_theory.shown import Shown
 from linear_theory.threads import one_blas_thread
 
@@ -142,8 +143,9 @@ def _between(solver: "_Solver", count: int, known: Shapes) -> Shapes:
     states = np.empty((count, known.states.shape[1]))
     states[::2] = known.states
     times = phases(solver.scene.period, count)[1::2]
-    for i, (t, guess) in enumerate(zip(times, known.at(times), strict=True)):
-        states[2 * i + 1] = solver.shape(t, guess, states[2 * i]).state
+    guesses = known.at(times)
+    for i in track("shapes between those known", range(times.size)):
+        states[2 * i + 1] = solver.shape(times[i], guesses[i], states[2 * i]).state
     return solver.shapes(states, known)
 
 
@@ -191,8 +193,8 @@ class _Solver:
     def period(self, count: int, state: Array) -> Shapes:
         """Shapes at `count` phases from the first one on."""
         states = [state]
-        for t in phases(self.scene.period, count)[1:]:
-            states.append(self.shape(float(t), extrapolated(states[-EXTRAPOLATED:]), states[-1]).state)
+        for t in track("shapes through the period", phases(self.scene.period, count)[1:].tolist()):
+            states.append(self.shape(t, extrapolated(states[-EXTRAPOLATED:]), states[-1]).state)
         return self.shapes(np.array(states))
 
     def shapes(self, states: Array, known: Shapes | None = None) -> Shapes:

@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 from fem_check.shell.abilities import CYCLE, friction_over_growth
 from fem_check.shell.cycle.balance import CycleBalance, Period
 from fem_check.shell.cycle.contact import Contact
+from fem_check.shell.cycle.deformation import CycleDeformation
 from fem_check.shell.cycle.motion import UnresolvedError, is_mirrored
 from fem_check.shell.cycle.shapes import Shapes, cycle_of_shapes, static_effects
 from fem_check.shell.effects.friction import Friction
@@ -27,6 +28,7 @@ from fem_check.shell.places import distinct
 from fem_check.shell.scene import Scene
 from linear_theory import validation
 from linear_theory.friction import warn_if_viscous
+from linear_theory.progress import Report, watched
 from linear_theory.shown import Shown
 from linear_theory.speed import CrawlSpeed
 from linear_theory.threads import one_blas_thread
@@ -51,6 +53,8 @@ def cycle_speed(
     slip_speed: float | None = None,
     rtol: float = 1e-3,
     atol: float | None = None,
+    *,
+    progress: bool | Report | None = None,
 ) -> CrawlSpeed:
     """Mean speed of a sheet so stiff that friction does not change its shape.
 
@@ -72,6 +76,7 @@ def cycle_speed(
     model_error is 0 for a scene that only stretches in the plane, which is the target: the nonlinear
     sheet of the stated growth law, area measure and load; NaN for other scenes, such as those that name
     Friction, which deforms the sheet a little.
+    progress: True prints on stderr, a function is called with a `linear_theory.progress.Progress`.
 
     Raises ValueError for bad input, for a scene that names what a cycle of shapes cannot represent
     (see `abilities.CYCLE`), for arguments that contradict the scene and for a slope on which the sheet
@@ -88,7 +93,8 @@ def cycle_speed(
     >>> print(f"V = {speed.mean:.3f} L/T, converged {speed.converged}")
     V = 0.091 L/T, converged True
     """
-    found = Cycle(scene).speed(load, friction, slip_speed, rtol, atol)
+    with watched(progress, "cycle_speed"):
+        found = Cycle(scene).speed(load, friction, slip_speed, rtol, atol)
     warn_if_viscous(found, Contact.of(scene, load, friction, slip_speed).law.slip_speed)
     return found
 
@@ -145,6 +151,7 @@ class Cycle(Shown):
             rigid=None if balance.mirrored else rigid,
             rigid_mean=None if balance.mirrored else period.mean,
             rigid_error=None if balance.mirrored else error,
+            deformation=CycleDeformation(balance.shapes, contact),
         )
 
     @cached_property

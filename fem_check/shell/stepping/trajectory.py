@@ -18,6 +18,7 @@ from fem_check.shell.stepping.sliding import COMPARED
 from fem_check.shell.stepping.step_control import LANDED
 from fem_check.shell.stepping.stepper import amplitude
 from linear_theory import validation
+from linear_theory.drawable import Drawable
 from linear_theory.path import Poses
 from linear_theory.shown import Shown
 from linear_theory.speed import CrawlSpeed, Regime, regime_of, speed_in_words
@@ -59,7 +60,7 @@ class SpeedErrors(Shown, _Errors):
 
 
 @dataclass(frozen=True, eq=False)
-class Trajectory(Tabular):
+class Trajectory(Drawable, Tabular):
     """A simulated motion.
 
     `speed` is the answer, `centre` and `path` are where the sheet was at `times`, `positions(t)` is its

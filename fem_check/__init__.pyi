@@ -1,0 +1,44 @@
+"""What `import fem_check` offers: read by `lazy_loader` as it runs, and by type checkers."""
+
+from .outline import Outline
+from .plane_stress import PlaneStressField, plane_stress_field
+from .prediction import Prediction, predict
+from .shell.cycle.speed import cycle_speed
+from .shell.effects.friction import Friction
+from .shell.effects.gravity import Gravity
+from .shell.effects.ground import Ground
+from .shell.effects.inertia import Inertia
+from .shell.effects.koiter import Bending, Membrane
+from .shell.effects.loads import DeadLoad
+from .shell.effects.terrain import Terrain
+from .shell.growth import bilayer
+from .shell.material import Material
+from .shell.scene import Scene
+from .shell.stepping.paraview import write_paraview
+from .shell.stepping.simulation import simulate
+from .shell.stepping.trajectory import Trajectory
+
+__version__: str
+
+__all__ = [
+    "Bending",
+    "DeadLoad",
+    "Friction",
+    "Gravity",
+    "Ground",
+    "Inertia",
+    "Material",
+    "Membrane",
+    "Outline",
+    "PlaneStressField",
+    "Prediction",
+    "Scene",
+    "Terrain",
+    "Trajectory",
+    "bilayer",
+    "cycle_speed",
+    "plane_stress_field",
+    "predict",
+    "simulate",
+    "write_paraview",
+]

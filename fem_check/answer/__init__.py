@@ -1,0 +1,1 @@
+"""Answers for people: numbers with their errors and units, and what they mean, in a dozen lines."""

@@ -1,0 +1,191 @@
+"""A speed on the screen: what was asked, how fast and which way, how sure, assumptions and cost.
+
+The command prints it, and so does `print` of a `Prediction` in Python.
+"""
+
+import math
+import re
+import textwrap
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from fem_check.answer.growth import extremes
+from fem_check.answer.motion import heading, per_period, sideways_and_turning
+from fem_check.answer.rounding import measured, plain, rounded_up
+from fem_check.answer.units import Units
+from fem_check.answer.wave_words import arrows, wave_words
+
+if TYPE_CHECKING:
+    from fem_check.prediction import Prediction
+
+WIDTH = 80
+"""Columns, unless said otherwise."""
+
+LABEL = 10
+"""Columns of the words on the left."""
+
+LEVEL_WORDS = {
+    "strip": "the closed balance of a narrow strip",
+    "first order": "theory of small strain",
+    "second order": "theory of second order in alpha",
+    "cycle": "the cycle of shapes",
+}
+"""What a level is, by its name in `levels.LEVELS`."""
+
+Line = tuple[str, str]
+"""The words on the left, and the text."""
+
+GLUED = re.compile(r"(?<=\d) (?=\S)|(?<=[=×±]) | (?=[=×±])")
+"""Blanks at which no line ends: those of a number and its unit, of sums and equations."""
+
+
+def block(
+    found: "Prediction",
+    units: Units | None = None,
+    width: int = WIDTH,
+    hints: tuple[str, str] = ("", ".reason says why"),
+) -> str:
+    """The answer in lines of at most `width` columns.
+
+    units: lengths L of the sheet and periods T of the wave unless given. hints: where to find more,
+    after what is left out and after the cost.
+    """
+    q = found.question
+    units = units or Units.of_sheet(q.sheet.length, q.wave.period)
+    lines = [*_asked(found, units), *_answer(found, units), *_assumed(found, units, hints)]
+    return "\n".join(_wrapped(label, text, width) for label, text in lines if text)
+
+
+def _asked(found: "Prediction", units: Units) -> Iterator[Line]:
+    """The sheet, its wave and its growth."""
+    q = found.question
+    wave, sheet = arrows(q.wave, found.mean if abs(found.mean) > _error(found) else 0.0)
+    sizes = (units.of_length(size) for size in (q.sheet.length, q.sheet.width, q.sheet.thickness))
+    period = units.of_time(q.wave.period)
+    asked = f"{' × '.join(map(plain, sizes))} {units.length}, {wave_words(q.wave)}"
+    own = units == Units.of_sheet(q.sheet.length, q.wave.period)
+    yield wave, asked + (_own_units(units) if own else f", T = {plain(period, 6)} {units.time}")
+    most = extremes(q)
+    growth = f"growth {plain(100 * most.crest)} % of length at the crest"
+    if round(1e3 * most.trough):
+        trough = f"{plain(100 * most.trough)} % in trough"
+        growth = f"{growth.replace('the crest', 'crest')}, {trough}"
+    law = "" if q.growth_law == "exp" else f", law {q.growth_law!r}"
+    yield sheet, f"{growth} (alpha = {plain(q.alpha, 4)}{law})"
+
+
+def _own_units(units: Units) -> str:
+    """What L and T are in the units of the question, where they are not 1."""
+    named = (units.length, units.length_factor), (units.time, units.time_factor)
+    return "".join(f", {name} = {1 / factor:.6g}" for name, factor in named if factor != 1)
+
+
+def _answer(found: "Prediction", units: Units) -> Iterator[Line]:
+    """Speed, direction, the other motions, and whether the tolerance is met."""
+    error = _error(found)
+    shown = measured(units.of_speed(found.mean), units.of_speed(error))
+    way = heading(found.question.wave, found.mean, error)
+    yield "speed", f"{shown.with_unit(units.speed)}, {way}; {per_period(found, units, error)}"
+    yield from sideways_and_turning(found.speed, found.question.wave, units)
+    if found.speed.beyond_reach:
+        yield "NO ANSWER", found.speed.reach
+    elif not found.converged:
+        yield "NOT MET", _missed(found)
+    yield "accuracy", _accuracy(found, units)
+
+
+def _missed(found: "Prediction") -> str:
+    """That the tolerance is not met, and by how much; in per cent of the speed."""
+    size = abs(found.mean) / 100
+    asked = f"the tolerance, {plain(found.goal.tolerance(found.mean) / size) if size else '0'} %"
+    if math.isnan(found.error):
+        return f"{asked}, is not known to be met: the distance to the nonlinear sheet is not known"
+    return f"{asked}, is not met: the error is {rounded_up(found.error / size) if size else 'inf'} %"
+
+
+def _accuracy(found: "Prediction", units: Units) -> str:
+    """Relative error, and the errors of the numbers and of the model."""
+    speed = found.speed
+    numbers = f"numerical {rounded_up(units.of_speed(speed.error))}"
+    model = f"model {_model(found, units)}"
+    if found.mean == 0 and _error(found) == 0:
+        return f"exact: nothing moves ({numbers}, {model})"
+    if _error(found) >= abs(found.mean):
+        return f"the error is as large as the speed ({numbers}, {model})"
+    return f"{rounded_up(100 * _error(found) / abs(found.mean))} % ({numbers}, {model})"
+
+
+def _model(found: "Prediction", units: Units) -> str:
+    error = found.speed.model_error
+    if math.isnan(error):
+        return "not known: how far this theory is from the nonlinear sheet was not measured here"
+    if error == 0:
+        return "0: this is the nonlinear flat sheet"
+    return f"{rounded_up(units.of_speed(error))}, its distance to the nonlinear flat sheet"
+
+
+def _assumed(found: "Prediction", units: Units, hints: tuple[str, str]) -> Iterator[Line]:
+    """Friction, what is left out, and the cost."""
+    yield "friction", _friction(found, units)
+    yield "left out", _hinted("; ".join(found.left_out), hints[0])
+    took = f"{_seconds(found.seconds)}, by {LEVEL_WORDS[found.level]}"
+    yield "took", _hinted(took, hints[1])
+
+
+def _friction(found: "Prediction", units: Units) -> str:
+    """The regime and what it means."""
+    regime, slip = found.speed.regime, found.question.slip_speed
+    sticks = "; part of the sheet rests at times" if found.speed.sticks else ""
+    where = ""
+    if slip is not None and math.isfinite(found.speed.slip_ratio):
+        share = f"{plain(100 * found.speed.slip_ratio, 2)} % of the fastest slip"
+        where = f" (slip speed {plain(units.of_speed(slip))} {units.speed}, {share})"
+    means = {
+        "dry": "any coefficient gives this speed while the sheet is stiff",
+        "mixed": "between dry and viscous, so that the slip speed matters",
+        "viscous": "force in proportion to the slip; any coefficient gives this speed",
+        "none": "nothing rubs",
+    }
+    return f"{regime}: {means[regime]}{where}{sticks}"
+
+
+def _seconds(spent: float) -> str:
+    return f"{spent:.1f} s" if spent >= 0.1 else f"{1e3 * spent:.0f} ms"
+
+
+def _hinted(text: str, hint: str) -> str:
+    return f"{text}  ({hint})" if hint else text
+
+
+def _error(found: "Prediction") -> float:
+    """Of numbers and model where that is known, else of the numbers alone."""
+    return found.speed.error if math.isnan(found.error) else found.error
+
+
+def _wrapped(label: str, text: str, width: int) -> str:
+    """A line with its label, continued under its own start."""
+    indent = " " * (2 + LABEL)
+    filled = textwrap.fill(
+        GLUED.sub("\N{NO-BREAK SPACE}", text),
+        max(width, 40),
+        initial_indent=f"  {label:<{LABEL}}",
+        subsequent_indent=indent,
+        break_on_hyphens=False,
+        break_long_words=False,
+    )
+    return filled.replace("\N{NO-BREAK SPACE}", " ")
+
+
+def why(found: "Prediction", width: int = WIDTH) -> str:
+    """Every level with what it was good for: those that were not taken, and the one that was."""
+    taken = (
+        "taken: it meets the tolerance" if found.converged else "taken, though it misses the tolerance"
+    )
+    if not found.passed and found.reason.startswith("asked for"):
+        taken = f"taken: {found.reason}"
+    rows = [(one.level, f"not taken: {one.why}", one.seconds) for one in found.passed]
+    rows.append((found.level, taken, found.speed.seconds))
+    seen = {level for level, _, _ in rows}
+    lines = [f"{level}: {text} ({_seconds(spent)})" for level, text, spent in rows]
+    lines += [f"{level}: not tried" for level in LEVEL_WORDS if level not in seen]
+    return "\n".join(_wrapped("why" if i == 0 else "", line, width) for i, line in enumerate(lines))

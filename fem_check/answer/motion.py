@@ -1,0 +1,57 @@
+"""Which way a sheet goes, in words; to the side and turning, too."""
+
+import math
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from fem_check.answer.rounding import measured
+from fem_check.answer.units import Units
+from fem_check.answer.wave_words import direction
+from linear_theory.field import Wave
+from linear_theory.speed import CrawlSpeed
+
+if TYPE_CHECKING:
+    from fem_check.prediction import Prediction
+
+
+def heading(wave: Wave, mean: float, error: float) -> str:
+    """Along or against the wave; for a wave without a direction of its own, towards +y or -y."""
+    if mean == 0 and error == 0:
+        return "at rest"
+    if not abs(mean) > error:
+        return "direction not known"
+    way = direction(wave)
+    if way == 0:
+        return "towards +y" if mean > 0 else "towards −y"
+    return "along the wave" if way * mean > 0 else "against the wave"
+
+
+def per_period(found: "Prediction", units: Units, error: float) -> str:
+    """The way of one period, in the unit of length, or as a share of the length of the sheet."""
+    question = found.question
+    way, wrong = (size * question.wave.period for size in (found.mean, error))
+    if units == Units.of_sheet(question.sheet.length, question.wave.period):
+        share = (100 / question.sheet.length * size for size in (abs(way), wrong))
+        return f"{measured(*share).value} % of its length per period"
+    shown = measured(units.of_length(abs(way)), units.of_length(wrong))
+    return f"{shown.value} {units.length} per period"
+
+
+def sideways_and_turning(speed: CrawlSpeed, wave: Wave, units: Units) -> Iterator[tuple[str, str]]:
+    """Lines for a motion that is not mirror symmetric, none for others. Errors are of the numbers."""
+    if speed.rigid_mean is None or speed.rigid_error is None:
+        return
+    (across, _, rate), (across_error, _, rate_error) = speed.rigid_mean, speed.rigid_error
+    shown = measured(units.of_speed(across), units.of_speed(across_error))
+    side = _side(across, across_error, "towards +x", "towards −x")
+    yield "sideways", f"{shown.with_unit(units.speed)}{side} (numerical error)"
+    turn = math.degrees(wave.period)
+    shown = measured(turn * rate, turn * rate_error)
+    side = _side(rate, rate_error, "anticlockwise", "clockwise")
+    yield "turning", f"{shown.with_unit('degrees per period')}{side} (numerical error)"
+
+
+def _side(value: float, error: float, positive: str, negative: str) -> str:
+    if not abs(value) > error:
+        return ""
+    return f", {positive if value > 0 else negative}"

@@ -1,0 +1,59 @@
+"""The program: words in, exit status out, and one line for whatever goes wrong."""
+
+import contextlib
+import os
+import sys
+from collections.abc import Sequence
+from typing import NoReturn
+
+MET, MISSED, BAD_ARGUMENTS = 0, 1, 2
+INTERRUPTED, CLOSED_PIPE = 130, 141
+"""As shells report a program that SIGINT or SIGPIPE has ended."""
+
+
+def main(arguments: Sequence[str] | None = None) -> NoReturn:
+    """Answer and exit."""
+    try:
+        status = _run(sys.argv[1:] if arguments is None else arguments)
+        sys.stdout.flush()
+    except KeyboardInterrupt as stopped:
+        _complain(str(stopped) or "stopped; nothing is kept, the same command starts anew")
+        status = INTERRUPTED
+    except BrokenPipeError:  # who reads has seen enough
+        _forget_output()
+        status = CLOSED_PIPE
+    except OSError as problem:
+        _forget_output()
+        _complain(f"cannot write the answer: {problem}")
+        status = MISSED
+    sys.exit(status)
+
+
+def _run(arguments: Sequence[str]) -> int:
+    """The status of what the words ask for."""
+    from cyclopts import CycloptsError, UnusedCliTokensError
+
+    from fem_check.command.app import app
+    from fem_check.command.words import tidied
+
+    try:
+        found = app(tidied(arguments), exit_on_error=False, print_error=False)
+    except UnusedCliTokensError as problem:
+        word = (problem.unused_tokens or [""])[0]
+        _complain(f"{word!r}: must follow an option, such as --growth; see sheetcrawl speed --help")
+        return BAD_ARGUMENTS
+    except (CycloptsError, ValueError) as problem:
+        _complain(str(problem))
+        return BAD_ARGUMENTS
+    return found if isinstance(found, int) else MET
+
+
+def _complain(problem: str) -> None:
+    """One line on stderr."""
+    print(f"sheetcrawl: {' '.join(problem.split())}", file=sys.stderr)
+
+
+def _forget_output() -> None:
+    """Let what is not yet written go nowhere, or the interpreter would try again at its end."""
+    with contextlib.suppress(OSError, ValueError):  # a stream that stands for stdout has no number
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())

@@ -1,0 +1,211 @@
+"""Quantities as people write them, and the question that they ask, in the units that they are in."""
+
+import re
+from dataclasses import dataclass
+from functools import cache
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from fem_check.answer.growth import alpha_of
+from fem_check.answer.units import Units
+from fem_check.command.options import Options
+from fem_check.levels import Question
+from linear_theory.pulse import NARROWEST, pulse_wave
+from linear_theory.sheet import Sheet
+from linear_theory.waves import SineWave, TravellingWave
+
+if TYPE_CHECKING:
+    import pint
+
+NUMBER = re.compile(
+    r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?|[+-]?(?:nan|inf(?:inity)?))\s*(.*?)\s*", re.I
+)
+
+EXAMPLES = {"length": "40 mm", "time": "8 s", "speed": "0.1 mm/s", "share": "12 %"}
+BASES = {"length": "m", "time": "s", "speed": "m/s", "share": "dimensionless"}
+KINDS = {
+    "length": "length",
+    "width": "length",
+    "thickness": "length",
+    "period": "time",
+    "slip_speed": "speed",
+    "atol": "speed",
+}
+"""What the options with a dimension are, by name."""
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """A number with its unit, None for a plain number; name and text as on the command line."""
+
+    name: str
+    text: str
+    number: float
+    unit: "pint.Unit | None"
+
+    def into(self, unit: Any) -> float:
+        """The number in another unit of the same dimension; a plain number as it is."""
+        if self.unit is None:
+            return self.number
+        return float(self.number * self.unit._REGISTRY.Quantity(1.0, self.unit).to(unit).magnitude)
+
+
+class Asked(NamedTuple):
+    """A question, how well it is to be answered, and the units that its numbers are in.
+
+    units: None for plain numbers, which are told in units of the sheet.
+    """
+
+    question: Question
+    rtol: float
+    atol: float | None
+    units: Units | None
+
+
+def asked(options: Options) -> Asked:
+    """What the options ask. Raises ValueError that names the option, its value and what to do."""
+    given = {
+        name: quantity(name, text, kind)
+        for name, kind in KINDS.items()
+        if (text := getattr(options, name)) is not None
+    }
+    names = _common_units(given)
+    numbers = {name: _in(names, KINDS[name], one) for name, one in given.items()}
+    sheet = _sheet(numbers, names is not None, options.poisson)
+    wave = _wave(options, numbers.get("period", 1.0))
+    question = Question(
+        sheet,
+        wave,
+        _alpha(options, wave, sheet),
+        options.growth_law,
+        options.area,
+        options.load,
+        options.friction,
+        numbers.get("slip_speed"),
+    )
+    units = None if names is None else Units(f"{names[0]:~P}", f"{names[1]:~P}")
+    return Asked(question, share("rtol", options.rtol), numbers.get("atol"), units)
+
+
+def quantity(name: str, text: str, kind: str) -> Quantity:
+    """A number and its unit. Raises ValueError for anything else, and for a unit of something else."""
+    option = f"--{name.replace('_', '-')}"
+    example = f"must be a {kind} such as '{EXAMPLES[kind]}'"
+    parts = NUMBER.fullmatch(text)
+    if parts is None:
+        raise ValueError(f"{option} {text!r}: {example}, or a plain number")
+    number, unit_text = float(parts[1]), parts[2]
+    if not unit_text:
+        return Quantity(option, text, number, None)
+    unit = _unit(unit_text)
+    if unit is None:
+        raise ValueError(f"{option} {text!r}: {unit_text!r} is no unit; {example}")
+    if not unit.is_compatible_with(_unit(BASES[kind])):
+        raise ValueError(f"{option} {text!r}: is not a {kind}; {example}")
+    return Quantity(option, text, number, unit)
+
+
+def share(name: str, text: str) -> float:
+    """A share, plain or in per cent."""
+    found = quantity(name, text, "share")
+    return found.into("dimensionless")
+
+
+@cache
+def _registry() -> "pint.UnitRegistry[Any]":
+    import pint  # a quarter of a second, for those who write units
+
+    return pint.UnitRegistry(cache_folder=None)
+
+
+def _unit(text: str) -> "pint.Unit | None":
+    """The unit of that name; None where there is none."""
+    import pint
+
+    try:
+        return _registry().parse_units(text.replace("%", "percent"))
+    except (pint.PintError, AttributeError, ValueError, TypeError, SyntaxError, KeyError):
+        return None
+
+
+def _common_units(given: dict[str, Quantity]) -> "tuple[pint.Unit, pint.Unit] | None":
+    """Units of length and time of the question; None where all numbers are plain.
+
+    Raises ValueError where some are plain and others are not.
+    """
+    named = [one for one in given.values() if one.unit is not None]
+    if not named:
+        return None
+    for name, kind in KINDS.items():
+        needed, one = name in ("length", "period"), given.get(name)
+        if (one is None and needed) or (one is not None and one.unit is None):
+            option = f"--{name.replace('_', '-')}"
+            what = option if one is None else f"{option} {one.text!r}"
+            raise ValueError(
+                f"{what}: needs a unit beside {named[0].name} {named[0].text!r}, as in {option} "
+                f"'{EXAMPLES[kind]}'; or give plain numbers only, in units of the sheet"
+            )
+    length, period = given["length"].unit, given["period"].unit
+    assert length is not None
+    assert period is not None
+    return length, period
+
+
+def _in(names: "tuple[pint.Unit, pint.Unit] | None", kind: str, one: Quantity) -> float:
+    if names is None:
+        return one.number
+    length, time = names
+    return one.into({"length": length, "time": time, "speed": length / time}[kind])
+
+
+def _sheet(numbers: dict[str, float], with_units: bool, poisson: float) -> Sheet:
+    """The sheet; what is not given is that of the paper, in proportion where lengths have a unit."""
+    sizes = {name: numbers[name] for name in ("length", "width", "thickness") if name in numbers}
+    if with_units:
+        paper = Sheet()
+        for name in ("width", "thickness"):
+            sizes.setdefault(name, getattr(paper, name) * sizes["length"])
+    return Sheet(**sizes, poisson=poisson)
+
+
+def _wave(options: Options, period: float) -> TravellingWave:
+    harmonics = bool(options.sine or options.cosine)
+    if options.pulse is not None:
+        if harmonics:
+            raise ValueError(f"--pulse {options.pulse:g}: must be without --sine and --cosine")
+        if not NARROWEST <= options.pulse < 1:
+            raise ValueError(
+                f"--pulse {options.pulse:g}: must be in [{NARROWEST:g}, 1), a share of the wavelength"
+            )
+        return pulse_wave(options.pulse, options.count, period)
+    if not harmonics:
+        return SineWave(options.count, period)
+    size = max(len(options.sine), len(options.cosine))
+    cosine, sine = (
+        np.pad(np.array(part, float), (0, size - len(part))) for part in (options.cosine, options.sine)
+    )
+    return TravellingWave(cosine, sine, options.count, period)
+
+
+def _alpha(options: Options, wave: TravellingWave, sheet: Sheet) -> float:
+    """Given, or from the growth at the crest."""
+    if options.growth is None:
+        if options.alpha is None:
+            raise ValueError("--growth: must be given, such as '12 %' of length, or --alpha instead")
+        return options.alpha
+    if options.alpha is not None:
+        raise ValueError(f"--growth {options.growth!r}: must be without --alpha {options.alpha:g}")
+    crest = quantity("growth", options.growth, "share")
+    value = crest.into("dimensionless")
+    if crest.unit is None and value >= 1:
+        raise ValueError(
+            f"--growth {options.growth!r}: a plain number is a share, this one {value:g} times the "
+            f"length; must be < 1, or in per cent, as in '{value:g} %'"
+        )
+    if not value > 0:
+        raise ValueError(
+            f"--growth {options.growth!r}: must be > 0 at the crest of the wave, as in '12 %'; for a "
+            "wave that shrinks lengths give a negative --alpha"
+        )
+    return alpha_of(value, wave, sheet, options.growth_law)

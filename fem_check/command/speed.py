@@ -1,0 +1,120 @@
+"""`sheetcrawl speed`: asks `predict`, and tells the answer as the options want it."""
+
+import json
+import math
+import shutil
+import sys
+import warnings
+from typing import Any
+
+from fem_check.answer.block import block, why
+from fem_check.answer.units import Units
+from fem_check.command.files import check_files
+from fem_check.command.options import Options
+from fem_check.command.program import MET, MISSED
+from fem_check.command.quantities import Asked, asked
+from fem_check.command.text import printable
+from fem_check.command.waiting import Waiting
+from fem_check.prediction import Prediction, predict
+from linear_theory.errors import SheetcrawlError
+
+WIDEST = 100
+"""Columns of the answer, at the most."""
+
+HINTS = "sheetcrawl examples", "--why"
+
+
+def speed(options: Options) -> int:
+    """Answer; the exit status. Raises ValueError for bad options, before any work."""
+    if options.json and options.csv:
+        raise ValueError("--json: must be without --csv, one of them is printed")
+    check_files(options)
+    question = asked(options)
+    with warnings.catch_warnings(record=True, action="always") as seen, Waiting() as waiting:
+        try:
+            found = _predicted(question, options.method, waiting)
+        except SheetcrawlError as problem:
+            if isinstance(problem, ValueError):
+                raise
+            print(f"sheetcrawl: {' '.join(str(problem).split())}", file=sys.stderr)
+            return MISSED
+    print(_told(found, question.units, options))
+    for warning in seen:
+        print(f"sheetcrawl: warning: {warning.message}", file=sys.stderr)
+    _draw(found, question.units, options)
+    return MET if found.converged else MISSED
+
+
+def _predicted(question: Asked, method: str, waiting: Waiting) -> Prediction:
+    q = question.question
+    return predict(
+        q.sheet,
+        q.wave,
+        q.alpha,
+        q.growth_law,
+        q.area,
+        q.load,
+        q.friction,
+        q.slip_speed,
+        question.rtol,
+        question.atol,
+        method,
+        progress=waiting.report,
+    )
+
+
+def _told(found: Prediction, units: Units | None, options: Options) -> str:
+    """The answer as it is printed."""
+    if options.json:
+        return json.dumps(record(found, units), indent=1)
+    if options.csv:
+        return table(found, units)
+    width = min(shutil.get_terminal_size((WIDEST, 0)).columns, WIDEST)
+    text = block(found, units, width, ("", "") if options.why else HINTS)
+    if options.why:
+        text = f"{text}\n{why(found, width)}"
+    return printable(f"\n{text}\n", sys.stdout)
+
+
+def record(found: Prediction, units: Units | None) -> dict[str, Any]:
+    """The answer for programs, in the units of the question; what is unknown is None."""
+    speed = found.speed
+    numbers = {
+        "mean": found.mean,
+        "error": found.error,
+        "numerical_error": speed.error,
+        "model_error": speed.model_error,
+        "slip_ratio": speed.slip_ratio,
+        "seconds": found.seconds,
+        "alpha": found.question.alpha,
+    }
+    return {
+        **{name: value if math.isfinite(value) else None for name, value in numbers.items()},
+        "unit": units.speed if units else "length/time",
+        "converged": found.converged,
+        "regime": speed.regime,
+        "level": found.level,
+        "reason": found.reason,
+        "model": speed.model,
+        "left_out": list(found.left_out),
+        "reach": speed.reach,
+    }
+
+
+def table(found: Prediction, units: Units | None) -> str:
+    """V(t) through one period, in the units of the question."""
+    names = (units.time, units.speed) if units else ("time", "length/time")
+    rows = zip(found.speed.times.tolist(), found.speed.velocity.tolist(), strict=True)
+    return "\n".join([f"t [{names[0]}],V [{names[1]}]", *(f"{t!r},{v!r}" for t, v in rows)])
+
+
+def _draw(found: Prediction, units: Units | None, options: Options) -> None:
+    """The picture and the film that are asked for."""
+    if options.plot is not None:
+        from fem_check.output.files import replacing  # and matplotlib with it
+
+        (first, *_) = found.plot(units=units)
+        with replacing(options.plot) as part:
+            first.figure.savefig(part)
+    if options.movie is not None:
+        found.movie(options.movie, units=units, progress=sys.stderr.isatty())

@@ -1,0 +1,176 @@
+"""Speeds by theory and by cycles of shapes as pictures see them: one period, repeated along a path."""
+
+from collections.abc import Iterator
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fem_check.output.moving import Course, Frame, direction, turned
+from linear_theory.deformation import Deformation
+from linear_theory.path import Poses, rigid_path
+from linear_theory.speed import CrawlSpeed
+
+Array = NDArray[np.float64]
+Integers = NDArray[np.int64]
+
+
+class Crawling:
+    """See `moving.Moving`. Without a deformation there is V(t) and a path, and nothing else."""
+
+    most_periods: int | None = None
+
+    def __init__(self, speed: CrawlSpeed) -> None:
+        self.speed = speed
+        self.has_shape = speed.deformation is not None
+
+    @property
+    def _deformation(self) -> Deformation:
+        assert self.speed.deformation is not None
+        return self.speed.deformation
+
+    @property
+    def period(self) -> float:
+        """Of the wave; that of V(t) as far as it is known where there is no wave."""
+        return self._deformation.wave.period if self.has_shape else _period(self.speed)
+
+    @property
+    def length(self) -> float:
+        """Of the sheet."""
+        return self._deformation.length if self.has_shape else 1.0
+
+    @property
+    def words(self) -> str:
+        """What the shape is."""
+        return self._deformation.words if self.has_shape else ""
+
+    @property
+    def direction(self) -> int:
+        """See Moving."""
+        return direction(self._deformation.wave) if self.has_shape else 0
+
+    @cached_property
+    def components(self) -> int:
+        """2 in the plane, 3 in space."""
+        if not self.has_shape:
+            return 2
+        points = self._deformation.covering()[0]
+        return len(self._deformation.places(points[:, :1], np.zeros(1)))
+
+    def covering(self) -> tuple[Array, Integers]:
+        """See Moving."""
+        return self._deformation.covering()
+
+    def course(self) -> Course:
+        """V(t) over the period that starts at 0, and a little more, so that it is closed."""
+        share = np.mod(self.speed.times, self.period)
+        order = np.argsort(share)
+        times, velocity = share[order], self.speed.velocity[order]
+        times = np.concatenate([times[-1:] - self.period, times, times[:1] + self.period])
+        whole = (0.0, self.period)
+        return Course(times, np.concatenate([velocity[-1:], velocity, velocity[:1]]), whole, whole)
+
+    def way(self, periods: int, samples: int) -> tuple[Array, Array]:
+        """See Moving."""
+        poses = self._poses(periods, samples)
+        return poses.times, self._centre[:, None] + poses.position
+
+    def at(self, points: Array, phase: float) -> Frame:
+        """In the frame of the body, whose place at a phase is free."""
+        return self._frame(points, np.array([phase * self.period]))(0)
+
+    def friction(self, points: Array, phase: float) -> Array:
+        """See Moving: against the slip, which is the velocity of the shape and that of the body."""
+        t = phase * self.period
+        velocity, load = self._deformation.contact(points, t)
+        v_x, v_y, omega = self._rigid(t)
+        x, y = self._deformation.places(points, np.array([t]))[:2, 0]
+        slip = velocity + np.stack([v_x - omega * y, v_y + omega * x])
+        size = np.hypot(*slip)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            force = -load * self._deformation.law.ratio(size) * slip
+        return np.where(size > 0, force, 0.0)
+
+    def ground(self, y: Array) -> Array:
+        """Level: no theory and no cycle of shapes knows any other."""
+        return np.zeros_like(y)
+
+    def frames(self, points: Array, periods: int, samples: int) -> "CrawlingFrames":
+        """The shapes of one period, and the path that they are carried along."""
+        return CrawlingFrames(self, points, self._poses(periods, samples), samples)
+
+    def _frame(self, points: Array, times: Array) -> "_Shapes":
+        return _Shapes(self._deformation, points, times)
+
+    @property
+    def _centre(self) -> Array:
+        return self._deformation.centre if self.has_shape else np.zeros(2)
+
+    def _rigid(self, t: float) -> Array:
+        """V_x, V_y, Omega at one time, between those of the speed."""
+        times, speed = self.speed.times, self.speed
+        rigid = (
+            np.multiply.outer([0.0, 1.0, 0.0], speed.velocity) if speed.rigid is None else speed.rigid
+        )
+        return np.array([np.interp(t, times, values, period=self.period) for values in rigid])
+
+    def _poses(self, periods: int, samples: int) -> Poses:
+        if self.speed.times.size >= 4 and self.speed.times.size % 4 == 0:
+            return rigid_path(self.speed, periods, samples)
+        # At rest, and a wave under which V is constant, have no times to speak of.
+        times = self.speed.times[0] + self.period * np.arange(periods * samples + 1) / samples
+        way = self.speed.mean * (times - times[0])
+        return Poses(times, np.stack([0 * way, way]), 0 * way)
+
+
+class _Shapes:
+    """Frames of the body at some times."""
+
+    def __init__(self, deformation: Deformation, points: Array, times: Array) -> None:
+        self.times, self.centre = times, deformation.centre
+        self.place = deformation.places(points, times)
+        self.growth = deformation.alpha * deformation.growth(points, times)
+        still = (points - self.centre[:, None])[:, None]
+        self.still = np.broadcast_to(_raised(still, len(self.place)), self.place.shape)
+
+    def __call__(self, index: int) -> Frame:
+        at = np.zeros((len(self.place), 1))
+        at[:2, 0] = self.centre
+        place, still = (at + v[:, index] for v in (self.place, self.still))
+        return Frame(float(self.times[index]), place, still, self.growth[index], self.centre, 0.0)
+
+
+class CrawlingFrames:
+    """See `moving.Frames`."""
+
+    def __init__(self, moving: Crawling, points: Array, poses: Poses, samples: int) -> None:
+        self._poses, self._samples = poses, samples
+        self._shapes = moving._frame(points, poses.times[:samples])
+
+    def __len__(self) -> int:
+        return int(self._poses.times.size)
+
+    def __iter__(self) -> Iterator[Frame]:
+        return (self[k] for k in range(len(self)))
+
+    def __getitem__(self, index: int) -> Frame:
+        shapes, heading = self._shapes, float(self._poses.heading[index])
+        inside = index % self._samples
+        centre = shapes.centre + self._poses.position[:, index]
+        at = np.zeros((len(shapes.place), 1))
+        at[:2, 0] = centre
+        place, still = (at + turned(v[:, inside], heading) for v in (shapes.place, shapes.still))
+        t, growth = float(self._poses.times[index]), shapes.growth[inside]
+        return Frame(t, place, still, growth, centre, heading)
+
+
+def _raised(places: Array, components: int) -> Array:
+    """Places in the plane as ones with so many components."""
+    missing = np.zeros((components - 2, *places.shape[1:]))
+    return np.concatenate([places, missing])
+
+
+def _period(speed: CrawlSpeed) -> float:
+    """Of V(t), whose last interval, to the start of the next period, is as long as the one before."""
+    times = speed.times
+    return float(2 * times[-1] - times[-2] - times[0]) if times.size > 1 else 1.0

@@ -1,0 +1,99 @@
+"""`.movie(path)`: frames of the crawling sheet, written as .gif or .mp4."""
+
+from collections.abc import Callable, Iterator
+from contextlib import nullcontext
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fem_check.answer.units import Units
+from fem_check.output import writers
+from fem_check.output.files import replacing, writable
+from fem_check.output.pictures import checked_periods, checked_units, moving_of
+from fem_check.output.progress import Progress
+from fem_check.output.stage import Stage
+from linear_theory import validation
+
+Pixels = NDArray[np.uint8]
+
+PERIODS = 6
+"""Of a film, unless given."""
+
+MOST_FRAMES = 3000
+"""Some minutes of work, and of film."""
+
+WIDTHS = 240, 1920
+"""Pixels: below the first nothing can be read."""
+
+Report = Callable[[int, int], object]
+
+
+def movie(
+    result: Any,
+    path: str | Path,
+    *,
+    periods: int | None = None,
+    frames: int = 24,
+    fps: float = 15.0,
+    width: int = 640,
+    exaggerate: float = 1.0,
+    units: Units | None = None,
+    progress: Report | bool = False,
+) -> Path:
+    """See `linear_theory.drawable.Drawable.movie`.
+
+    >>> import tempfile
+    >>> from pathlib import Path
+    >>> from linear_theory import Sheet, SineWave, crawl_speed
+    >>> speed = crawl_speed(Sheet(), SineWave(), alpha=0.2, rtol=1e-2)
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     path = speed.movie(Path(folder) / "crawl.gif", periods=1, frames=4, width=240)
+    ...     print(path.name, path.stat().st_size > 1000)
+    crawl.gif True
+    """
+    target = writable(path, tuple(writers.WRITERS))
+    write = writers.WRITERS[target.suffix.lower()]
+    writers.require(target.suffix.lower())
+    moving = moving_of(result)
+    if not moving.has_shape:
+        raise ValueError("result: a speed of a body on a line, or a copied one, has no shape to film")
+    periods = checked_periods(moving, periods, PERIODS)
+    frames = validation.integer("frames", frames, 2)
+    fps, factor = validation.positive("fps", fps), validation.positive("exaggerate", exaggerate)
+    if not WIDTHS[0] <= validation.integer("width", width) <= WIDTHS[1]:
+        raise ValueError(f"width = {width}: must be in [{WIDTHS[0]}, {WIDTHS[1]}] pixels")
+    total = periods * frames
+    if total > MOST_FRAMES:
+        raise ValueError(
+            f"periods = {periods}, frames = {frames}: make {total} frames, must be at most "
+            f"{MOST_FRAMES}; show fewer of either"
+        )
+    stage = Stage(moving, checked_units(moving, units), periods, frames, width, factor)
+    with replacing(target) as part, _progress(target, total, progress) as report:
+        write(part, _reported(stage, report), fps)
+    return target
+
+
+def _reported(stage: Stage, report: Report) -> Iterator[Pixels]:
+    """The pictures, each reported when it is done."""
+    for done, picture in enumerate(stage.pictures(), 1):
+        yield picture
+        report(done, len(stage))
+
+
+def _progress(target: Path, total: int, progress: Report | bool) -> Any:
+    """A context that gives what to call after each frame."""
+    if callable(progress):
+        return nullcontext(progress)
+    if not isinstance(progress, bool):
+        raise ValueError(f"progress = {validation.shown(progress)}: must be True, False or a function")
+    return _Line(target.name, total) if progress else nullcontext(lambda done, total: None)
+
+
+class _Line(Progress):
+    """A progress line on stderr as a function of the frames done."""
+
+    def __call__(self, done: int, total: int) -> None:
+        self.advance()

@@ -1,0 +1,161 @@
+"""Trajectories as pictures see them."""
+
+from collections.abc import Iterator
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fem_check import triangles
+from fem_check.output.moving import Course, Frame, direction, turned
+from fem_check.shell.effects.friction import Friction, load_bearer, tanh_ratio
+from fem_check.shell.effects.gravity import Gravity
+from fem_check.shell.effects.ground import Ground
+from fem_check.shell.point_state import PointState
+from fem_check.shell.rates import Step
+from fem_check.shell.region import Region
+from fem_check.shell.rest_state import RestState
+from fem_check.shell.stepping.trajectory import Trajectory
+from linear_theory.speed import CrawlSpeed
+
+Array = NDArray[np.float64]
+Integers = NDArray[np.int64]
+
+AROUND = 1e-2
+"""Half of the interval, in periods, over which velocities are differences of positions."""
+
+
+class Simulated:
+    """See `moving.Moving`; phases and frames are counted from the end of the ramp of growth."""
+
+    has_shape = True
+    words = "simulated sheet"
+
+    def __init__(self, trajectory: Trajectory) -> None:
+        self._trajectory, self._scene = trajectory, trajectory.scene
+        self.period, self.length = self._scene.period, self._scene.sheet.length
+        self.components = self._scene.components
+        self.most_periods: int | None = trajectory.periods
+
+    @cached_property
+    def speed(self) -> CrawlSpeed:
+        """Of the last period."""
+        return self._trajectory.speed
+
+    @property
+    def direction(self) -> int:
+        """See Moving."""
+        return direction(self._scene.wave)
+
+    def covering(self) -> tuple[Array, Integers]:
+        """See Moving."""
+        return triangles.covering(self._scene.discretisation().mesh)
+
+    def course(self) -> Course:
+        """V(t) of all counted periods; the mean is that of the last one."""
+        run = self._trajectory
+        velocity, counted = np.gradient(run.centre[1], run.times), run.times >= run.start
+        end = float(run.times[-1])
+        last, shown = (end - self.period, end), (run.start, end)
+        return Course(run.times[counted], velocity[counted], last, shown)
+
+    def way(self, periods: int, samples: int) -> tuple[Array, Array]:
+        """At the ends of the steps."""
+        run = self._trajectory
+        last = run.start + periods * self.period + 1e-9 * self.period
+        shown = (run.times >= run.start - 1e-9 * self.period) & (run.times <= last)
+        return run.times[shown], run.centre[:2, shown]
+
+    def at(self, points: Array, phase: float) -> Frame:
+        """See Moving."""
+        return self._frame(self._region(points), points, self._time(phase))
+
+    def friction(self, points: Array, phase: float) -> Array:
+        """See Moving; 0 without friction."""
+        friction: Friction | None = self._scene.find(Friction)
+        t, region = self._time(phase), self._region(points)
+        if friction is None:
+            return np.zeros((2, region.size))
+        before, after = self._within(t - AROUND * self.period), self._within(t + AROUND * self.period)
+        moved = self._place(region, after)[:2] - self._place(region, before)[:2]
+        velocity = moved / (after - before)
+        ratio = tanh_ratio(np.hypot(*velocity) / friction.slip_speed) / friction.slip_speed
+        return np.asarray(-self._load(region, t) * ratio * velocity)
+
+    def ground(self, y: Array) -> Array:
+        """See Moving."""
+        found: Ground | None = self._scene.find(Ground)
+        if found is None or found.height is None:
+            return np.zeros_like(y)
+        return np.asarray(found.height.values(0 * y, y))
+
+    def frames(self, points: Array, periods: int, samples: int) -> "SimulatedFrames":
+        """See Moving."""
+        times = self._trajectory.start + self.period * np.arange(periods * samples + 1) / samples
+        return SimulatedFrames(self, points, times)
+
+    def _load(self, region: Region, t: float) -> Array:
+        """Pressure on the ground over the weight per area."""
+        bearer = load_bearer(self.components, self._scene.effects)
+        u, rest = self._trajectory.shape(t, None), self._rest(region, t)
+        area = PointState(region, u, (1, 2)).area
+        state = PointState(region, u, (0,), rest, Step(area=area))
+        return np.asarray(bearer.normal_load(state) / self._scene.find(Gravity).weight)
+
+    def _rest(self, region: Region, t: float) -> RestState:
+        return self._scene.rest(t, self._trajectory.amplitude(t), region)
+
+    def _time(self, phase: float) -> float:
+        t = self._trajectory.start + phase * self.period
+        first, last = self._trajectory.stored_times[[0, -1]]
+        if not first - 1e-9 * self.period <= t <= last + 1e-9 * self.period:
+            raise ValueError(
+                f"phase = {phase:g}: must be within the periods that were kept, "
+                f"[{(first - self._trajectory.start) / self.period:.3g}, {self.most_periods}]"
+            )
+        return self._within(t)
+
+    def _within(self, t: float) -> float:
+        first, last = self._trajectory.stored_times[[0, -1]]
+        return float(min(max(t, first), last))
+
+    def _region(self, points: Array) -> Region:
+        return self._scene.discretisation().points(points)
+
+    def _place(self, region: Region, t: float) -> Array:
+        return np.asarray(region.position(self._trajectory.shape(t, None), (0,))[0])
+
+    def _frame(self, region: Region, points: Array, t: float) -> Frame:
+        run, place = self._trajectory, self._place(region, t)
+        growth = run.amplitude(t) * self._scene.alpha * self._scene.growth(t, *points)
+        centre = np.array([np.interp(t, run.times, values) for values in run.centre])
+        heading = float(np.interp(t, run.path.times, run.path.heading))
+        flat = np.zeros_like(place)
+        flat[:2] = points - self._middle[:, None]
+        still = turned(flat, heading)
+        still[:2] += centre[:2, None]
+        return Frame(t, place, still, np.asarray(growth), centre[:2], heading)
+
+    @cached_property
+    def _middle(self) -> Array:
+        """Centre of mass of the undeformed sheet, (2,)."""
+        region = self._scene.discretisation().interior
+        return np.asarray(region.reference[0, :2] @ region.measure / region.measure.sum())
+
+
+class SimulatedFrames:
+    """See `moving.Frames`."""
+
+    def __init__(self, moving: Simulated, points: Array, times: Array) -> None:
+        self._moving, self._points, self._times = moving, points, times
+        self._region = moving._region(points)
+
+    def __len__(self) -> int:
+        return int(self._times.size)
+
+    def __iter__(self) -> Iterator[Frame]:
+        return (self[k] for k in range(len(self)))
+
+    def __getitem__(self, index: int) -> Frame:
+        t = self._moving._within(float(self._times[index]))
+        return self._moving._frame(self._region, self._points, t)

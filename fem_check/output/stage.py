@@ -1,0 +1,237 @@
+"""What a film shows: the sheet on ruled ground, its way, the time, and which way the wave runs."""
+
+from collections.abc import Iterator
+from typing import Any
+
+import matplotlib as mpl
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+from matplotlib.ticker import MultipleLocator
+from numpy.typing import NDArray
+
+from fem_check.answer.units import Units
+from fem_check.output.look import STYLE
+from fem_check.output.moving import Frame, Moving
+from fem_check.output.panels import (
+    GROWTH_MAP,
+    WAVE,
+    add_sheet,
+    add_side,
+    draw_ground,
+    growth_scale,
+)
+
+Array = NDArray[np.float64]
+Pixels = NDArray[np.uint8]
+
+DPI = 100
+
+TOP, BOTTOM, LEFT, RIGHT = 46, 40, 14, 14
+"""Pixels around the ground: above it words and scale, below it the ruler."""
+
+SIDE = 76
+"""Pixels of the side view of a sheet in space."""
+
+ARROW = 40
+"""Length of the arrow of the wave in pixels."""
+
+LEAST, MOST = 90, 800
+"""Height of the ground in pixels."""
+
+MARGIN = 0.12
+"""Of ground around the sheet, in its lengths."""
+
+LOOKED_AT = 60
+"""Frames that the extent of the ground is taken from."""
+
+GROUND, RULES = "#EFEFEF", "#D2D2D2"
+
+
+class Stage:
+    """The frames of one film as pictures.
+
+    periods of so many frames each; width: in pixels; exaggerate: factor of the displacement within the
+    sheet.
+    """
+
+    def __init__(
+        self, moving: Moving, units: Units, periods: int, frames: int, width: int, exaggerate: float
+    ) -> None:
+        self._moving, self._units, self._exaggerate = moving, units, exaggerate
+        self._points, self._triangles = moving.covering()
+        self._frames, self._total = moving.frames(self._points, periods, frames), periods * frames
+        self._growth = growth_scale(moving, self._points)
+        first = self._frames[0]
+        self._start = first.centre
+        # The times of a trajectory are its own; a speed has none but those of one period.
+        self._zero = first.time if moving.most_periods is None else 0.0
+        self._low, self._high = self._extent()
+        self._width = width - width % 2
+
+    def __len__(self) -> int:
+        return self._total
+
+    def pictures(self) -> Iterator[Pixels]:
+        """Red, green and blue, (height, width, 3); width and height are even, as encoders want."""
+        with mpl.rc_context({**STYLE, "figure.constrained_layout.use": False}):
+            canvas, axes = self._set_up()
+            canvas.draw()
+        ground = canvas.copy_from_bbox(canvas.figure.bbox)
+        trail = []
+        for k in range(self._total):
+            frame = self._shown(self._frames[k])
+            trail.append(frame.centre)
+            canvas.restore_region(ground)
+            with mpl.rc_context(STYLE):
+                for artist in self._moving_parts(axes, frame, np.array(trail).T):
+                    artist.axes.draw_artist(artist)
+                    artist.remove()
+            yield np.asarray(canvas.buffer_rgba())[:, :, :3].copy()
+
+    def _moving_parts(self, axes: list[Axes], frame: Frame, trail: Array) -> Iterator[Any]:
+        """What is drawn anew on every picture, from back to front."""
+        top, *side = axes
+        factor = self._units.length_factor
+        yield from add_sheet(top, frame.place * factor, frame.growth, self._triangles, self._growth)
+        yield from top.plot(*(trail[::-1] * factor), color="black", linewidth=1.2)
+        yield from top.plot(*(trail[::-1, -1:] * factor), "o", color="black", mec="white", markersize=6)
+        height = 1 + 32 / self._height
+        yield top.text(0, height, self._words(frame), transform=top.transAxes, va="center")
+        yield from self._wave(top, frame.heading)
+        for ax in side:
+            yield from add_side(ax, frame, self._triangles, factor, self._growth)
+
+    def _wave(self, ax: Axes, heading: float) -> Iterator[Any]:
+        """The way of the wave, which turns with the sheet."""
+        direction = self._moving.direction
+        if not direction:
+            return
+        half = 0.5 * ARROW * direction * np.array([np.cos(heading), np.sin(heading)])
+        middle = np.array([60 + ARROW / 2, self._height - 8 - ARROW / 2 * abs(np.sin(heading))])
+        look = {"arrowstyle": "-|>", "color": WAVE, "lw": 1.5, "shrinkA": 0, "shrinkB": 0}
+        head, tail = ((float(p[0]), float(p[1])) for p in (middle + half, middle - half))
+        yield ax.annotate("", head, tail, xycoords="axes pixels", arrowprops=look)
+        yield ax.annotate(
+            "wave", (6, self._height - 8), xycoords="axes pixels", va="center", color=WAVE
+        )
+
+    def _words(self, frame: Frame) -> str:
+        """Time and distance."""
+        units = self._units
+        way = (frame.centre - self._start)[1] * units.length_factor
+        time = (frame.time - self._zero) * units.time_factor
+        size = self._moving.length * units.length_factor
+        digits = max(0, 2 - int(np.floor(np.log10(size))))
+        span = self._moving.period * units.time_factor
+        decimals = max(0, 2 - int(np.floor(np.log10(span))))
+        words = f"t = {time:.{decimals}f} {units.time}    way {way:+.{digits}f} {units.length}"
+        return words.replace("-", "\N{MINUS SIGN}")
+
+    def _shown(self, frame: Frame) -> Frame:
+        """With displacements exaggerated."""
+        if self._exaggerate == 1:
+            return frame
+        return frame._replace(place=frame.still + self._exaggerate * (frame.place - frame.still))
+
+    def _extent(self) -> tuple[Array, Array]:
+        """Least and largest x and y (and z) that come into view."""
+        some = np.unique(np.linspace(0, self._total - 1, LOOKED_AT).astype(int))
+        places = [self._shown(self._frames[int(k)]).place for k in some]
+        low = np.min([place.min(1) for place in places], axis=0)
+        high = np.max([place.max(1) for place in places], axis=0)
+        margin = MARGIN * self._moving.length
+        return low - margin, high + margin
+
+    def _heights(self) -> tuple[float, float]:
+        """Limits of z in the side view."""
+        margin = MARGIN * self._moving.length
+        low, high = (self._low[2] + margin, self._high[2] - margin)
+        spare = 0.15 * max(high - low, 1e-3 * self._moving.length)
+        return (low - spare) * self._units.length_factor, (high + spare) * self._units.length_factor
+
+    @property
+    def _height(self) -> int:
+        """Of the ground in pixels."""
+        across, along = (self._high - self._low)[:2]
+        return int(np.clip(round((self._width - LEFT - RIGHT) * across / along), LEAST, MOST))
+
+    def _set_up(self) -> tuple[Any, list[Axes]]:
+        """The ground and all that rests."""
+        side = SIDE if self._moving.components == 3 else 0
+        height = TOP + self._height + BOTTOM + side
+        height += height % 2
+        fig = Figure(figsize=(self._width / DPI, height / DPI), dpi=DPI)
+        canvas: Any = FigureCanvasAgg(fig)
+        span = (self._width - LEFT - RIGHT) / self._width
+        bottom = height - TOP - self._height
+        box = LEFT / self._width, bottom / height, span, self._height / height
+        top = fig.add_axes(box)
+        self._rule(top)
+        self._name(top)
+        self._add_scale(fig, height)
+        if not side:
+            return canvas, [top]
+        below = fig.add_axes((LEFT / self._width, 8 / height, span, (side - 12) / height))
+        below.set(xticks=[], yticks=[], facecolor="white")
+        below.set(xlim=top.get_xlim(), ylim=self._heights())
+        below.spines[:].set_visible(False)
+        draw_ground(below, self._moving, self._low[1], self._high[1], self._units.length_factor)
+        below.text(0.005, 0.95, "side, height not to scale", transform=below.transAxes, va="top")
+        return canvas, [top, below]
+
+    def _rule(self, ax: Axes) -> None:
+        factor = self._units.length_factor
+        low, high = self._low * factor, self._high * factor
+        # Where the ground is too flat or too high for the picture it is cut or continued evenly.
+        middle, half = (low + high) / 2, (high - low) / 2
+        half[0] = half[1] * self._height / (self._width - LEFT - RIGHT)
+        ax.set(xlim=(middle[1] - half[1], middle[1] + half[1]))
+        ax.set(ylim=(middle[0] + half[0], middle[0] - half[0]), facecolor=GROUND)
+        step = _nice(2 * half[1] / 12)
+        for at, draw in ((1, ax.axvline), (0, ax.axhline)):
+            for k in range(*_multiples(middle[at], half[at], step)):
+                draw(k * step, color=RULES, linewidth=0.8, zorder=0)
+        ax.xaxis.set_major_locator(MultipleLocator(2 * step))
+        ax.tick_params(length=0)
+        ax.set_yticks([])
+        ax.set_xlabel(f"$y$ ({self._units.length})", loc="right", labelpad=2)
+        for spine in ax.spines.values():
+            spine.set_visible(False)
+        start = self._start[1] * factor
+        ax.axvline(start, color="black", linewidth=0.8, linestyle=(0, (4, 3)), zorder=1)
+
+    def _name(self, ax: Axes) -> None:
+        """What the shape is."""
+        note = self._moving.words
+        if self._exaggerate != 1:
+            note += f", displacement x {self._exaggerate:g}"
+        ax.text(
+            0, 1 + 12 / self._height, note, transform=ax.transAxes, va="center", color="0.35", size=7
+        )
+
+    def _add_scale(self, fig: Figure, height: int) -> None:
+        """Colours of growth, at the top right."""
+        if not self._growth:
+            return
+        box = 1 - 118 / self._width, 1 - 30 / height, 90 / self._width, 9 / height
+        ax = fig.add_axes(box)
+        ends = -self._growth, self._growth
+        ax.imshow(np.linspace(*ends, 128)[None], aspect="auto", cmap=GROWTH_MAP, extent=(*ends, 0, 1))
+        ax.set(yticks=[], xticks=[])
+        for at, sign in enumerate(("\N{MINUS SIGN}", "+")):
+            text = f"{sign}{self._growth:.3g} %"
+            ax.text(at, -0.35, text, transform=ax.transAxes, va="top", ha="center", size=7)
+        ax.text(-0.12, 0.5, r"growth $\alpha c$", transform=ax.transAxes, va="center", ha="right")
+
+
+def _multiples(middle: float, half: float, step: float) -> tuple[int, int]:
+    """From which multiple of a step on, and before which, an interval has them."""
+    return int(np.ceil((middle - half) / step)), int(np.floor((middle + half) / step)) + 1
+
+
+def _nice(step: float) -> float:
+    """The next larger of 1, 2, 5 times a power of ten."""
+    power = 10.0 ** np.floor(np.log10(step))
+    return float(power * next(n for n in (1, 2, 5, 10) if n * power >= step * (1 - 1e-9)))

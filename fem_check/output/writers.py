@@ -1,0 +1,85 @@
+"""Films as files: .gif by Pillow, .mp4 by the encoder that comes with imageio-ffmpeg, an extra."""
+
+from collections.abc import Callable, Iterator
+from importlib.util import find_spec
+from itertools import chain, islice
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+from PIL import Image
+
+Pixels = NDArray[np.uint8]
+Write = Callable[[Path, Iterator[Pixels], float], None]
+
+SAMPLED = 8
+"""First pictures, from which the colours of a .gif are chosen."""
+
+COLOURS = 128
+"""In a .gif: enough that growth is smooth; twice as many are a third more bytes."""
+
+QUALITY = 20
+"""Constant rate factor of the .mp4: no artefacts are seen in lines and letters."""
+
+MODULE = "imageio_ffmpeg"
+
+
+def require(suffix: str) -> None:
+    """Raise ModuleNotFoundError, with what to install, where the writer of these files is missing."""
+    if suffix == ".mp4" and find_spec(MODULE) is None:
+        raise ModuleNotFoundError(
+            "an .mp4 film needs the encoder of the extra `movies`: pip install 'sheetcrawl[movies]' "
+            "(imageio-ffmpeg); or write a .gif"
+        )
+
+
+def write_gif(path: Path, pictures: Iterator[Pixels], fps: float) -> None:
+    """Endlessly repeated, with one palette for all frames and no dither, so that what rests is small.
+
+    The delay of a frame is a whole number of 1/100 s, at least 2.
+    """
+    first = list(islice(pictures, SAMPLED))
+    palette = _palette(first)
+    images = (
+        Image.fromarray(picture).quantize(palette=palette, dither=Image.Dither.NONE)
+        for picture in chain(first, pictures)
+    )
+    delay = 10 * max(2, round(100 / fps))
+    start = next(images)
+    start.save(
+        path, format="GIF", save_all=True, append_images=images, duration=delay, loop=0, disposal=1
+    )
+
+
+def write_mp4(path: Path, pictures: Iterator[Pixels], fps: float) -> None:
+    """H.264 that every browser and slide program plays."""
+    import imageio_ffmpeg
+
+    first = next(pictures)
+    height, width = first.shape[:2]
+    writer = imageio_ffmpeg.write_frames(
+        str(path),
+        (width, height),
+        fps=fps,
+        codec="libx264",
+        pix_fmt_out="yuv420p",
+        macro_block_size=2,
+        quality=None,
+        output_params=["-crf", str(QUALITY), "-fflags", "+bitexact", "-flags:v", "+bitexact"],
+        ffmpeg_log_level="error",
+    )
+    writer.send(None)
+    try:
+        for picture in chain([first], pictures):
+            writer.send(np.ascontiguousarray(picture))
+    finally:
+        writer.close()
+
+
+WRITERS: dict[str, Write] = {".gif": write_gif, ".mp4": write_mp4}
+"""By the suffix of the file."""
+
+
+def _palette(pictures: list[Pixels]) -> Image.Image:
+    """The colours of some pictures together."""
+    return Image.fromarray(np.concatenate(pictures)).quantize(COLOURS, method=Image.Quantize.MEDIANCUT)

@@ -1,0 +1,88 @@
+"""A cycle of shapes as what pictures of its speed are made of."""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fem_check import triangles
+from fem_check.shell.cycle import contact
+from fem_check.shell.cycle.motion import CycleMotion
+from fem_check.shell.cycle.shapes import Shapes, time_factors
+from fem_check.shell.effects.gravity import Gravity
+from fem_check.shell.region import Region
+from linear_theory.deformation import Contact
+from linear_theory.field import Wave
+from linear_theory.rigid import centre_and_gyration
+
+Array = NDArray[np.float64]
+Integers = NDArray[np.int64]
+
+
+class CycleDeformation:
+    """See `linear_theory.deformation.Deformation`; the shapes are those that gave the speed."""
+
+    def __init__(self, shapes: Shapes, on_ground: contact.Contact) -> None:
+        self.shapes, self._load, self.law = shapes, on_ground.load, on_ground.law
+        self.alpha = shapes.scene.alpha
+        where = "in the plane" if shapes.scene.planar else "in space"
+        self.words = f"shape of the nonlinear sheet {where}"
+
+    @property
+    def wave(self) -> Wave:
+        """See Deformation."""
+        return self.shapes.scene.wave
+
+    @property
+    def length(self) -> float:
+        """See Deformation."""
+        return self.shapes.scene.sheet.length
+
+    @cached_property
+    def centre(self) -> Array:
+        """See Deformation."""
+        region = self.shapes.discretisation.interior
+        return np.array(centre_and_gyration(region.reference[0, :2], region.measure)[0])
+
+    def covering(self) -> tuple[Array, Integers]:
+        """See Deformation."""
+        return triangles.covering(self.shapes.discretisation.mesh)
+
+    def places(self, points: Array, times: Array) -> Array:
+        """See Deformation; the third component is the height over z = 0."""
+        return self._motion(points).places(np.asarray(times))
+
+    def growth(self, points: Array, times: Array) -> Array:
+        """See Deformation."""
+        return np.stack([self.shapes.scene.growth(float(t), *points) for t in times])
+
+    def contact(self, points: Array, t: float) -> Contact:
+        """See Deformation."""
+        found = self._motion(points).at(np.array([t]))
+        weight = 1.0
+        if self._load == contact.ON_GROUND:  # the reaction is a pressure
+            weight = self.shapes.scene.find(Gravity).weight
+        return Contact(found.velocity[:, 0, :, 0, 0], found.area[0, :, 0, 0] / weight)
+
+    def _motion(self, points: Array) -> "_AtPoints":
+        return _AtPoints(self.shapes, self._load, 1, mirrored=False, points=points)
+
+
+@dataclass(frozen=True, eq=False)
+class _AtPoints(CycleMotion):
+    """The motion at some points, each a cell of its own with one point of weight 1."""
+
+    points: Array
+
+    @cached_property
+    def region(self) -> Region:
+        """The points."""
+        return self.shapes.discretisation.points(self.points)
+
+    def places(self, times: Array) -> Array:
+        """In the frame of the body, (components, times, points)."""
+        values, _ = time_factors(times, self.shapes.scene.period, self._highest)
+        position = np.tensordot(values, self._jets[:, 0], 1).swapaxes(0, 1)
+        seen, _ = self._frame.seen(times, position[:2], np.zeros_like(position[:2]))
+        return np.concatenate([seen, position[2:]])
