@@ -46,7 +46,7 @@ class Prediction(Drawable, Shown):
     >>> print(f"V = {found.mean:.2f} +- {found.error:.2f} L/T: {found.reason}")
     V = 0.10 +- 0.01 L/T: strip is near enough
     >>> print(str(found).splitlines()[2])
-      speed     0.101 ± 0.015 L/T, along the wave; 10.1 % of its length per period
+      speed     0.101 ± 0.015 L/T, along the wave; 10.1 % of L per period
     """
 
     speed: CrawlSpeed

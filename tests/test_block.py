@@ -86,7 +86,7 @@ def test_units_of_the_sheet_do_not_depend_on_the_units_of_the_question():
     assert again["wave ──▶"] == f"{said['wave ──▶']}, L = 3, T = 2"
     value, error = numbers(said["speed"], rf"^{NUMBER} ± {NUMBER} L/T")
     assert abs(value - large.mean * 2 / 3) <= error
-    (share,) = numbers(said["speed"], rf"; {NUMBER} % of its length per period")
+    (share,) = numbers(said["speed"], rf"; {NUMBER} % of L per period")
     assert share == pytest.approx(100 * value)
 
 

@@ -27,12 +27,12 @@ def heading(wave: Wave, mean: float, error: float) -> str:
 
 
 def per_period(found: "Prediction", units: Units, error: float) -> str:
-    """The way of one period, in the unit of length, or as a share of the length of the sheet."""
+    """The way of one period, in the unit of length, or as a share of the length L of the sheet."""
     question = found.question
     way, wrong = (size * question.wave.period for size in (found.mean, error))
     if units == Units.of_sheet(question.sheet.length, question.wave.period):
         share = (100 / question.sheet.length * size for size in (abs(way), wrong))
-        return f"{measured(*share).value} % of its length per period"
+        return f"{measured(*share).value} % of L per period"
     shown = measured(units.of_length(abs(way)), units.of_length(wrong))
     return f"{shown.value} {units.length} per period"
 

@@ -4,7 +4,7 @@ import math
 from decimal import ROUND_CEILING, ROUND_HALF_EVEN, Decimal
 from typing import NamedTuple
 
-FINEST = 1e-9
+FINEST = 1e-7
 """Of a value: no error is shown smaller, since nobody reads more digits."""
 
 PLAIN = 1e-4, 1e6

@@ -16,6 +16,7 @@ app = App(
     help_format="plaintext",
     default_parameter=Parameter(negative=()),
     result_action="return_value",
+    suppress_keyboard_interrupt=False,  # `program` says a line
 )
 app.register_install_completion_command(add_to_startup=False)
 

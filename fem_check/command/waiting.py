@@ -42,7 +42,7 @@ class Waiting:
         if self._bar is None:
             self._bar = _bar()
             self._bar.add_task("", total=1.0, left="")
-        left = "" if math.isnan(progress.left) else f"{progress.left:.0f} s left of this"
+        left = "" if math.isnan(progress.left) else f"{progress.left:.0f} s left of this step"
         (task,) = self._bar.task_ids
         self._bar.update(task, description=progress.task, completed=progress.share, left=left)
 
