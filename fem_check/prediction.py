@@ -87,7 +87,7 @@ class Prediction(Drawable, Shown):
 
 
 @dataclass(frozen=True)
-class Goal:
+class Goal(Shown):
     """Tolerances, relative and absolute, for the error of numbers and model together."""
 
     rtol: float
@@ -98,12 +98,14 @@ class Goal:
         return max(self.rtol * abs(mean), self.atol)
 
 
-class Passed(NamedTuple):
-    """A level that was not taken, why, in words, and the seconds that it took to see that."""
-
+class _Passed(NamedTuple):
     level: str
     why: str
     seconds: float
+
+
+class Passed(Shown, _Passed):
+    """A level that was not taken, why, in words, and the seconds that it took to see that."""
 
 
 def predict(

@@ -3,26 +3,29 @@
 A speed carries a `Deformation` and asks nothing of it: a deformation that nobody draws costs nothing.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from functools import cached_property
-from typing import NamedTuple, Protocol
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from linear_theory.field import LinearField, Wave
 from linear_theory.friction import FrictionLaw, load_rate
+from linear_theory.shown import Shown
 
 Array = NDArray[np.float64]
 Integers = NDArray[np.int64]
 
 
-class Contact(NamedTuple):
-    """At one time, at n points: velocity (2, n) in the frame of the body, length per time, and load
-    (n,) per area of the undeformed sheet, 1 without growth."""
-
+class _Contact(NamedTuple):
     velocity: Array
     load: Array
+
+
+class Contact(Shown, _Contact):
+    """At one time, at n points: velocity (2, n) in the frame of the body, length per time, and load
+    (n,) per area of the undeformed sheet, 1 without growth."""
 
 
 class Deformation(Protocol):
@@ -62,7 +65,7 @@ class Deformation(Protocol):
         """What friction acts on, at one time."""
 
 
-class LinearDeformation:
+class LinearDeformation(Shown):
     """`Deformation` x + alpha u(x, y, t) of small strain.
 
     find: returns the field u; called when it is first needed, so that a speed need not keep a solution.
@@ -77,6 +80,9 @@ class LinearDeformation:
         words: str = "shape of first order in alpha",
     ) -> None:
         self._find, self.alpha, self._load, self.law, self.words = find, alpha, load, law, words
+
+    def _contents(self) -> Mapping[str, Any]:
+        return {"words": self.words, "alpha": self.alpha, "load": self._load, "law": self.law}
 
     @cached_property
     def field(self) -> LinearField:

@@ -14,21 +14,24 @@ from contextvars import ContextVar
 from typing import NamedTuple, TypeVar
 
 from linear_theory import validation
+from linear_theory.shown import Shown
 
 T = TypeVar("T")
 
 
-class Progress(NamedTuple):
+class _Progress(NamedTuple):
+    task: str
+    share: float
+    seconds: float
+    left: float
+
+
+class Progress(Shown, _Progress):
     """task: what is done, in words; share: of this task, from 0 to 1; seconds: since the call.
 
     left: seconds that the rest of this task will take at the pace so far, NaN until something of it is
     done. Another task may follow: how many finer meshes or times are needed shows only on the way.
     """
-
-    task: str
-    share: float
-    seconds: float
-    left: float
 
 
 Report = Callable[[Progress], None]

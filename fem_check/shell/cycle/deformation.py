@@ -1,7 +1,9 @@
 """A cycle of shapes as what pictures of its speed are made of."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,12 +17,13 @@ from fem_check.shell.region import Region
 from linear_theory.deformation import Contact
 from linear_theory.field import Wave
 from linear_theory.rigid import centre_and_gyration
+from linear_theory.shown import Shown
 
 Array = NDArray[np.float64]
 Integers = NDArray[np.int64]
 
 
-class CycleDeformation:
+class CycleDeformation(Shown):
     """See `linear_theory.deformation.Deformation`; the shapes are those that gave the speed."""
 
     def __init__(self, shapes: Shapes, on_ground: contact.Contact) -> None:
@@ -28,6 +31,9 @@ class CycleDeformation:
         self.alpha = shapes.scene.alpha
         where = "in the plane" if shapes.scene.planar else "in space"
         self.words = f"shape of the nonlinear sheet {where}"
+
+    def _contents(self) -> Mapping[str, Any]:
+        return {"words": self.words, "alpha": self.alpha, "load": self._load, "law": self.law}
 
     @property
     def wave(self) -> Wave:
