@@ -52,7 +52,8 @@ def test_json_is_the_answer_of_predict(capsys):
     assert tuple(found["left_out"]) == expected.left_out
 
 
-def test_words_are_the_block_of_predict(capsys):
+def test_words_are_the_block_of_predict(capsys, monkeypatch):
+    monkeypatch.setenv("COLUMNS", "100")  # whatever the terminal that the tests run in
     status, out, _ = run(capsys, "--alpha", "0.2", "--rtol", "0.1")
     expected = block(predict(Sheet(), SineWave(), 0.2, rtol=0.1), width=100, hints=HINTS)
     assert status == MET

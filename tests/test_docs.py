@@ -18,7 +18,7 @@ PUBLIC = {
     for name in package.__all__
     if name not in PARTS
 }
-CONSTANTS = {"LAPLACE_LIMIT"}
+CONSTANTS = {"LAPLACE_LIMIT", "__version__"}
 RESULTS = {  # what the user does not make, and the function that makes it in the example
     "AirySeries": "airy_series",
     "BeyondReachWarning": "crawl_speed",

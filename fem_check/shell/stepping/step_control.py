@@ -166,7 +166,8 @@ def step_size(period: float, rtol: float | None, steps: int | None, rates: Spect
         if steps < needed:
             raise ValueError(
                 f"steps = {steps}: must be >= {needed}, {FEWEST} to the period of harmonic "
-                f"{needed // FEWEST} of the wave, beyond which is less than {GIVEN_SHARE:.0%} of its rate"
+                f"{needed // FEWEST} of the wave, beyond which is less than {GIVEN_SHARE:.0%} of its "
+                "rate"
             )
         return StepSize(period / steps, period / steps / 1024, period / steps)
     assert rtol is not None
