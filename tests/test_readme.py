@@ -3,14 +3,38 @@
 import contextlib
 import io
 import re
+import shlex
 from pathlib import Path
 
+import pytest
+
+from fem_check.command import main
 from fem_check.shell.statics.ellipticity import edge_limit
 from figures import nonlinear, reach_table, regimes, regimes_table
 from linear_theory import Sheet, SineWave, crawl_speed
 from linear_theory.records import read_rows
 
-README = Path(__file__).parents[1] / "README.md"
+ROOT = Path(__file__).parents[1]
+README, CONVENTIONS = ROOT / "README.md", ROOT / "docs" / "conventions.md"
+COST = re.compile(r"took .*")
+"""Of the block, which depends on the machine."""
+
+
+def test_the_block_is_what_the_command_prints(capsys, monkeypatch):
+    monkeypatch.setenv("COLUMNS", "100")
+    command, shown = re.search(
+        r"\$ sheetcrawl (.*?)\n\n```\n(.*?)```", README.read_text(), re.DOTALL
+    ).groups()
+    with pytest.raises(SystemExit) as end:
+        main(shlex.split(command))
+    assert end.value.code == 0
+    assert COST.sub("", capsys.readouterr().out).strip() == COST.sub("", shown).strip()
+
+
+def test_the_citation_is_that_of_the_metadata():
+    text, cff = README.read_text(), (ROOT / "CITATION.cff").read_text()
+    for found in (re.search(r"^version: (\S+)", cff, re.MULTILINE), re.search(r"doi: (\S+)", cff)):
+        assert f"{{{found.group(1)}}}" in text
 
 
 def test_examples_print_what_is_printed():
@@ -31,7 +55,7 @@ def test_gallery_is_there():
 
 
 def test_numbers_in_the_text_are_those_of_the_tables():
-    text = " ".join(README.read_text().split())
+    text = " ".join(f"{README.read_text()} {CONVENTIONS.read_text()}".split())
     (reach,) = (
         r
         for r in read_rows(reach_table.DATA / reach_table.REACHES, reach_table.Reach, "make tables")
