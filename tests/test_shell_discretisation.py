@@ -5,6 +5,7 @@ import pytest
 import scipy.sparse as sp
 import skfem
 
+from fem_check.outline import Outline
 from fem_check.shell.discretisation import Discretisation
 from fem_check.shell.effects.koiter import Bending, Membrane
 from fem_check.shell.material import Material, elastic_tensor
@@ -229,3 +230,19 @@ def test_clamped_edges_stay_where_they_are_and_keep_their_tangent_plane() -> Non
         np.testing.assert_allclose(across[2], 0, atol=1e-10)
         assert np.abs(across[:2]).max() > 0.1
         assert np.abs(edge.displacement(u, (4,))).max() > 1
+
+
+def test_points_on_the_boundary_of_triangles_are_found() -> None:
+    """Corners, and points along all sides, of a sheet with a hole, to roundoff outside of it."""
+    turn = np.linspace(0, 2 * np.pi, 17)[:-1]
+    hole = 0.1 * np.stack([np.cos(turn), np.sin(turn)], 1)
+    square = np.array([[-0.25, -0.5], [0.25, -0.5], [0.25, 0.5], [-0.25, 0.5]])
+    mesh = Outline(square, [hole]).mesh(0.15)
+    share = np.linspace(0, 1, 23)[:, None]
+    ends = [(loop, np.roll(loop, -1, axis=0)) for loop in (square, hole)]
+    sides = [(a, b) for start, end in ends for a, b in zip(start, end, strict=True)]
+    points = np.concatenate([(1 - share) * a + share * b for a, b in sides]).T
+    flat = Discretisation(mesh, skfem.ElementTriP2(), components=2)
+    np.testing.assert_allclose(flat.points(points).position(flat.zeros(), (0,))[0], points, atol=1e-12)
+    with pytest.raises(ValueError, match=r"xi = \[0\. 0\.\]: must be in the parameter domain"):
+        flat.points(np.array([[0.0], [0.0]]))

@@ -14,6 +14,7 @@ from fem_check.shell import elements
 from fem_check.shell.region import Region
 from fem_check.shell.shape_functions import derivatives, edge_frame
 from fem_check.shell.surface import Flat, Surface
+from fem_check.triangles import TriangleFinder
 from linear_theory import validation
 from linear_theory.shown import Shown
 from linear_theory.units import power_of_two
@@ -140,22 +141,34 @@ class Discretisation(Shown):
         place = validation.real_array("xi", xi)
         if place.shape != (2,):
             raise ValueError(f"xi has shape {place.shape}: must be (2,)")
-        try:
-            found = self.mesh.element_finder()(*place[:, None])
-        except ValueError:
-            raise ValueError(f"xi = {place}: must be in the parameter domain of the mesh") from None
-        return self._region(found[:1], place[:, None, None], np.ones((1, 1)))
+        return self._region(self._elements_at(place[:, None]), place[:, None, None], np.ones((1, 1)))
 
     def points(self, xi: ArrayLike) -> Region:
         """Points of parameters xi (2, n), each with weight 1. Raises ValueError outside the mesh."""
         places = validation.real_array("xi", xi)
         if places.ndim != 2 or len(places) != 2:
             raise ValueError(f"xi has shape {places.shape}: must be (2, n)")
-        try:
-            found = self.mesh.element_finder()(*places)
-        except ValueError:
-            raise ValueError("xi: all must be in the parameter domain of the mesh") from None
+        found = self._elements_at(places)
         return self._region(found, places[:, :, None], np.ones((places.shape[1], 1)))
+
+    def _elements_at(self, places: Array) -> NDArray[np.int64]:
+        """Elements that hold points (2, n), (n,). Raises ValueError outside the mesh."""
+        if self.mesh.t.shape[0] == 3:  # scikit-fem's finder loses points on the boundary of triangles
+            found, _ = self._triangles(*places)
+            outside = found < 0
+        else:
+            try:
+                found, outside = self.mesh.element_finder()(*places), np.zeros(1, bool)
+            except ValueError:
+                outside = np.ones(1, bool)
+        if outside.any():
+            worst = places[:, outside.argmax()]
+            raise ValueError(f"xi = {worst}: must be in the parameter domain of the mesh")
+        return np.asarray(found, np.int64)
+
+    @cached_property
+    def _triangles(self) -> TriangleFinder:
+        return TriangleFinder(self.mesh)
 
     def facets(self, where: Where) -> NDArray[np.int64]:
         """Indices of the boundary edges whose midpoints satisfy `where`. ValueError if none does."""
