@@ -144,7 +144,7 @@ def same(one: object, other: object) -> bool:
     if isinstance(one, np.ndarray):
         return np.array_equal(one, other, equal_nan=True)
     if dataclasses.is_dataclass(one):
-        names = [f.name for f in dataclasses.fields(one)]
+        names = [f.name for f in dataclasses.fields(one) if f.compare]
         return all(same(getattr(one, n), getattr(other, n)) for n in names)
     if isinstance(one, tuple):
         return len(one) == len(other) and all(map(same, one, other))

@@ -26,7 +26,7 @@ def test_trials_are_questions_that_can_fail(family: str) -> None:
     """Most are answered, and the errors compared are not 0."""
     if family == "command":
         return
-    found = [outcome(family, SEED, number) for number in range(min(COUNTS[family], 6))]
+    found = [outcome(family, SEED, number) for number in range(3)]
     assert sum(one.true > 0 for one in found) > len(found) / 2
 
 

@@ -8,7 +8,6 @@ from linear_theory import Sheet, SineWave, TravellingWave, hooke
 from linear_theory.errors import NotConvergedError
 from linear_theory.field_wave import FieldWave
 from linear_theory.load_cases import phases
-from linear_theory.load_cases import phases as times
 from linear_theory.motion import CellGrid
 from linear_theory.ritz import field as ritz
 from linear_theory.ritz import ritz_field
@@ -33,7 +32,7 @@ def grid(sheet, nx=9, ny=14):
 def distance(field, reference, count=16):
     """Relative L2 distance of two fields at the worst of the phases, by quadrature."""
     x, y, weights = grid(field.sheet, 30, 60)
-    t = times(field.wave.period, phases)[:, None, None]
+    t = phases(field.wave.period, count)[:, None, None]
     u, v = field.displacement(x, y, t), reference.displacement(x, y, t)
     square = ((u - v) ** 2 * weights).sum(axis=(0, 2, 3)) / (v**2 * weights).sum(axis=(0, 2, 3))
     return np.sqrt(square.max())

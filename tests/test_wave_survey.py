@@ -106,11 +106,10 @@ def test_known_harmonics_are_seen() -> None:
     cosine, sine = np.zeros((2, 40))
     cosine[-1], sine[0] = 0.1, 1.0
     wave = TravellingWave(cosine, sine)
-    found = crawl_speed(SHEET, wave, ALPHA, rtol=1e-2)
-    other = crawl_speed(SHEET, wave, ALPHA, rtol=1e-2, method="ritz")
-    assert abs(found.mean - other.mean) <= found.error + other.error
-    # by the series on 16 000 times: 0.01861
-    assert found.mean == pytest.approx(0.0186, abs=1e-4)
+    found = crawl_speed(SHEET, wave, ALPHA, rtol=2e-2)
+    # by the series on 16 000 times, and by Ritz on other cells: 0.01861
+    assert abs(found.mean - 0.01861) <= found.error + 1e-5
+    assert found.error < 0.02 * found.mean
 
 
 def planar(wave: object, *effects: object) -> Scene:
