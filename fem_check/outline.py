@@ -53,6 +53,8 @@ class Outline(Shown):
 
     def __init__(self, corners: ArrayLike, holes: Sequence[ArrayLike] = ()) -> None:
         object.__setattr__(self, "corners", _loop("corners", corners))
+        if not isinstance(holes, Sequence | np.ndarray):
+            raise ValueError(f"holes = {validation.shown(holes)}: must be a list of arrays (n, 2)")
         checked = tuple(_loop(f"holes[{i}]", hole) for i, hole in enumerate(holes))
         object.__setattr__(self, "holes", checked)
         _check_apart(self.loops)

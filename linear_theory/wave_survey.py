@@ -21,7 +21,7 @@ from linear_theory.waves import TravellingWave, Wave
 
 Array = NDArray[np.float64]
 
-POINTS, TIMES, LINES = 24, 48, 12
+POINTS, TIMES, LINES = 192, 192, 24
 """Random points of the body, random times of the period, random lines along or across the body."""
 
 SEED = 20240607
@@ -53,6 +53,15 @@ FAINT, FEW = 0.1, 0.01
 `waves_along`, after which meshes are chosen unless they are given: their errors are estimated."""
 
 
+def spread(count: int, seed: int) -> Array:
+    """Random numbers in [0, 1), one in each of `count` equal parts of it, in random order, (count,).
+
+    No gap between them is longer than two parts: what is as wide as that is met, wherever it lies.
+    """
+    random = np.random.default_rng(seed)
+    return np.asarray((random.permutation(count) + random.uniform(size=count)) / count)
+
+
 @dataclass(frozen=True, eq=False)
 class WaveSurvey(Shown):
     """A wave on a body; x, y (points,): places in it; sheet: the rectangle around it.
@@ -75,19 +84,20 @@ class WaveSurvey(Shown):
     @classmethod
     def on_sheet(cls, wave: Wave, sheet: Sheet) -> "WaveSurvey":
         """At random points of a rectangle."""
-        x, y = np.random.default_rng(SEED).uniform(-0.5, 0.5, (2, POINTS))
+        x, y = spread(POINTS, SEED) - 0.5, spread(POINTS, SEED + 3) - 0.5
         return cls(wave, sheet, sheet.width * x, sheet.length * y)
 
     @classmethod
     def on_line(cls, wave: Wave, length: float = 1.0) -> "WaveSurvey":
         """At random points of the axis x = 0."""
-        y = np.random.default_rng(SEED).uniform(-0.5, 0.5, POINTS)
+        y = spread(POINTS, SEED) - 0.5
         return cls(wave, Sheet(length), 0 * y, length * y)
 
     @classmethod
     def at_some(cls, wave: Wave, sheet: Sheet, x: Array, y: Array) -> "WaveSurvey":
         """At a random choice of points (n,) of a body of any outline."""
-        some = np.random.default_rng(SEED).choice(x.size, POINTS)
+        along = np.argsort(y, axis=None)
+        some = along[(x.size * spread(POINTS, SEED)).astype(int)]
         return cls(wave, sheet, x.ravel()[some], y.ravel()[some])
 
     def check(self) -> None:
@@ -193,11 +203,11 @@ class WaveSurvey(Shown):
 
     @cached_property
     def _times(self) -> Array:
-        return self.wave.period * np.random.default_rng(SEED + 1).uniform(size=TIMES)
+        return self.wave.period * spread(TIMES, SEED + 1)
 
     @cached_property
     def _places(self) -> Array:
-        return np.random.default_rng(SEED + 2).uniform(-1, 1, TIMES)
+        return 2 * spread(TIMES, SEED + 2) - 1
 
     @cached_property
     def _seen(self) -> Array:

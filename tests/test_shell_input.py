@@ -18,10 +18,12 @@ from fem_check.shell.material import Material
 from fem_check.shell.potential import Load, Potential
 from fem_check.shell.rates import Affine, Step, backward_euler
 from fem_check.shell.rest_state import grown_state, tensor_state
+from fem_check.shell.scene import Scene, default_cells
 from fem_check.shell.statics.newton import Minimiser
 from fem_check.shell.statics.ramp import ramp
 from fem_check.shell.supports import Supports
 from fem_check.shell.surface import Cylinder, SpherePart, Trapezoid
+from linear_theory import Sheet, SineWave
 from tests.shell_cases import at, koiter, shell
 
 PAPER = Material(0.03, 0.5)
@@ -200,3 +202,24 @@ def test_good_meshes_are_accepted() -> None:
     Discretisation(skfem.MeshTri.init_circle(2), ARGYRIS)
     Discretisation(moved(QUADS, centre(QUADS), (0.6, 0.55)), skfem.ElementQuad2(), components=2)
     Discretisation(skfem.MeshTri.init_lshaped().refined(1), skfem.ElementTriP2(), components=2)
+
+
+def test_the_default_mesh_is_bounded() -> None:
+    """A strip a millionth as wide as long has elements as long as growth asks for."""
+    assert default_cells(Sheet(width=1e-6), SineWave(), True) == (2, 256)
+    assert default_cells(Sheet(), SineWave(), True) == (2, 4)
+    with pytest.raises(ValueError, match=r"cells = \(2, 400000\): 800000 elements are too many"):
+        default_cells(Sheet(), SineWave(100_000), True)
+    for cells, words in (
+        ((2, 10**9), "2000000000 elements"),
+        (np.array(5), "two integers"),
+        ("24", "two"),
+    ):
+        with pytest.raises(ValueError, match=words):
+            Scene(Sheet(), SineWave(), 0.1, effects=Membrane(Material(0.03, 0.5)), cells=cells)
+
+
+@pytest.mark.parametrize("force", [5, (1.0,), (1.0, 2.0, 3.0, 4.0)])
+def test_a_dead_load_has_two_or_three_components(force: object) -> None:
+    with pytest.raises(ValueError, match=r"force has shape .*: must be \(2,\), or \(3,\) in space"):
+        DeadLoad(force)

@@ -474,3 +474,22 @@ def test_paraview_reads_what_was_written(tmp_path: Path) -> None:
     # XML holds all digits of a double
     np.testing.assert_allclose(points[:, :2].T + data["displacement"].T[:2], moved, atol=1e-14)
     np.testing.assert_allclose(data["growth"], scene.growth(1.5, *points[:, :2].T), atol=1e-14)
+
+
+def test_files_that_are_no_snapshots_and_values_that_are_no_paths(tmp_path: Path) -> None:
+    """An array of numpy, an archive of something else, a version of two numbers."""
+    scene, path = planar(cells=(1, 2)), tmp_path / "run.npz"
+    for save in (
+        lambda file: np.save(file, np.arange(3)),
+        lambda file: np.savez(file, a=np.arange(3)),
+        lambda file: np.savez(file, version=np.array([1, 2])),
+    ):
+        with open(path, "wb") as file:
+            save(file)
+        with pytest.raises(SnapshotError, match="snapshot"):
+            simulate(scene, periods=1, steps=4, snapshot=path)
+    for value in (5, "", b"run.npz"):
+        with pytest.raises(ValueError, match=r"snapshot = .*: must be the path of a file"):
+            simulate(scene, periods=1, steps=4, snapshot=value)
+    with pytest.raises(ValueError, match="progress = 3: must be True, False or a function"):
+        simulate(scene, periods=1, steps=4, progress=3)

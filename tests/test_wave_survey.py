@@ -21,7 +21,7 @@ from linear_theory import (
 )
 from linear_theory.friction import FrictionLaw
 from linear_theory.period import Crawl, first_resolution
-from linear_theory.wave_survey import WaveSurvey
+from linear_theory.wave_survey import WaveSurvey, spread
 
 SHEET, SINE, ALPHA = Sheet(), SineWave(), 0.1
 MATERIAL = Material(SHEET.thickness, SHEET.poisson)
@@ -220,3 +220,50 @@ def test_finer_meshes_are_not_tried_where_they_do_not_help(monkeypatch: pytest.M
     found = predict(SHEET, trembling(12, share=0.5), ALPHA, method="cycle", rtol=1e-3)
     assert not found.converged
     assert len(asked) < len(MESHES)
+
+
+def narrow(k: int, place: float, width: float, size: float = 3.0) -> FieldWave:
+    """The sine wave, and growth that trembles in a narrow place only."""
+
+    def value(x: np.ndarray, y: np.ndarray, t: np.ndarray) -> np.ndarray:
+        bump = size * np.exp(-(((y - place) / width) ** 2))
+        return np.sin(TURN * (y - t)) + bump * np.sin(TURN * k * t) + 0 * x
+
+    return FieldWave(value, 1.0)
+
+
+PLACES = np.random.default_rng(3).uniform(-0.45, 0.45, 6)
+
+
+@pytest.mark.parametrize("place", [-0.14511, 0.2977, *PLACES])
+def test_what_trembles_in_a_narrow_place_is_seen_wherever_it_is(place: float) -> None:
+    """A hundredth of the body wide; with 24 points it fell between them, and V was -0.59, converged."""
+    wave = narrow(128, place, 0.0085)
+    assert WaveSurvey.on_line(wave).rates.highest(0.1) == 128
+    assert WaveSurvey.on_sheet(wave, SHEET).rates.highest(0.1) == 128
+    found = line_balance(wave, 0.05, rtol=3e-2, length=1.0)
+    assert not found.converged
+    assert found.error > abs(found.mean - 0.0015)  # weighted medians at 4099 times, by hand
+
+
+def test_a_wave_that_fails_to_repeat_for_a_short_time_is_refused() -> None:
+    once = FieldWave(
+        lambda x, y, t: np.sin(TURN * (y - t)) * (1 + np.exp(-(((t - 1.68) / 0.012) ** 2))) + 0 * x, 1.0
+    )
+    here = FieldWave(
+        lambda x, y, t: (
+            np.sin(TURN * (y - t))
+            + 0.5 * np.floor(t + 1e-9) * np.exp(-(((y - 0.2977) / 0.012) ** 2))
+            + 0 * x
+        ),
+        1.0,
+    )
+    for wave in (once, here):
+        with pytest.raises(ValueError, match="c must repeat"):
+            crawl_speed(SHEET, wave, ALPHA)
+
+
+def test_random_numbers_that_are_spread_leave_no_gap() -> None:
+    found = np.sort(spread(50, seed=1))
+    assert np.all(np.floor(50 * found) == np.arange(50))
+    assert np.diff(found).max() < 2 / 50

@@ -46,6 +46,10 @@ distances between points of the 2 : 1 sheet at alpha = 0.25 are right to 7e-5 of
 
 PLANAR_DEGREE = 5
 
+LONGEST, MOST_CELLS = 256, 100_000
+"""Elements to a wavelength by default, at most: in a strip narrower than a hundredth of the wave they
+are longer than wide, as growth is. And elements of a sheet, whose factor then fits in memory."""
+
 GROWTH = ("alpha", "curvature_coupling", "growth_law", "curvature", "area")
 """Fields of a scene that say how its wave grows it."""
 
@@ -247,10 +251,19 @@ class Scene(Shown):
 
 def _two_integers(cells: Any) -> tuple[int, int]:
     """Elements across and along, from any sequence of two."""
-    if not isinstance(cells, Sequence | np.ndarray) or len(cells) != 2:
+    if (
+        not isinstance(cells, Sequence | np.ndarray)
+        or np.shape(cells) != (2,)
+        or isinstance(cells, str)
+    ):
         shown = validation.shown(cells)
         raise ValueError(f"cells = {shown}: must be two integers, across and along")
     across, along = (validation.integer("cells", count, 1) for count in cells)
+    if across * along > MOST_CELLS:
+        raise ValueError(
+            f"cells = {across, along}: {across * along} elements are too many to be solved, must be "
+            f"<= {MOST_CELLS}"
+        )
     return across, along
 
 
@@ -282,11 +295,14 @@ def needs_space(effect: Effect) -> bool:
 
 
 def default_cells(sheet: Sheet, wave: Wave, planar: bool) -> tuple[int, int]:
-    """Elements across and along: about square, and several to a wavelength."""
+    """Elements across and along: about square, and several to a wavelength, up to LONGEST each.
+
+    Raises ValueError where that would be too many elements.
+    """
     across = PLANAR_CELLS if planar else SHELL_CELLS
-    per_wave = 2 * across
-    along = max(round(across * sheet.length / sheet.width), per_wave * waves_along(wave))
-    return across, along
+    waves = waves_along(wave)
+    square = min(across * sheet.length / sheet.width, LONGEST * waves)
+    return _two_integers((across, max(round(square), 2 * across * waves)))
 
 
 def check_effects(effects: Sequence[Effect], components: int, sheet: Sheet) -> None:
@@ -300,6 +316,9 @@ def check_effects(effects: Sequence[Effect], components: int, sheet: Sheet) -> N
         raise ValueError(f"effects = {names}: must name Membrane, without which nothing has a shape")
     if Friction in kinds:
         load_bearer(components, effects)
+    for load in effects:
+        if isinstance(load, DeadLoad):
+            load.check(components, effects, None)
     if Ground in kinds and Gravity not in kinds:
         raise ValueError(f"effects = {names}: Ground must come with Gravity, else nothing lies on it")
     if components == 3 and Gravity in kinds and Ground not in kinds:

@@ -29,7 +29,9 @@ class DeadLoad(Value, NoConditions):
     reads_rest: ClassVar[bool] = False
 
     def __post_init__(self) -> None:
-        validation.real_array("force", self.force)
+        force = validation.real_array("force", self.force)
+        if force.ndim != 1 or force.size not in (2, 3):
+            raise ValueError(f"force has shape {force.shape}: must be (2,), or (3,) in space")
 
     def _density(self, state: PointState) -> Array:
         return np.asarray(np.multiply.outer(np.array(self.force), state.measure))

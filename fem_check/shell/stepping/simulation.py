@@ -74,6 +74,10 @@ def simulate(
     begin, run, target = time.perf_counter(), None, None
     hint = "its arguments are sheet, wave, alpha and effects"
     scene = validation.instance("scene", scene, Scene, hint)
+    if not (progress is None or isinstance(progress, bool) or callable(progress)):
+        raise ValueError(f"progress = {validation.shown(progress)}: must be True, False or a function")
+    if not (snapshot is None or isinstance(snapshot, str | Path)) or snapshot == "":
+        raise ValueError(f"snapshot = {validation.shown(snapshot)}: must be the path of a file")
     settings = Settings(periods, rtol, steps, ramp, velocity, keep_every)
     every = validation.integer("snapshot_every", snapshot_every, 1)
     try:

@@ -94,10 +94,10 @@ def load_snapshot(path: Path, owner: str) -> dict[str, Array]:
     try:
         with np.load(contents, allow_pickle=False) as file:
             found = {name: file[name] for name in file.files}
-    except _DAMAGED as error:
+    except (*_DAMAGED, TypeError) as error:  # TypeError: a single array, which is no archive
         raise SnapshotError(f"snapshot {path}: is truncated or damaged ({error})") from error
     version = found.get("version")
-    if version is not None and version != VERSION:
+    if version is not None and not np.array_equal(version, VERSION):
         raise SnapshotError(
             f"snapshot {path}: has version {version}, this program reads {VERSION}; remove the "
             "file, or name another one, to start from the beginning"
