@@ -27,6 +27,7 @@ from linear_theory import Sheet, SineWave, TravellingWave, pulse_wave
 from linear_theory.friction import LAWS, LOADS
 from linear_theory.progress import Progress
 from linear_theory.second_field import AREAS, GROWTH_LAWS
+from tests.processes import interruptible
 
 SPEED = ("speed", "--growth", "5 %")
 
@@ -236,7 +237,11 @@ def test_a_signal_ends_the_program_with_one_line():
         "c.asked = told; main(['--alpha', '0.3', '--rtol', '1e-9'])"
     )
     program = subprocess.Popen(
-        [sys.executable, "-c", code], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+        [sys.executable, "-c", code],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        preexec_fn=interruptible,
     )
     assert program.stderr.readline() == "begun\n"
     time.sleep(0.5)

@@ -173,4 +173,5 @@ def test_the_film_of_the_readme_is_small_and_shows_its_sheet():
     with Image.open(path) as film:
         assert film.n_frames == readme_movie.PERIODS * readme_movie.FRAMES
         assert film.size[0] == readme_movie.WIDTH
-    assert pytest.approx(0.12) == readme_movie.ALPHA * readme_movie.CREST
+    assert readme_movie.PULSE.value(0.0, 0.0, 0.0) == pytest.approx(1.0)
+    assert np.exp(readme_movie.ALPHA) == pytest.approx(1.12)

@@ -9,7 +9,7 @@ from linear_theory import Sheet, SineWave, crawl_speed
 from tests.random_trials import FAMILIES, outcome
 
 SEED = 1
-COUNTS = {"speed": 24, "line": 40, "prediction": 6, "command": 40}
+COUNTS = {"speed": 16, "line": 30, "prediction": 4, "command": 40}
 """So that all take some 30 s; the whole of what was tried is in the head of `random_trials`."""
 
 

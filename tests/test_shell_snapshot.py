@@ -31,6 +31,7 @@ from fem_check.shell.stepping.snapshot import (
 from fem_check.shell.stepping.step_control import StepSize
 from fem_check.shell.stepping.trajectory import Trajectory
 from linear_theory import FieldWave
+from tests.processes import interruptible
 from tests.shell_scenes import lying, planar
 
 Array = NDArray[np.float64]
@@ -124,6 +125,7 @@ def stopped(path: Path | None, after: int) -> subprocess.CompletedProcess[str]:
         stderr=subprocess.PIPE,
         text=True,
         cwd=Path(__file__).parents[1],
+        preexec_fn=interruptible,
     )
     with child:
         assert child.stdout is not None
