@@ -87,25 +87,33 @@ class Course:
     def improved(self, tolerance: float) -> tuple["Course", TimeGrid | None]:
         """Itself, with checks where they are needed, and the grid that the tolerance asks for.
 
-        None where it is met, and where a wave hides of which more is needed than can be afforded.
+        None where that is met, or the least larger one for which the wave asks an affordable number of
+        times.
         """
         crawl, norm = self.crawl, self.crawl.norm
-        speeds = norm.speeds(crawl.counted(self.motion))
-        met = self.grid.error(speeds) <= tolerance
+        speeds, goal = norm.speeds(crawl.counted(self.motion)), self._within_reach(tolerance)
         course = replace(self, hides=self._hidden > HIDDEN * tolerance)
-        if not course.hides:
-            return course, None if met else self.grid.refined(speeds, tolerance)[0]
-        times = crawl.survey.times_for(HIDDEN * tolerance / crawl.speed_per_rate)
-        out_of_reach = math.isfinite(times) and not crawl.reaches(times)
-        if met or out_of_reach:
-            course = course.checked()
-            wrong = norm.size(course._between) > tolerance
-            if (out_of_reach and wrong) or (met and not wrong):
-                return course, None
-        if not met:
-            return course, self.grid.refined(speeds, tolerance)[0]
+        if self.grid.error(speeds) > goal:
+            return course, self.grid.refined(speeds, goal)[0]
+        if self._hidden <= HIDDEN * goal:
+            return course, None
+        course = course.checked()
+        if norm.size(course._between) <= goal:
+            return course, None
+        times = self._times(goal)
         step = crawl.field.wave.period / times if math.isfinite(times) else self.grid.longest_step / 2
         return course, self.grid.with_steps(step)
+
+    def _within_reach(self, tolerance: float) -> float:
+        """The least tolerance from this one on, doubled, for which the wave can be seen."""
+        while not (math.isinf(self._times(tolerance)) or self.crawl.reaches(self._times(tolerance))):
+            tolerance *= 2
+        return tolerance
+
+    def _times(self, tolerance: float) -> float:
+        """Equidistant times per period from which harmonics of no consequence hide; inf if unknown."""
+        unit = self.crawl.speed_per_rate
+        return self.crawl.survey.times_for(HIDDEN * tolerance / unit if unit > 0 else math.inf)
 
     def on(self, grid: TimeGrid) -> "Course":
         """On a grid with more times."""

@@ -1,5 +1,6 @@
 """What sampling cannot see: harmonics between samples, waves that do not repeat, wrong rates, noise."""
 
+import math
 from functools import cache
 
 import numpy as np
@@ -207,6 +208,64 @@ def test_noise_is_not_taken_for_a_wave_that_is_resolved() -> None:
     assert not found.converged
 
 
+def mean_of_noisy_pulse(times: int = 211) -> tuple[float, float]:
+    """Mean V and its standard error from a prime number of equidistant times."""
+    field = ritz_field(Sheet(width=0.375), noisy_pulse(), degree=(9, 25))
+    crawl = Crawl(field, 0.12, "current", FrictionLaw(), first_resolution(1e-1))
+    velocity = crawl.counted(crawl.balance((np.arange(times) + 0.3) / times))[1]
+    return float(velocity.mean()), float(velocity.std()) / math.sqrt(times)
+
+
+def test_a_tolerance_out_of_reach_gives_the_best_that_is_not() -> None:
+    """The times that the work allows see the wave to 10 %, not to 1 %: no error of 100 % from a few."""
+    exact, deviation = mean_of_noisy_pulse()
+    for rtol, least in ((1e-1, 1e-1), (1e-2, 3e-1)):
+        found = crawl_speed(Sheet(width=0.375), noisy_pulse(), 0.12, rtol=rtol)
+        assert abs(found.mean - exact) <= found.error + 3 * deviation
+        assert found.error <= least * abs(found.mean)
+        assert found.converged == (rtol == least)
+
+
+def random_tremor(seed: int) -> FieldWave:
+    """A sine wave and three harmonics of time up to the 300th, one of them the same along the sheet."""
+    rng = np.random.default_rng(seed)
+    orders, sizes = rng.integers(2, 300, 3), 0.3 * rng.uniform(size=3)
+    starts = TURN * rng.uniform(size=3)
+
+    def value(x: np.ndarray, y: np.ndarray, t: np.ndarray) -> np.ndarray:
+        tremor = sizes[0] * np.sin(TURN * orders[0] * t + starts[0])
+        for size, order, start in zip(sizes[1:], orders[1:], starts[1:], strict=True):
+            tremor = tremor + size * y * np.sin(TURN * order * t + start)
+        return np.sin(TURN * (y - t)) + tremor + 0 * x
+
+    return FieldWave(value, 1.0)
+
+
+def sorted_line(wave: FieldWave, times: int, points: int = 400, alpha: float = ALPHA) -> float:
+    """`line_reference` of any wave, its rate by differences of fourth order."""
+    y, h, found = (np.arange(points) + 0.5) / points - 0.5, 2e-6, []
+    for t in (np.arange(times) + 0.3) / times:
+        near, far = (wave.value(0.0, y, t + k * h) - wave.value(0.0, y, t - k * h) for k in (1, 2))
+        rate = (8 * near - far) / (12 * h)
+        v = alpha * (np.cumsum(rate) - rate / 2) / points
+        v -= v.mean()
+        order = np.argsort(v)
+        weight = (1 + alpha * wave.value(0.0, y, t))[order]
+        found.append(-np.interp(weight.sum() / 2, np.cumsum(weight) - weight / 2, v[order]))
+    return float(np.mean(found))
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_errors_on_a_line_are_honest_for_random_tremors(seed: int) -> None:
+    """Against prime numbers of times, which no harmonic divides; half as many tell their error."""
+    wave = random_tremor(seed)
+    exact, fewer = (sorted_line(wave, times) for times in (2003, 1009))
+    found = line_balance(wave, ALPHA, rtol=3e-2, length=1.0)
+    # 400 points: 1/400^2 of velocities of order ALPHA
+    assert abs(found.mean - exact) <= found.error + abs(exact - fewer) + 1e-5
+    assert found.converged == (found.error <= 3e-2 * abs(found.mean))
+
+
 def test_finer_meshes_are_not_tried_where_they_do_not_help(monkeypatch: pytest.MonkeyPatch) -> None:
     """A wave too rough in time is asked on two meshes at most, and is not converged."""
     monkeypatch.setattr(cycle, "MOST_PHASES", cycle.FIRST_PHASES)
@@ -242,8 +301,8 @@ def test_what_trembles_in_a_narrow_place_is_seen_wherever_it_is(place: float) ->
     assert WaveSurvey.on_line(wave).rates.highest(0.1) == 128
     assert WaveSurvey.on_sheet(wave, SHEET).rates.highest(0.1) == 128
     found = line_balance(wave, 0.05, rtol=3e-2, length=1.0)
-    assert not found.converged
-    assert found.error > abs(found.mean - 0.0015)  # weighted medians at 4099 times, by hand
+    # 0.0015 to 0.0023 by place; 1009 times and 1000 points are off by up to 3e-5 from 9973 and 2000
+    assert abs(found.mean - sorted_line(wave, 1009, 1000, 0.05)) <= found.error + 3e-5
 
 
 def test_a_wave_that_fails_to_repeat_for_a_short_time_is_refused() -> None:

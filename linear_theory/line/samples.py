@@ -35,7 +35,7 @@ from linear_theory.wave_survey import WaveSurvey
 Array = NDArray[np.float64]
 
 FEWEST = 64
-MOST_CELLS, MOST_TIMES, MOST_SAMPLES = 1 << 14, 1 << 10, 1 << 21
+MOST_CELLS, MOST_TIMES, MOST_SAMPLES = 1 << 14, 1 << 12, 1 << 21
 """Bounds of the doubling; a tolerance that needs more is reported as missed."""
 
 CHECKS, SEED = 32, 7
