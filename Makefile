@@ -78,11 +78,10 @@ tables: $(STAMP)
 paper: figures
 	$(RUN) -m paper.build
 
-# The public names, the effects and the material that scenes are made of; not second_order twice, as
-# the function and as its module.
+# The public names, the effects and the material that scenes are made of.
 docs: $(STAMP)
-	$(RUN) -m pdoc --docformat markdown -o build/docs linear_theory '!linear_theory.second_order' \
-	    fem_check fem_check.output fem_check.shell.effects fem_check.shell.material
+	$(RUN) -m pdoc --docformat markdown -o build/docs linear_theory \
+	    fem_check fem_check.output fem_check.shell.effects fem_check.shell.scene.material
 
 # setuptools comes with the lock and build isolation is off: pip fetches nothing that is not pinned.
 $(STAMP): requirements.lock pyproject.toml

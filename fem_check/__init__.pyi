@@ -1,8 +1,8 @@
 """What `import fem_check` offers: read by `lazy_loader` as it runs, and by type checkers."""
 
-from .outline import Outline
-from .plane_stress import PlaneStressField, plane_stress_field
-from .prediction import Prediction, predict
+from .mesh.outline import Outline
+from .plane_stress.field import PlaneStressField, plane_stress_field
+from .predict.prediction import Prediction, predict
 from .shell.cycle.speed import cycle_speed
 from .shell.effects.friction import Friction
 from .shell.effects.gravity import Gravity
@@ -11,9 +11,9 @@ from .shell.effects.inertia import Inertia
 from .shell.effects.koiter import Bending, Membrane
 from .shell.effects.loads import DeadLoad
 from .shell.effects.terrain import Terrain
-from .shell.growth import bilayer
-from .shell.material import Material
-from .shell.scene import Scene
+from .shell.scene.growth import bilayer
+from .shell.scene.material import Material
+from .shell.scene.scene import Scene
 from .shell.stepping.paraview import write_paraview
 from .shell.stepping.simulation import simulate
 from .shell.stepping.trajectory import Trajectory

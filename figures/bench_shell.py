@@ -26,14 +26,14 @@ from fem_check.shell.effects.friction import Friction
 from fem_check.shell.effects.gravity import Gravity
 from fem_check.shell.effects.ground import Ground
 from fem_check.shell.effects.koiter import Bending, Membrane
-from fem_check.shell.material import Material
-from fem_check.shell.potential import Potential
-from fem_check.shell.scene import Scene
+from fem_check.shell.kinematics.supports import Supports
+from fem_check.shell.scene.material import Material
+from fem_check.shell.scene.scene import Scene
 from fem_check.shell.statics.linear_solver import factorise
 from fem_check.shell.statics.newton import Minimiser
+from fem_check.shell.statics.potential import Potential
 from fem_check.shell.statics.ramp import ramp
 from fem_check.shell.stepping.simulation import simulate
-from fem_check.shell.supports import Supports
 from figures.cost_measure import machine, timed
 from figures.output import Progress
 from linear_theory import Sheet, SineWave

@@ -4,7 +4,7 @@
 
 Some ten seconds. Each case runs in a process of its own: with one BLAS thread on a quiet machine, with
 one thread beside a process that keeps one core busy, and beside that process with no setting at all,
-as a user's script runs. `linear_theory.threads` is to keep the last one from waiting for the busy core:
+as a user's script runs. `common.threads` is to keep the last one from waiting for the busy core:
 the ratio to the first should be at most AIM, of which sharing the machine is a part, the second column.
 """
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Any, NamedTuple
 
-from fem_check.plane_stress import PlaneStressField, plane_stress_field
+from fem_check.plane_stress.field import PlaneStressField, plane_stress_field
 from figures.cost_measure import timed
 from figures.cost_table import Point
 from linear_theory import Sheet, SineWave

@@ -20,15 +20,15 @@ from fem_check.shell.effects.gravity import Gravity
 from fem_check.shell.effects.ground import Ground
 from fem_check.shell.effects.inertia import Inertia
 from fem_check.shell.effects.koiter import Bending, Membrane
-from fem_check.shell.material import Material
-from fem_check.shell.potential import Potential
-from fem_check.shell.rates import Step
-from fem_check.shell.scene import Scene
+from fem_check.shell.kinematics.rates import Step
+from fem_check.shell.kinematics.supports import Supports
+from fem_check.shell.scene.material import Material
+from fem_check.shell.scene.scene import Scene
 from fem_check.shell.statics.newton import Minimiser
+from fem_check.shell.statics.potential import Potential
 from fem_check.shell.stepping.simulation import simulate
 from fem_check.shell.stepping.start import first_history
 from fem_check.shell.stepping.stepper import Stepper
-from fem_check.shell.supports import Supports
 from figures.cost_cases import SHEET, WAVE
 from figures.cost_measure import calls, held_memory, timed
 from linear_theory import line_speed

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from figures import peers
 from figures.cost_cases import P2, P4, PLAIN, RITZ, SHEET, STRIP, TAIL, WAVE, Case, Judged, elements
 from linear_theory import airy_series, ritz_field
-from linear_theory.field import LinearField
+from linear_theory.deformation.field import LinearField
 
 Array = NDArray[np.float64]
 

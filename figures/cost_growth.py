@@ -6,14 +6,14 @@ from functools import partial
 import numpy as np
 import skfem
 
-from fem_check.plane_stress import PlaneStressField
+from fem_check.plane_stress.field import PlaneStressField
 from fem_check.shell.effects.koiter import Bending, Membrane
-from fem_check.shell.material import Material
-from fem_check.shell.potential import Potential
-from fem_check.shell.scene import Scene
+from fem_check.shell.kinematics.supports import Supports
+from fem_check.shell.scene.material import Material
+from fem_check.shell.scene.scene import Scene
 from fem_check.shell.statics.linear_solver import factorise
+from fem_check.shell.statics.potential import Potential
 from fem_check.shell.statics.sparsity import Sparsity
-from fem_check.shell.supports import Supports
 from figures.cost_cases import LINE, P2, P4, PLAIN, RITZ, SHEET, TAIL, WAVE, Case, elements
 from linear_theory import SineWave, airy_series, crawl_speed, field_speed, line_speed, ritz_field
 

@@ -14,15 +14,15 @@ from typing import Any
 import numpy as np
 import skfem
 
-from fem_check.levels import Question
-from fem_check.levels import strip as strip_level
-from fem_check.prediction import Prediction, predict
+from fem_check.predict.levels import Question
+from fem_check.predict.levels import strip as strip_level
+from fem_check.predict.prediction import Prediction, predict
 from fem_check.shell.cycle.speed import cycle_speed
 from fem_check.shell.effects.friction import Friction
 from fem_check.shell.effects.gravity import Gravity
 from fem_check.shell.effects.koiter import Membrane
-from fem_check.shell.material import Material
-from fem_check.shell.scene import Scene
+from fem_check.shell.scene.material import Material
+from fem_check.shell.scene.scene import Scene
 from fem_check.shell.stepping.simulation import simulate
 from figures.cost_cases import (
     AUTO,
@@ -51,7 +51,7 @@ from linear_theory import (
     line_cycle_speed,
     line_speed,
 )
-from linear_theory.speed import CrawlSpeed
+from linear_theory.speed.result import CrawlSpeed
 
 LINEAR, NONLINEAR = "linear speed", "nonlinear speed"
 """Names of the panels."""

@@ -14,7 +14,7 @@ from typing import Any, TypeVar
 import numpy as np
 
 from figures.records import write_rows
-from linear_theory.records import read_rows
+from linear_theory.common.records import read_rows
 
 DATA = Path(__file__).parent / "data"
 COMMAND = "python -m figures.cost"

@@ -5,10 +5,10 @@ import math
 import skfem
 
 from fem_check.shell.effects.koiter import Membrane
-from fem_check.shell.material import Material
-from fem_check.shell.scene import Scene
-from linear_theory.sheet import Sheet
-from linear_theory.waves import SineWave
+from fem_check.shell.scene.material import Material
+from fem_check.shell.scene.scene import Scene
+from linear_theory.sheet.rectangle import Sheet
+from linear_theory.wave.travelling import SineWave
 
 ACROSS = ((0.15, 2), (0.6, 4), (1.2, 8), (math.inf, 12))
 """Elements across sheets up to a width over L. For the paper's sheet twice as many each way change V by

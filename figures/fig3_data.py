@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from fem_check.plane_stress import PlaneStressField, plane_stress_field
+from fem_check.plane_stress.field import PlaneStressField, plane_stress_field
 from figures import nonlinear, output
 from figures.fig3_speed import (
     LABELS,
@@ -20,7 +20,7 @@ from figures.fig3_speed import (
     slip_speeds,
 )
 from linear_theory import Sheet, SineWave, airy_series, friction_field
-from linear_theory.field import LinearField
+from linear_theory.deformation.field import LinearField
 
 Array = NDArray[np.float64]
 

@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from figures import nonlinear
 from linear_theory import Sheet, SineWave, field_speed, line_speed, second_order
-from linear_theory.errors import BeyondReachWarning, ViscousRegimeWarning
-from linear_theory.field import LinearField
+from linear_theory.common.errors import BeyondReachWarning, ViscousRegimeWarning
+from linear_theory.deformation.field import LinearField
 
 Array = NDArray[np.float64]
 

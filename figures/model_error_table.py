@@ -26,16 +26,16 @@ from fem_check.shell.statics.equilibrium import ConvergenceError
 from figures import output
 from figures.cycles import planar_scene
 from figures.records import write_rows
-from linear_theory.airy import airy_series
-from linear_theory.crawl import field_speed
-from linear_theory.field import LinearField
-from linear_theory.friction import LOADS
+from linear_theory.deformation.airy import airy_series
+from linear_theory.deformation.field import LinearField
+from linear_theory.deformation.second.source import AREAS, GROWTH_LAWS
+from linear_theory.friction.law import LOADS
 from linear_theory.line.finite import line_cycle_speed
-from linear_theory.model_error import COMMAND, PATH, Row, read
-from linear_theory.second_order import second_order
-from linear_theory.second_source import AREAS, GROWTH_LAWS
-from linear_theory.sheet import Sheet
-from linear_theory.waves import SineWave
+from linear_theory.sheet.rectangle import Sheet
+from linear_theory.speed.crawl import field_speed
+from linear_theory.speed.model_error import COMMAND, PATH, Row, read
+from linear_theory.speed.second_order import second_order
+from linear_theory.wave.travelling import SineWave
 
 RTOL = 1e-3
 """Error asked of V, relative to V or to alpha^2 L/T, whichever is larger."""

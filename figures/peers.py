@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from linear_theory.sheet import Sheet
+from linear_theory.sheet.rectangle import Sheet
 
 Array = NDArray[np.float64]
 

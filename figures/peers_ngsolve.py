@@ -24,7 +24,7 @@ from ngsolve.meshes import MakeStructured2DMesh
 from numpy.typing import NDArray
 
 from figures.peers import Peer
-from linear_theory.sheet import Sheet
+from linear_theory.sheet.rectangle import Sheet
 
 Array = NDArray[np.float64]
 

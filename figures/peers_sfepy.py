@@ -21,7 +21,7 @@ from sfepy.solvers.nls import Newton
 from sfepy.terms import Term
 
 from figures.peers import Peer
-from linear_theory.sheet import Sheet
+from linear_theory.sheet.rectangle import Sheet
 
 Array = NDArray[np.float64]
 

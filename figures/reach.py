@@ -23,7 +23,7 @@ from scipy.interpolate import PchipInterpolator
 
 from figures import output, style
 from figures.reach_table import COMMAND, DATA, REACHES, SHARES, SPEEDS, Point, Reach, curve
-from linear_theory.records import read_rows
+from linear_theory.common.records import read_rows
 
 Array = NDArray[np.float64]
 

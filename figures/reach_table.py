@@ -35,8 +35,8 @@ from figures.model_error_table import (
     strip_ratio,
 )
 from figures.records import write_rows
-from linear_theory.records import read_rows
-from linear_theory.sheet import Sheet
+from linear_theory.common.records import read_rows
+from linear_theory.sheet.rectangle import Sheet
 
 Array = NDArray[np.float64]
 

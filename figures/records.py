@@ -1,4 +1,4 @@
-"""Writes tables of measured numbers, which `linear_theory.records` reads."""
+"""Writes tables of measured numbers, which `linear_theory.common.records` reads."""
 
 import csv
 import io

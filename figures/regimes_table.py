@@ -25,8 +25,8 @@ from fem_check.shell.cycle.speed import cycle_speed
 from fem_check.shell.effects.friction import Friction
 from fem_check.shell.effects.gravity import Gravity
 from fem_check.shell.effects.koiter import Membrane
-from fem_check.shell.material import Material
-from fem_check.shell.scene import Scene
+from fem_check.shell.scene.material import Material
+from fem_check.shell.scene.scene import Scene
 from fem_check.shell.stepping.simulation import simulate
 from figures import output
 from figures.records import write_rows
@@ -41,7 +41,7 @@ from linear_theory import (
     line_balance,
     ritz_field,
 )
-from linear_theory.records import read_rows
+from linear_theory.common.records import read_rows
 
 PATH = Path(__file__).parent / "data" / "regimes.csv"
 COMMAND = "python -m figures.regimes_table"

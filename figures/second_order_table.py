@@ -21,16 +21,16 @@ import skfem
 
 from fem_check.shell.cycle.speed import Cycle
 from fem_check.shell.effects.koiter import Membrane
-from fem_check.shell.material import Material
-from fem_check.shell.scene import Scene
+from fem_check.shell.scene.material import Material
+from fem_check.shell.scene.scene import Scene
 from figures import output
 from figures.records import write_rows
-from linear_theory.friction import LOADS
-from linear_theory.records import read_rows
-from linear_theory.second_field import AREAS, GROWTH_LAWS
-from linear_theory.second_order import second_order
-from linear_theory.sheet import Sheet
-from linear_theory.waves import SineWave, TravellingWave
+from linear_theory.common.records import read_rows
+from linear_theory.deformation.second.field import AREAS, GROWTH_LAWS
+from linear_theory.friction.law import LOADS
+from linear_theory.sheet.rectangle import Sheet
+from linear_theory.speed.second_order import second_order
+from linear_theory.wave.travelling import SineWave, TravellingWave
 
 PATH = Path(__file__).parent / "data" / "second_order.csv"
 COMMAND = "python -m figures.second_order_table"

@@ -18,15 +18,15 @@ from numpy.typing import ArrayLike, NDArray
 from fem_check.shell.effects.friction import Friction
 from fem_check.shell.effects.gravity import Gravity
 from fem_check.shell.effects.koiter import Membrane
-from fem_check.shell.material import Material
-from fem_check.shell.scene import Scene
+from fem_check.shell.scene.material import Material
+from fem_check.shell.scene.scene import Scene
 from fem_check.shell.stepping.simulation import simulate
 from figures import output
 from figures.records import write_rows
-from linear_theory.field_wave import FieldWave
-from linear_theory.path import Poses
-from linear_theory.records import read_rows
-from linear_theory.sheet import Sheet
+from linear_theory.common.records import read_rows
+from linear_theory.sheet.rectangle import Sheet
+from linear_theory.speed.path import Poses
+from linear_theory.wave.given import FieldWave
 
 Array = NDArray[np.float64]
 

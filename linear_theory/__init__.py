@@ -1,14 +1,14 @@
 """How fast a sheet driven by a travelling wave of growth crawls: closed form, series, balance."""
 
-from linear_theory.airy import AirySeries, airy_series
-from linear_theory.crawl import crawl_speed, field_speed, friction_field
-from linear_theory.errors import (
+from linear_theory.common.errors import (
     BeyondReachWarning,
     NotConvergedError,
     SheetcrawlError,
     ViscousRegimeWarning,
 )
-from linear_theory.field_wave import FieldWave
+from linear_theory.common.version import current_version
+from linear_theory.deformation.airy import AirySeries, airy_series
+from linear_theory.deformation.ritz import RitzField, ritz_field
 from linear_theory.line import (
     LAPLACE_LIMIT,
     line_balance,
@@ -20,15 +20,15 @@ from linear_theory.line import (
     line_speed_tanh,
     line_speed_viscous,
 )
-from linear_theory.path import rigid_path
-from linear_theory.pulse import pulse_wave
-from linear_theory.ritz import RitzField, ritz_field
-from linear_theory.second_order import SecondOrder, second_order
-from linear_theory.sheet import Sheet
-from linear_theory.si import Scale, speed_si
-from linear_theory.speed import CrawlSpeed
-from linear_theory.version import current_version
-from linear_theory.waves import SineWave, TravellingWave
+from linear_theory.sheet.rectangle import Sheet
+from linear_theory.speed.crawl import crawl_speed, field_speed, friction_field
+from linear_theory.speed.path import rigid_path
+from linear_theory.speed.result import CrawlSpeed
+from linear_theory.speed.second_order import SecondOrder, second_order
+from linear_theory.speed.si import Scale, speed_si
+from linear_theory.wave.given import FieldWave
+from linear_theory.wave.pulse import pulse_wave
+from linear_theory.wave.travelling import SineWave, TravellingWave
 
 __version__ = current_version()
 

@@ -5,7 +5,7 @@ import math
 import mpmath
 import numpy as np
 
-from fem_check.plane_stress import plane_stress_field
+from fem_check.plane_stress.field import plane_stress_field
 from figures import fig7
 from linear_theory import (
     LAPLACE_LIMIT,
@@ -14,8 +14,8 @@ from linear_theory import (
     line_speed,
     ritz_field,
 )
-from linear_theory.field import LinearField
-from linear_theory.ritz.legendre import gauss
+from linear_theory.deformation.field import LinearField
+from linear_theory.deformation.ritz.legendre import gauss
 from paper.number import SHEET, SHOWN_ALPHA, WAVE, Number, Numbers
 
 MODES = (5, 10, 20, 40)

@@ -15,9 +15,9 @@ from linear_theory import (
     line_balance,
     second_order,
 )
-from linear_theory.field import LinearField
-from linear_theory.friction import LOADS
-from linear_theory.ritz.legendre import gauss
+from linear_theory.deformation.field import LinearField
+from linear_theory.deformation.ritz.legendre import gauss
+from linear_theory.friction.law import LOADS
 from paper.number import SHEET, SHOWN_ALPHA, SMALL_ALPHA, WAVE, Number, Numbers
 from tests.shell_scenes import planar
 

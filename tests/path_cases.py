@@ -7,8 +7,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linear_theory import CrawlSpeed, FieldWave, Sheet, crawl_speed, rigid_path
-from linear_theory.path import Path
-from linear_theory.time_grid import TimeGrid
+from linear_theory.balance.time_grid import TimeGrid
+from linear_theory.speed.path import Path
 
 Array = NDArray[np.float64]
 Growth = Callable[[Array, Array, Array], Array]

@@ -21,8 +21,8 @@ from typing import Any
 import numpy as np
 
 from fem_check.command import main
-from fem_check.levels import LEVELS, Question, scene
-from fem_check.prediction import predict
+from fem_check.predict.levels import LEVELS, Question, scene
+from fem_check.predict.prediction import predict
 from fem_check.shell.cycle.motion import UnresolvedError
 from fem_check.shell.cycle.speed import cycle_speed
 from fem_check.shell.statics.equilibrium import ConvergenceError
@@ -36,7 +36,7 @@ from linear_theory import (
     crawl_speed,
     line_balance,
 )
-from linear_theory.friction import LOADS
+from linear_theory.friction.law import LOADS
 
 REFUSALS = (ValueError, NotConvergedError, ConvergenceError, UnresolvedError)
 LAWS = ("exp", "linear", "metric")

@@ -15,18 +15,18 @@ import numpy as np
 import skfem
 from numpy.typing import NDArray
 
-from fem_check.shell.discretisation import Discretisation
 from fem_check.shell.effects.effect import Effect
 from fem_check.shell.effects.koiter import Bending, Membrane
 from fem_check.shell.effects.loads import DeadLoad, EdgeMoment
-from fem_check.shell.material import Material
-from fem_check.shell.potential import Load, Potential
-from fem_check.shell.rest_state import grown_state
+from fem_check.shell.kinematics.discretisation import Discretisation
+from fem_check.shell.kinematics.rest_state import grown_state
+from fem_check.shell.kinematics.supports import Supports
+from fem_check.shell.kinematics.surface import AnnulusSector, Cylinder, Flat, Surface
+from fem_check.shell.scene.material import Material
 from fem_check.shell.statics.equilibrium import Equilibrium
 from fem_check.shell.statics.newton import Minimiser
+from fem_check.shell.statics.potential import Load, Potential
 from fem_check.shell.statics.ramp import ramp
-from fem_check.shell.supports import Supports
-from fem_check.shell.surface import AnnulusSector, Cylinder, Flat, Surface
 
 Array = NDArray[np.float64]
 

@@ -9,10 +9,10 @@ import itertools
 import numpy as np
 import pytest
 
-from fem_check.plane_stress import plane_stress_field
+from fem_check.plane_stress.field import plane_stress_field
 from linear_theory import Sheet, SineWave, TravellingWave, airy_series, ritz_field
-from linear_theory.friction import FrictionLaw
-from linear_theory.period import Crawl, first_resolution
+from linear_theory.balance.period import Crawl, first_resolution
+from linear_theory.friction.law import FrictionLaw
 
 WAVES = {
     "sine": SineWave(),

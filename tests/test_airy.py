@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from linear_theory import Sheet, SineWave, TravellingWave
-from linear_theory.airy import AirySeries, airy_series, balanced_modes
-from linear_theory.errors import NotConvergedError
+from linear_theory.common.errors import NotConvergedError
+from linear_theory.deformation.airy import AirySeries, airy_series, balanced_modes
 from tests import reference_airy
 
 PAPER = Sheet()
@@ -346,7 +346,7 @@ def test_points_outside_the_sheet_are_refused(x, y):
 
 
 def test_a_tolerance_out_of_reach_keeps_the_best_field(monkeypatch):
-    monkeypatch.setattr("linear_theory.airy.series.MOST_COUPLINGS", 5000)
+    monkeypatch.setattr("linear_theory.deformation.airy.series.MOST_COUPLINGS", 5000)
     with pytest.raises(NotConvergedError, match="would need") as error:
         airy_series(PAPER, SINE, rtol=1e-12)
     assert 1e-12 < error.value.best.error < 1e-6

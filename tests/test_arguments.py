@@ -21,8 +21,8 @@ from linear_theory import (
     line_balance,
     line_speed,
     ritz_field,
-    validation,
 )
+from linear_theory.common import validation
 
 SHEET, WAVE, MATERIAL = Sheet(), SineWave(), Material(0.03, 0.5)
 OUTLINE = Outline.trapezoid(0.6, 0.4, 1.0)

@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 
 from linear_theory import Sheet
-from linear_theory.cells import gauss, graded
-from linear_theory.errors import NotConvergedError
-from linear_theory.motion import CellGrid
-from linear_theory.newton import damped_newton, guarded_newton
-from linear_theory.time_grid import first_grid
+from linear_theory.balance.newton import damped_newton, guarded_newton
+from linear_theory.balance.time_grid import first_grid
+from linear_theory.common.errors import NotConvergedError
+from linear_theory.motion.cells import gauss, graded
+from linear_theory.motion.motion import CellGrid
 
 
 def turning_integral(halvings, order=8, centre=0.3):

@@ -22,12 +22,12 @@ from fem_check.command import BAD_ARGUMENTS, CLOSED_PIPE, INTERRUPTED, MET, MISS
 from fem_check.command.options import Options
 from fem_check.command.speed import HINTS
 from fem_check.command.waiting import PATIENCE, Waiting
-from fem_check.levels import LEVELS
-from fem_check.prediction import METHODS, predict
+from fem_check.predict.levels import LEVELS
+from fem_check.predict.prediction import METHODS, predict
 from linear_theory import Sheet, SineWave, TravellingWave, pulse_wave
-from linear_theory.friction import LAWS, LOADS
-from linear_theory.progress import Progress
-from linear_theory.second_field import AREAS, GROWTH_LAWS
+from linear_theory.common.progress import Progress
+from linear_theory.deformation.second.field import AREAS, GROWTH_LAWS
+from linear_theory.friction.law import LAWS, LOADS
 from tests.processes import interruptible
 
 SPEED = ("speed", "--growth", "5 %")

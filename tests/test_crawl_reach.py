@@ -24,7 +24,7 @@ from linear_theory import (
     ritz_field,
     second_order,
 )
-from linear_theory.reach import LARGEST_GROWTH, growths
+from linear_theory.speed.reach import LARGEST_GROWTH, growths
 
 PAPER, SINE = Sheet(), SineWave()
 K = 2 * np.pi

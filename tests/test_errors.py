@@ -28,8 +28,8 @@ from fem_check import (
     predict,
     simulate,
 )
+from fem_check.plane_stress.factor import SparseFactor
 from fem_check.shell.cycle.speed import Cycle
-from fem_check.sparse_factor import SparseFactor
 from linear_theory import (
     FieldWave,
     NotConvergedError,
@@ -99,7 +99,7 @@ def test_all_are_found():
 @pytest.mark.parametrize("kind", ERRORS, ids=lambda kind: kind.__name__)
 def test_has_the_base_and_is_listed(kind):
     assert issubclass(kind, SheetcrawlError)
-    assert kind.__name__ in linear_theory.errors.__doc__
+    assert kind.__name__ in linear_theory.common.errors.__doc__
 
 
 @pytest.mark.parametrize("kind", ERRORS, ids=lambda kind: kind.__name__)

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from linear_theory.field_wave import FieldWave
+from linear_theory.wave.given import FieldWave
 
 
 def test_values_broadcast_and_constants_are_spread():

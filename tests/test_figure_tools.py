@@ -14,7 +14,7 @@ from matplotlib.image import imread
 
 from fem_check.output import progress
 from figures import output, style
-from linear_theory.si import Scale, speed_si
+from linear_theory.speed.si import Scale, speed_si
 
 ROOT = Path(__file__).resolve().parents[1]
 

@@ -5,7 +5,7 @@ import pytest
 
 from fem_check import Outline, plane_stress_field
 from linear_theory import FieldWave, Sheet, TravellingWave, field_speed, friction_field, rigid_path
-from linear_theory.rigid import centre_and_gyration
+from linear_theory.motion.rigid import centre_and_gyration
 from tests import reference_outline
 
 ALPHA, SIZE, RTOL = 1e-3, 0.3, 1e-2

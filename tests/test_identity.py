@@ -22,8 +22,8 @@ from scipy import special
 
 from fem_check import Friction, Gravity, Material, Membrane
 from linear_theory import FieldWave, Sheet, SineWave, TravellingWave
-from linear_theory.errors import Unidentifiable
-from linear_theory.identity import content_key
+from linear_theory.common.errors import Unidentifiable
+from linear_theory.identity.content import content_key
 
 
 def run(source: str, **names: Any) -> dict[str, Any]:

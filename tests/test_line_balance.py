@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from linear_theory import SineWave, TravellingWave
-from linear_theory.field_wave import FieldWave
 from linear_theory.line import line_speed, line_speed_tanh, line_speed_viscous
 from linear_theory.line import samples as line_samples
 from linear_theory.line.balance import line_balance
+from linear_theory.wave.given import FieldWave
 from tests import reference_line
 
 

@@ -8,7 +8,6 @@ import pytest
 import sympy
 
 from linear_theory import SineWave, TravellingWave
-from linear_theory.field_wave import FieldWave
 from linear_theory.line import (
     line_balance,
     line_cycle_series,
@@ -16,6 +15,7 @@ from linear_theory.line import (
     line_series,
     line_speed,
 )
+from linear_theory.wave.given import FieldWave
 from tests import reference_line
 from tests.test_line_balance import Anonymous, compact_pulse, sampled, standing_pulse
 

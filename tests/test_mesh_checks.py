@@ -5,8 +5,8 @@ import pytest
 import skfem
 
 from fem_check import Material, Membrane, Outline, Scene, plane_stress_field
-from fem_check.mesh_checks import check_mesh
-from fem_check.shell.discretisation import Discretisation
+from fem_check.mesh.checks import check_mesh
+from fem_check.shell.kinematics.discretisation import Discretisation
 from linear_theory import Sheet, SineWave
 
 X, Y = np.linspace(-0.25, 0.25, 5), np.linspace(-0.5, 0.5, 9)

@@ -19,8 +19,8 @@ from linear_theory import (
     line_cycle_speed,
     second_order,
 )
-from linear_theory import model_error as module
-from linear_theory.model_error import LEVELS, Row, model_error, read
+from linear_theory.speed import model_error as module
+from linear_theory.speed.model_error import LEVELS, Row, model_error, read
 
 PAPER, SINE = Sheet(), SineWave()
 ROWS = read()

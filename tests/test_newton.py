@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from linear_theory.newton import damped_newton, guarded_newton
+from linear_theory.balance.newton import damped_newton, guarded_newton
 
 
 class Counted:

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from netgen.meshing import NgException
 
-from fem_check.outline import Outline
+from fem_check.mesh.outline import Outline
 from linear_theory import Sheet
 
 SQUARE = np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]]) / 2

@@ -11,7 +11,7 @@ import pytest
 import fem_check
 import linear_theory
 from figures import reach_table, regimes, regimes_table
-from linear_theory.records import read_rows
+from linear_theory.common.records import read_rows
 
 ROOT = Path(__file__).parents[1]
 EQUATIONS = ROOT / "docs" / "equations.md"
@@ -112,7 +112,7 @@ def test_symbols_are_names_of_the_code():
         for kind in (linear_theory.Sheet, linear_theory.SineWave, fem_check.Scene, fem_check.Friction)
         for name in kind.__dataclass_fields__
     }
-    kinds = {**vars(fem_check), "RestState": found("fem_check.shell.rest_state.RestState")}
+    kinds = {**vars(fem_check), "RestState": found("fem_check.shell.kinematics.rest_state.RestState")}
     assert len(named) == 13
     for name in named:
         kind, _, field = name.rpartition(".")

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from linear_theory import CrawlSpeed, SineWave, crawl_speed, rigid_path
-from linear_theory.path import Path
-from linear_theory.sheet import Sheet
+from linear_theory.sheet.rectangle import Sheet
+from linear_theory.speed.path import Path
 from tests.path_cases import (
     PAPER,
     SQUARE,

@@ -7,13 +7,13 @@ import pytest
 import sympy as sp
 from skfem import MeshTri
 
-from fem_check.outline import Outline
-from fem_check.plane_stress import plane_stress_field
-from fem_check.triangles import quadrilateral_points
+from fem_check.mesh.location import quadrilateral_points
+from fem_check.mesh.outline import Outline
+from fem_check.plane_stress.field import plane_stress_field
 from linear_theory import Sheet, SineWave
-from linear_theory.field_wave import FieldWave
-from linear_theory.motion import CellGrid
-from linear_theory.ritz import ritz_field
+from linear_theory.deformation.ritz import ritz_field
+from linear_theory.motion.motion import CellGrid
+from linear_theory.wave.given import FieldWave
 
 ELL = np.array([[-0.5, -0.5], [0.5, -0.5], [0.5, 0], [0, 0], [0, 0.5], [-0.5, 0.5]])
 RECTANGLE = np.array([[-0.25, -0.5], [0.25, -0.5], [0.25, 0.5], [-0.25, 0.5]])

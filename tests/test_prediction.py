@@ -5,8 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from fem_check.levels import LEVELS, MESHES, TARGET, Question, cycle, scene
-from fem_check.prediction import predict
+from fem_check.predict.levels import LEVELS, MESHES, TARGET, Question, cycle, scene
+from fem_check.predict.prediction import predict
 from fem_check.shell.cycle.speed import cycle_speed
 from linear_theory import FieldWave, Sheet, SineWave, TravellingWave, crawl_speed, line_cycle_speed
 

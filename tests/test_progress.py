@@ -6,9 +6,9 @@ from concurrent.futures import ThreadPoolExecutor
 import pytest
 
 from fem_check import Material, Membrane, Scene, cycle_speed, predict
-from fem_check.shell.scene import default_cells
+from fem_check.shell.scene.scene import default_cells
 from linear_theory import Sheet, SineWave, crawl_speed
-from linear_theory.progress import part_of, track, watched
+from linear_theory.common.progress import part_of, track, watched
 
 SCENE = Scene(Sheet(), SineWave(), 0.1, effects=[Membrane(Material(0.03, 0.5))], cells=(1, 2))
 CALLS = {
@@ -46,7 +46,7 @@ def test_every_task_goes_from_nothing_to_all_and_changes_no_answer(name):
 def test_time_left_is_at_the_pace_so_far(monkeypatch):
     """A clock that a loop turns by 3 s for each of 4 items: 9, 6, 3 and 0 s are left."""
     clock = [100.0]
-    monkeypatch.setattr("linear_theory.progress.time.perf_counter", lambda: clock[0])
+    monkeypatch.setattr("linear_theory.common.progress.time.perf_counter", lambda: clock[0])
     seen = []
     with watched(seen.append, "a test"), part_of("whole"):
         for _ in track("items", range(4)):

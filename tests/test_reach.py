@@ -11,7 +11,7 @@ import pytest
 from figures import reach, reach_table
 from figures.reach_table import COMMAND, DATA, REACHES, SHARES, SPEEDS, Point, Reach
 from linear_theory import Sheet, SineWave, crawl_speed, line_cycle_speed
-from linear_theory.records import read_rows
+from linear_theory.common.records import read_rows
 
 POINTS, ROWS = read_rows(DATA / SPEEDS, Point, COMMAND), read_rows(DATA / REACHES, Reach, COMMAND)
 

@@ -12,7 +12,7 @@ from fem_check.command import main
 from fem_check.shell.statics.ellipticity import edge_limit
 from figures import nonlinear, reach_table, regimes, regimes_table
 from linear_theory import Sheet, SineWave, crawl_speed
-from linear_theory.records import read_rows
+from linear_theory.common.records import read_rows
 
 ROOT = Path(__file__).parents[1]
 README, CONVENTIONS = ROOT / "README.md", ROOT / "docs" / "conventions.md"

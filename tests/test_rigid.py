@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from linear_theory import Sheet
-from linear_theory.rigid import RigidNorm
-from linear_theory.time_grid import first_grid
+from linear_theory.balance.time_grid import first_grid
+from linear_theory.motion.rigid import RigidNorm
 
 SHEET = Sheet(length=3.0, width=0.7)
 GYRATION = np.hypot(3.0, 0.7) / np.sqrt(12)  # of a rectangle

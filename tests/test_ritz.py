@@ -4,13 +4,14 @@ import numpy as np
 import pytest
 import sympy as sp
 
-from linear_theory import Sheet, SineWave, TravellingWave, hooke
-from linear_theory.errors import NotConvergedError
-from linear_theory.field_wave import FieldWave
-from linear_theory.load_cases import phases
-from linear_theory.motion import CellGrid
-from linear_theory.ritz import field as ritz
-from linear_theory.ritz import ritz_field
+from linear_theory import Sheet, SineWave, TravellingWave
+from linear_theory.common.errors import NotConvergedError
+from linear_theory.deformation.load_cases import phases
+from linear_theory.deformation.ritz import field as ritz
+from linear_theory.deformation.ritz import ritz_field
+from linear_theory.motion.motion import CellGrid
+from linear_theory.sheet import hooke
+from linear_theory.wave.given import FieldWave
 
 SHEETS = [
     Sheet(),

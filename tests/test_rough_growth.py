@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from linear_theory import FieldWave, NotConvergedError, Sheet, TravellingWave, crawl_speed
-from linear_theory.ritz import field as ritz
-from linear_theory.ritz import ritz_field
+from linear_theory.deformation.ritz import field as ritz
+from linear_theory.deformation.ritz import ritz_field
 from tests.test_ritz import coefficient_distance, distance
 
 
@@ -79,7 +79,7 @@ def test_smooth_growth_costs_no_more_degrees(monkeypatch, rtol):
 
 
 def test_growth_that_jumps_is_refused(monkeypatch):
-    monkeypatch.setattr("linear_theory.ritz.field.MOST_NUMBERS", 100_000)
+    monkeypatch.setattr("linear_theory.deformation.ritz.field.MOST_NUMBERS", 100_000)
     wave = FieldWave(lambda x, y, t: np.sign(np.sin(2 * np.pi * (y - t))) + 0 * x, 1.0)
     with pytest.raises(NotConvergedError, match="would need degrees"):
         crawl_speed(Sheet(), wave, 0.1)

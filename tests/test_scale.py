@@ -30,8 +30,8 @@ from fem_check import (
 )
 from fem_check.shell.cycle.shapes import cycle_of_shapes
 from fem_check.shell.cycle.speed import other_mesh
-from fem_check.shell.discretisation import Discretisation
-from fem_check.shell.places import distinct
+from fem_check.shell.kinematics.discretisation import Discretisation
+from fem_check.shell.kinematics.places import distinct
 from linear_theory import (
     CrawlSpeed,
     FieldWave,

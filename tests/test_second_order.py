@@ -8,20 +8,25 @@ import skfem
 import sympy
 from skfem.helpers import ddot, grad
 
-from fem_check.plane_stress_solver import PlaneStressSolver
+from fem_check.plane_stress.solver import PlaneStressSolver
 from fem_check.shell.cycle.frame import BodyFrame
 from fem_check.shell.cycle.shapes import cycle_of_shapes
 from fem_check.shell.effects.koiter import Membrane
-from fem_check.shell.growth import metric_factor
-from fem_check.shell.material import Material
-from fem_check.shell.scene import Scene
+from fem_check.shell.scene.growth import metric_factor
+from fem_check.shell.scene.material import Material
+from fem_check.shell.scene.scene import Scene
 from figures import second_order_table as table
 from linear_theory import Sheet, SineWave, TravellingWave, crawl_speed, second_order
-from linear_theory.friction import FrictionLaw
-from linear_theory.ritz import RitzField
-from linear_theory.ritz.solver import RitzSolver
-from linear_theory.second_field import AREAS, GROWTH_LAWS, SecondOrderField, second_order_field
-from linear_theory.second_order import checked_model, coefficients, leading_period
+from linear_theory.deformation.ritz import RitzField
+from linear_theory.deformation.ritz.solver import RitzSolver
+from linear_theory.deformation.second.field import (
+    AREAS,
+    GROWTH_LAWS,
+    SecondOrderField,
+    second_order_field,
+)
+from linear_theory.friction.law import FrictionLaw
+from linear_theory.speed.second_order import checked_model, coefficients, leading_period
 
 PAPER, SINE = Sheet(), SineWave()
 PULSE = table.WAVES["pulse"]

@@ -8,16 +8,16 @@ from fem_check.shell.cycle.balance import CycleBalance
 from fem_check.shell.cycle.contact import Contact
 from fem_check.shell.cycle.shapes import cycle_of_shapes
 from fem_check.shell.effects.koiter import Membrane
-from fem_check.shell.material import Material
-from fem_check.shell.scene import Scene
+from fem_check.shell.scene.material import Material
+from fem_check.shell.scene.scene import Scene
 from linear_theory import FieldWave, Sheet, SineWave, TravellingWave, crawl_speed, second_order
-from linear_theory.friction import FrictionLaw
-from linear_theory.load_cases import mixed_norms
-from linear_theory.period import Resolution
-from linear_theory.ritz import ritz_field
-from linear_theory.second_field import SecondOrderField, second_order_field
-from linear_theory.second_order import TINY_ALPHA, _Coefficients
-from linear_theory.wave_survey import WaveSurvey
+from linear_theory.balance.period import Resolution
+from linear_theory.deformation.load_cases import mixed_norms
+from linear_theory.deformation.ritz import ritz_field
+from linear_theory.deformation.second.field import SecondOrderField, second_order_field
+from linear_theory.friction.law import FrictionLaw
+from linear_theory.speed.second_order import TINY_ALPHA, _Coefficients
+from linear_theory.wave.survey import WaveSurvey
 
 SHEET, K = Sheet(width=0.5, poisson=0.3), 2 * np.pi
 SINE = SineWave()
@@ -225,7 +225,7 @@ def test_points_too_few_for_the_source_are_in_the_error_of_second_order(monkeypa
     wave = FieldWave(shape, 1.0)
     first = ritz_field(SHEET, wave, degree=(9, 21))
     found = SecondOrderField(first)
-    monkeypatch.setattr("linear_theory.second_source.EXTRA_POINTS", 200)
+    monkeypatch.setattr("linear_theory.deformation.second.source.EXTRA_POINTS", 200)
     fine = SecondOrderField(first)
     rates = found._times.rates(found._times.phases)
     size, missed = (

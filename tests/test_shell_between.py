@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from fem_check.shell.scene import Scene
+from fem_check.shell.scene.scene import Scene
 from fem_check.shell.stepping.between import PROBES, between, probe_region
 from fem_check.shell.stepping.simulation import simulate
 from fem_check.shell.stepping.trajectory import Trajectory

@@ -7,7 +7,6 @@ import pytest
 import skfem
 from numpy.typing import NDArray
 
-from fem_check.shell.discretisation import Discretisation
 from fem_check.shell.effects.effect import Effect
 from fem_check.shell.effects.friction import Friction
 from fem_check.shell.effects.gravity import Gravity
@@ -15,12 +14,20 @@ from fem_check.shell.effects.ground import Ground
 from fem_check.shell.effects.inertia import Inertia
 from fem_check.shell.effects.koiter import Bending, Membrane
 from fem_check.shell.effects.loads import DeadLoad, EdgeMoment
-from fem_check.shell.material import Material
-from fem_check.shell.potential import Load, Potential
-from fem_check.shell.rates import Affine, Step
-from fem_check.shell.rest_state import grown_state, tensor_state
+from fem_check.shell.kinematics.discretisation import Discretisation
+from fem_check.shell.kinematics.rates import Affine, Step
+from fem_check.shell.kinematics.rest_state import grown_state, tensor_state
+from fem_check.shell.kinematics.surface import (
+    AnnulusSector,
+    Cylinder,
+    Flat,
+    SpherePart,
+    Surface,
+    Trapezoid,
+)
+from fem_check.shell.scene.material import Material
+from fem_check.shell.statics.potential import Load, Potential
 from fem_check.shell.statics.sparsity import Sparsity
-from fem_check.shell.surface import AnnulusSector, Cylinder, Flat, SpherePart, Surface, Trapezoid
 
 Array = NDArray[np.float64]
 

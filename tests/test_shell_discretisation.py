@@ -5,18 +5,25 @@ import pytest
 import scipy.sparse as sp
 import skfem
 
-from fem_check.outline import Outline
-from fem_check.shell.discretisation import Discretisation
+from fem_check.mesh.outline import Outline
 from fem_check.shell.effects.koiter import Bending, Membrane
-from fem_check.shell.material import Material, elastic_tensor
-from fem_check.shell.point_state import PointState
-from fem_check.shell.potential import Potential
-from fem_check.shell.rest_state import grown_state
-from fem_check.shell.shape_functions import shape_functions
+from fem_check.shell.kinematics.discretisation import Discretisation
+from fem_check.shell.kinematics.point_state import PointState
+from fem_check.shell.kinematics.rest_state import grown_state
+from fem_check.shell.kinematics.shape_functions import shape_functions
+from fem_check.shell.kinematics.supports import Supports
+from fem_check.shell.kinematics.surface import (
+    AnnulusSector,
+    Cylinder,
+    Flat,
+    SpherePart,
+    Surface,
+    Trapezoid,
+)
+from fem_check.shell.scene.material import Material, elastic_tensor
 from fem_check.shell.statics import linear_solver
+from fem_check.shell.statics.potential import Potential
 from fem_check.shell.statics.sparsity import Sparsity
-from fem_check.shell.supports import Supports
-from fem_check.shell.surface import AnnulusSector, Cylinder, Flat, SpherePart, Surface, Trapezoid
 from tests.shell_cases import koiter
 
 RNG = np.random.default_rng(0)

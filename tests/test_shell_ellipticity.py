@@ -11,15 +11,15 @@ from scipy.optimize import brentq
 
 from fem_check.shell.cycle.shapes import cycle_of_shapes
 from fem_check.shell.cycle.speed import cycle_speed
-from fem_check.shell.discretisation import Discretisation
 from fem_check.shell.effects.gravity import Gravity
 from fem_check.shell.effects.ground import Ground
 from fem_check.shell.effects.koiter import Bending, Membrane
-from fem_check.shell.material import Material
-from fem_check.shell.point_state import PointState
-from fem_check.shell.potential import Potential
-from fem_check.shell.rest_state import grown_state, tensor_state
-from fem_check.shell.scene import Scene
+from fem_check.shell.kinematics.discretisation import Discretisation
+from fem_check.shell.kinematics.point_state import PointState
+from fem_check.shell.kinematics.rest_state import grown_state, tensor_state
+from fem_check.shell.kinematics.supports import Supports
+from fem_check.shell.scene.material import Material
+from fem_check.shell.scene.scene import Scene
 from fem_check.shell.statics.ellipticity import (
     Ellipticity,
     acoustic_reserve,
@@ -28,8 +28,8 @@ from fem_check.shell.statics.ellipticity import (
 )
 from fem_check.shell.statics.equilibrium import UnstableError
 from fem_check.shell.statics.newton import Minimiser
+from fem_check.shell.statics.potential import Potential
 from fem_check.shell.statics.ramp import ramp
-from fem_check.shell.supports import Supports
 from linear_theory import Sheet, SineWave
 from tests.shell_cases import at
 

@@ -10,7 +10,7 @@ from fem_check.shell.effects.gravity import Gravity
 from fem_check.shell.effects.ground import Ground
 from fem_check.shell.effects.inertia import Inertia
 from fem_check.shell.effects.koiter import Bending, Membrane
-from fem_check.shell.scene import Scene
+from fem_check.shell.scene.scene import Scene
 from fem_check.shell.statics.equilibrium import ConvergenceError
 from fem_check.shell.stepping.simulation import simulate
 from linear_theory import SineWave

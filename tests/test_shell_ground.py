@@ -5,20 +5,20 @@ import pytest
 import skfem
 from numpy.typing import NDArray
 
-from fem_check.shell.discretisation import Discretisation
 from fem_check.shell.effects.friction import Friction, load_bearer, log_cosh, sech_squared, tanh_ratio
 from fem_check.shell.effects.gravity import Gravity
 from fem_check.shell.effects.ground import Ground
 from fem_check.shell.effects.inertia import Inertia
 from fem_check.shell.effects.koiter import Membrane
-from fem_check.shell.material import Material
-from fem_check.shell.point_state import PointState
-from fem_check.shell.potential import Potential
-from fem_check.shell.rates import Affine, Step, backward_euler, newmark, two_step
-from fem_check.shell.rest_state import RestState, grown_state
+from fem_check.shell.kinematics.discretisation import Discretisation
+from fem_check.shell.kinematics.point_state import PointState
+from fem_check.shell.kinematics.rates import Affine, Step, backward_euler, newmark, two_step
+from fem_check.shell.kinematics.rest_state import RestState, grown_state
+from fem_check.shell.kinematics.supports import Supports
+from fem_check.shell.scene.material import Material
 from fem_check.shell.statics.newton import Minimiser
+from fem_check.shell.statics.potential import Potential
 from fem_check.shell.statics.ramp import ramp
-from fem_check.shell.supports import Supports
 from linear_theory import SineWave
 from tests.shell_cases import affine, koiter, shell
 

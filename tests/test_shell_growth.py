@@ -5,17 +5,17 @@ import pytest
 import skfem
 from numpy.typing import NDArray
 
-from fem_check.shell.discretisation import Discretisation
 from fem_check.shell.effects.koiter import Membrane
-from fem_check.shell.growth import GROWTH_LAWS, bilayer, metric_factor
-from fem_check.shell.material import Material
-from fem_check.shell.point_state import PointState
-from fem_check.shell.potential import Potential
-from fem_check.shell.rest_state import RestState, grown_state, tensor_state
+from fem_check.shell.kinematics.discretisation import Discretisation
+from fem_check.shell.kinematics.point_state import PointState
+from fem_check.shell.kinematics.rest_state import RestState, grown_state, tensor_state
+from fem_check.shell.kinematics.supports import Supports
+from fem_check.shell.kinematics.surface import AnnulusSector, Cylinder
+from fem_check.shell.scene.growth import GROWTH_LAWS, bilayer, metric_factor
+from fem_check.shell.scene.material import Material
 from fem_check.shell.statics.newton import Minimiser
+from fem_check.shell.statics.potential import Potential
 from fem_check.shell.statics.ramp import ramp
-from fem_check.shell.supports import Supports
-from fem_check.shell.surface import AnnulusSector, Cylinder
 from linear_theory import SineWave
 from tests.shell_cases import koiter, shell
 

@@ -6,23 +6,23 @@ import numpy as np
 import pytest
 import skfem
 
-from fem_check.shell.discretisation import Discretisation
 from fem_check.shell.effects.friction import Friction
 from fem_check.shell.effects.gravity import Gravity
 from fem_check.shell.effects.ground import Ground
 from fem_check.shell.effects.inertia import Inertia
 from fem_check.shell.effects.koiter import Bending, Membrane
 from fem_check.shell.effects.loads import DeadLoad, EdgeMoment
-from fem_check.shell.growth import bilayer, metric_factor
-from fem_check.shell.material import Material
-from fem_check.shell.potential import Load, Potential
-from fem_check.shell.rates import Affine, Step, backward_euler
-from fem_check.shell.rest_state import grown_state, tensor_state
-from fem_check.shell.scene import Scene, default_cells
+from fem_check.shell.kinematics.discretisation import Discretisation
+from fem_check.shell.kinematics.rates import Affine, Step, backward_euler
+from fem_check.shell.kinematics.rest_state import grown_state, tensor_state
+from fem_check.shell.kinematics.supports import Supports
+from fem_check.shell.kinematics.surface import Cylinder, SpherePart, Trapezoid
+from fem_check.shell.scene.growth import bilayer, metric_factor
+from fem_check.shell.scene.material import Material
+from fem_check.shell.scene.scene import Scene, default_cells
 from fem_check.shell.statics.newton import Minimiser
+from fem_check.shell.statics.potential import Load, Potential
 from fem_check.shell.statics.ramp import ramp
-from fem_check.shell.supports import Supports
-from fem_check.shell.surface import Cylinder, SpherePart, Trapezoid
 from linear_theory import Sheet, SineWave
 from tests.shell_cases import at, koiter, shell
 

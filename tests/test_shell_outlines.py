@@ -9,13 +9,13 @@ from fem_check.shell.cycle.balance import CycleBalance
 from fem_check.shell.cycle.contact import Contact
 from fem_check.shell.cycle.frame import gyration, moments
 from fem_check.shell.cycle.shapes import cycle_of_shapes
+from fem_check.shell.kinematics.supports import Supports
 from fem_check.shell.statics.newton import Minimiser
 from fem_check.shell.statics.ramp import ramp
-from fem_check.shell.supports import Supports
 from linear_theory import Sheet, TravellingWave
-from linear_theory.friction import FrictionLaw
-from linear_theory.period import Crawl, first_resolution
-from linear_theory.rigid import RigidNorm
+from linear_theory.balance.period import Crawl, first_resolution
+from linear_theory.friction.law import FrictionLaw
+from linear_theory.motion.rigid import RigidNorm
 
 ANGLES = 2 * np.pi * np.arange(12) / 12
 CIRCLE = np.stack([np.cos(ANGLES), np.sin(ANGLES)], axis=1)

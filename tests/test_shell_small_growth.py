@@ -9,8 +9,8 @@ from fem_check.shell.cycle.balance import STATIC_NOISE, CycleBalance
 from fem_check.shell.cycle.shapes import Shapes, _Solver, cycle_of_shapes
 from fem_check.shell.cycle.speed import cycle_speed
 from fem_check.shell.effects.koiter import Membrane
-from fem_check.shell.material import Material
-from fem_check.shell.scene import Scene
+from fem_check.shell.scene.material import Material
+from fem_check.shell.scene.scene import Scene
 from linear_theory import Sheet, SineWave
 
 LIMIT = 1.5332

@@ -14,7 +14,7 @@ import pytest
 import skfem
 from numpy.typing import NDArray
 
-from fem_check.shell.scene import Scene
+from fem_check.shell.scene.scene import Scene
 from fem_check.shell.statics.newton import Minimiser
 from fem_check.shell.stepping.paraview import write_paraview
 from fem_check.shell.stepping.power import Ledger

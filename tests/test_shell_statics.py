@@ -7,19 +7,19 @@ import pytest
 import skfem
 from numpy.typing import NDArray
 
-from fem_check.shell import region
-from fem_check.shell.discretisation import Discretisation
 from fem_check.shell.effects.koiter import Membrane
 from fem_check.shell.effects.loads import DeadLoad
-from fem_check.shell.material import Material
-from fem_check.shell.potential import Load, Potential
-from fem_check.shell.rest_state import grown_state, tensor_state
+from fem_check.shell.kinematics import region
+from fem_check.shell.kinematics.discretisation import Discretisation
+from fem_check.shell.kinematics.rest_state import grown_state, tensor_state
+from fem_check.shell.kinematics.supports import Supports
+from fem_check.shell.scene.material import Material
 from fem_check.shell.statics import newton
 from fem_check.shell.statics.equilibrium import ConvergenceError
 from fem_check.shell.statics.newton import Minimiser
 from fem_check.shell.statics.orientation import Orientation
+from fem_check.shell.statics.potential import Load, Potential
 from fem_check.shell.statics.ramp import follow_mode, ramp
-from fem_check.shell.supports import Supports
 from linear_theory import SineWave
 from tests.shell_cases import at, displacement, end_shear, koiter, shell
 
@@ -182,7 +182,7 @@ def test_a_planar_scene_computes_no_second_derivatives(monkeypatch: pytest.Monke
 
 def test_effects_that_are_not_named_are_not_evaluated(monkeypatch: pytest.MonkeyPatch) -> None:
     """Kinematics of a membrane scene in space: metric and tangents, no normal, no curvature."""
-    from fem_check.shell.point_state import PointState
+    from fem_check.shell.kinematics.point_state import PointState
 
     seen: set[str] = set()
     for name in ("normal", "dual", "curvature", "christoffel", "second", "metric", "tangents"):

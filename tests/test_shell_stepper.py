@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 import skfem
 
-from fem_check.shell import elements, region
 from fem_check.shell.cycle.speed import cycle_speed
 from fem_check.shell.effects import koiter
 from fem_check.shell.effects.friction import Friction
@@ -16,10 +15,11 @@ from fem_check.shell.effects.ground import Ground
 from fem_check.shell.effects.inertia import Inertia
 from fem_check.shell.effects.koiter import Bending, Membrane
 from fem_check.shell.effects.loads import DeadLoad
-from fem_check.shell.material import Material
-from fem_check.shell.point_state import PointState
-from fem_check.shell.rates import two_step
-from fem_check.shell.scene import Scene
+from fem_check.shell.kinematics import elements, region
+from fem_check.shell.kinematics.point_state import PointState
+from fem_check.shell.kinematics.rates import two_step
+from fem_check.shell.scene.material import Material
+from fem_check.shell.scene.scene import Scene
 from fem_check.shell.statics.equilibrium import ConvergenceError
 from fem_check.shell.statics.newton import Minimiser
 from fem_check.shell.stepping.simulation import Progress, simulate

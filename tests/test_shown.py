@@ -19,11 +19,11 @@ from fem_check.shell.cycle.frame import BodyFrame
 from fem_check.shell.cycle.shapes import cycle_of_shapes
 from fem_check.shell.cycle.speed import Cycle
 from fem_check.shell.effects.loads import EdgeMoment
-from fem_check.shell.growth import Couplings
+from fem_check.shell.kinematics.surface import AnnulusSector, Cylinder, Flat, SpherePart, Trapezoid
+from fem_check.shell.scene.growth import Couplings
 from fem_check.shell.statics.equilibrium import Equilibrium
 from fem_check.shell.stepping.run import Progress
-from fem_check.shell.surface import AnnulusSector, Cylinder, Flat, SpherePart, Trapezoid
-from linear_theory.shown import LINES, WIDTH, Shown, in_words, number, with_error
+from linear_theory.common.shown import LINES, WIDTH, Shown, in_words, number, with_error
 
 PACKAGES = (linear_theory, fem_check)
 
@@ -76,7 +76,7 @@ def field(kind):
         return linear_theory.ritz_field(SHEET, SINE, rtol=1e-3)
     if kind == "PlaneStressField":
         return fem_check.plane_stress_field(SHEET, SINE, degree=2)
-    return linear_theory.second_field.second_order_field(SHEET, SINE, "exp", "grown", 1e-2)
+    return linear_theory.deformation.second.field.second_order_field(SHEET, SINE, "exp", "grown", 1e-2)
 
 
 def planar(**arguments):
@@ -290,7 +290,7 @@ def test_speed_is_told_in_its_title():
     [(0.1, 0.01, "towards +y"), (-0.1, 0.01, "towards -y"), (0.1, 0.2, "direction not resolved")],
 )
 def test_direction_is_told_where_it_is_known(mean, error, words):
-    assert words in linear_theory.speed.speed_in_words(mean, error, True)
+    assert words in linear_theory.speed.result.speed_in_words(mean, error, True)
     assert "at rest" in repr(made("CrawlSpeed at rest"))
 
 

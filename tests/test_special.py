@@ -4,7 +4,7 @@ import mpmath as mp
 import numpy as np
 import pytest
 
-from linear_theory.airy import special
+from linear_theory.deformation.airy import special
 
 mp.mp.dps = 50
 

@@ -14,8 +14,9 @@ import xarray as xr
 
 import fem_check
 import linear_theory
-from linear_theory import FieldWave, Sheet, SineWave, crawl_speed, rigid_path, version
-from linear_theory.extras import optional
+from linear_theory import FieldWave, Sheet, SineWave, crawl_speed, rigid_path
+from linear_theory.common import version
+from linear_theory.common.extras import optional
 
 TRAJECTORY_UNITS = {
     "centre_x": "length",

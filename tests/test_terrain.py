@@ -15,10 +15,10 @@ from scipy.interpolate import RectBivariateSpline
 
 from fem_check.shell.effects.ground import Ground
 from fem_check.shell.effects.terrain import Terrain
-from fem_check.shell.scene import Scene
+from fem_check.shell.scene.scene import Scene
 from fem_check.shell.stepping.simulation import simulate
 from linear_theory import Sheet
-from linear_theory.identity import content_key
+from linear_theory.identity.content import content_key
 from tests.shell_scenes import lying
 
 pytestmark = pytest.mark.filterwarnings("ignore::linear_theory.ViscousRegimeWarning")

@@ -31,7 +31,7 @@ from linear_theory import (
     ritz_field,
     second_order,
 )
-from linear_theory.threads import OneBlasThread, one_blas_thread
+from linear_theory.common.threads import OneBlasThread, one_blas_thread
 
 BLAS = ThreadpoolController().select(user_api="blas")
 USER = 2

@@ -8,7 +8,7 @@ import pytest
 from scipy.interpolate import RectBivariateSpline
 
 from fem_check import Friction, Gravity, Material, Membrane, Scene, cycle_speed, predict, simulate
-from fem_check.levels import MESHES
+from fem_check.predict.levels import MESHES
 from fem_check.shell.cycle import speed as cycle
 from linear_theory import (
     FieldWave,
@@ -20,9 +20,9 @@ from linear_theory import (
     line_balance,
     ritz_field,
 )
-from linear_theory.friction import FrictionLaw
-from linear_theory.period import Crawl, first_resolution
-from linear_theory.wave_survey import WaveSurvey, spread
+from linear_theory.balance.period import Crawl, first_resolution
+from linear_theory.friction.law import FrictionLaw
+from linear_theory.wave.survey import WaveSurvey, spread
 
 SHEET, SINE, ALPHA = Sheet(), SineWave(), 0.1
 MATERIAL = Material(SHEET.thickness, SHEET.poisson)
@@ -275,7 +275,7 @@ def test_finer_meshes_are_not_tried_where_they_do_not_help(monkeypatch: pytest.M
         asked.append(scene.cells)
         return cycle_speed(scene, *arguments)
 
-    monkeypatch.setattr("fem_check.levels.cycle_speed", counted)
+    monkeypatch.setattr("fem_check.predict.levels.cycle_speed", counted)
     found = predict(SHEET, trembling(12, share=0.5), ALPHA, method="cycle", rtol=1e-3)
     assert not found.converged
     assert len(asked) < len(MESHES)

@@ -16,7 +16,7 @@ from fem_check.answer.units import Units
 from fem_check.answer.wave_words import arrows, wave_words
 
 if TYPE_CHECKING:
-    from fem_check.prediction import Prediction
+    from fem_check.predict.prediction import Prediction
 
 WIDTH = 80
 """Columns, unless said otherwise."""

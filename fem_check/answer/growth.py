@@ -4,14 +4,14 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from linear_theory import validation
-from linear_theory.field import Wave
+from linear_theory.common import validation
+from linear_theory.deformation.field import Wave
 from linear_theory.line.growth import GROWTH_LAWS
-from linear_theory.reach import growths
-from linear_theory.sheet import Sheet
+from linear_theory.sheet.rectangle import Sheet
+from linear_theory.speed.reach import growths
 
 if TYPE_CHECKING:
-    from fem_check.levels import Question
+    from fem_check.predict.levels import Question
 
 POINTS = 33
 """Each way, at which growth of any shape is looked at."""

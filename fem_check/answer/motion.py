@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING
 from fem_check.answer.rounding import measured
 from fem_check.answer.units import Units
 from fem_check.answer.wave_words import direction
-from linear_theory.field import Wave
-from linear_theory.speed import CrawlSpeed
+from linear_theory.deformation.field import Wave
+from linear_theory.speed.result import CrawlSpeed
 
 if TYPE_CHECKING:
-    from fem_check.prediction import Prediction
+    from fem_check.predict.prediction import Prediction
 
 
 def heading(wave: Wave, mean: float, error: float) -> str:

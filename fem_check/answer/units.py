@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from linear_theory import validation
+from linear_theory.common import validation
 
 
 @dataclass(frozen=True)

@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from linear_theory.field import Wave
-from linear_theory.model_error import is_sine
-from linear_theory.waves import TravellingWave
+from linear_theory.deformation.field import Wave
+from linear_theory.speed.model_error import is_sine
+from linear_theory.wave.travelling import TravellingWave
 
 PULSE = 0.4
 """Share of a wavelength above half height, below which a wave is a pulse; that of a sine is 1/2."""

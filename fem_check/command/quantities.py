@@ -10,10 +10,10 @@ import numpy as np
 from fem_check.answer.growth import alpha_of
 from fem_check.answer.units import Units
 from fem_check.command.options import Options
-from fem_check.levels import Question
-from linear_theory.pulse import NARROWEST, pulse_wave
-from linear_theory.sheet import Sheet
-from linear_theory.waves import SineWave, TravellingWave
+from fem_check.predict.levels import Question
+from linear_theory.sheet.rectangle import Sheet
+from linear_theory.wave.pulse import NARROWEST, pulse_wave
+from linear_theory.wave.travelling import SineWave, TravellingWave
 
 if TYPE_CHECKING:
     import pint

@@ -15,8 +15,8 @@ from fem_check.command.program import MET, MISSED
 from fem_check.command.quantities import Asked, asked
 from fem_check.command.text import printable
 from fem_check.command.waiting import Waiting
-from fem_check.prediction import Prediction, predict
-from linear_theory.errors import SheetcrawlError
+from fem_check.predict.prediction import Prediction, predict
+from linear_theory.common.errors import SheetcrawlError
 
 WIDEST = 100
 """Columns of the answer, at the most."""

@@ -6,7 +6,7 @@ import time
 from types import TracebackType
 from typing import TYPE_CHECKING
 
-from linear_theory.progress import Progress
+from linear_theory.common.progress import Progress
 
 if TYPE_CHECKING:
     from rich.progress import Progress as Bar

@@ -7,9 +7,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fem_check.output.moving import Course, Frame, direction, turned
-from linear_theory.deformation import Deformation
-from linear_theory.path import Poses, rigid_path
-from linear_theory.speed import CrawlSpeed
+from linear_theory.speed.drawn import Deformation
+from linear_theory.speed.path import Poses, rigid_path
+from linear_theory.speed.result import CrawlSpeed
 
 Array = NDArray[np.float64]
 Integers = NDArray[np.int64]

@@ -14,7 +14,7 @@ from fem_check.output.files import replacing, writable
 from fem_check.output.pictures import checked_periods, checked_units, moving_of
 from fem_check.output.progress import Progress
 from fem_check.output.stage import Stage
-from linear_theory import validation
+from linear_theory.common import validation
 
 Pixels = NDArray[np.uint8]
 
@@ -42,7 +42,7 @@ def movie(
     units: Units | None = None,
     progress: Report | bool = False,
 ) -> Path:
-    """See `linear_theory.drawable.Drawable.movie`.
+    """See `linear_theory.common.drawable.Drawable.movie`.
 
     >>> import tempfile
     >>> from pathlib import Path

@@ -10,7 +10,7 @@ from typing import NamedTuple, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from linear_theory.speed import CrawlSpeed
+from linear_theory.speed.result import CrawlSpeed
 
 Array = NDArray[np.float64]
 Integers = NDArray[np.int64]

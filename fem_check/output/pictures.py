@@ -12,10 +12,10 @@ from fem_check.output.look import CM_PER_INCH, COLUMN_CM, styled
 from fem_check.output.moving import Moving
 from fem_check.output.panels import draw_path, draw_sheet, draw_side, draw_speed
 from fem_check.output.simulated import Simulated
-from fem_check.prediction import Prediction
+from fem_check.predict.prediction import Prediction
 from fem_check.shell.stepping.trajectory import Trajectory
-from linear_theory import validation
-from linear_theory.speed import CrawlSpeed
+from linear_theory.common import validation
+from linear_theory.speed.result import CrawlSpeed
 
 PANELS = ("speed", "sheet", "side", "path")
 
@@ -35,7 +35,7 @@ def plot(
     periods: int | None = None,
     units: Units | None = None,
 ) -> Axes | NDArray[Any]:
-    """See `linear_theory.drawable.Drawable.plot`.
+    """See `linear_theory.common.drawable.Drawable.plot`.
 
     >>> from linear_theory import Sheet, SineWave, crawl_speed
     >>> speed = crawl_speed(Sheet(), SineWave(), alpha=0.2, rtol=1e-2)

@@ -6,17 +6,17 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from fem_check import triangles
+from fem_check.mesh import location as triangles
 from fem_check.output.moving import Course, Frame, direction, turned
 from fem_check.shell.effects.friction import Friction, load_bearer, tanh_ratio
 from fem_check.shell.effects.gravity import Gravity
 from fem_check.shell.effects.ground import Ground
-from fem_check.shell.point_state import PointState
-from fem_check.shell.rates import Step
-from fem_check.shell.region import Region
-from fem_check.shell.rest_state import RestState
+from fem_check.shell.kinematics.point_state import PointState
+from fem_check.shell.kinematics.rates import Step
+from fem_check.shell.kinematics.region import Region
+from fem_check.shell.kinematics.rest_state import RestState
 from fem_check.shell.stepping.trajectory import Trajectory
-from linear_theory.speed import CrawlSpeed
+from linear_theory.speed.result import CrawlSpeed
 
 Array = NDArray[np.float64]
 Integers = NDArray[np.int64]

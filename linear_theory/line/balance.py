@@ -5,17 +5,18 @@ import time
 import numpy as np
 from numpy.typing import NDArray
 
-from linear_theory import arguments, validation
-from linear_theory.field import Wave
-from linear_theory.field_wave import FieldWave
-from linear_theory.friction import FrictionLaw, warn_if_viscous
+from linear_theory.common import validation
+from linear_theory.common.threads import one_blas_thread
+from linear_theory.deformation.field import Wave
+from linear_theory.friction.law import FrictionLaw, warn_if_viscous
 from linear_theory.line.growth import Growth
 from linear_theory.line.result import Balance
 from linear_theory.line.samples import sampled_balance
 from linear_theory.line.travelling import travelling_balance
-from linear_theory.speed import CrawlSpeed
-from linear_theory.threads import one_blas_thread
-from linear_theory.waves import TravellingWave
+from linear_theory.scene import arguments
+from linear_theory.speed.result import CrawlSpeed
+from linear_theory.wave.given import FieldWave
+from linear_theory.wave.travelling import TravellingWave
 
 Array = NDArray[np.float64]
 

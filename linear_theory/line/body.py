@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from linear_theory.line.growth import Growth
 from linear_theory.line.profile import Profile
 from linear_theory.line.roots import EPS
-from linear_theory.waves import TravellingWave
+from linear_theory.wave.travelling import TravellingWave
 
 Array = NDArray[np.float64]
 

@@ -22,7 +22,7 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from linear_theory import validation
+from linear_theory.common import validation
 from linear_theory.line.roots import bracketed_newton
 
 Array = NDArray[np.float64]

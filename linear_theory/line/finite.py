@@ -32,7 +32,7 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from linear_theory import validation
+from linear_theory.common import validation
 from linear_theory.line.growth import Growth
 from linear_theory.line.roots import bracketed_newton
 

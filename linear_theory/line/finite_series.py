@@ -14,7 +14,7 @@ from fractions import Fraction
 from math import comb, factorial
 from typing import TYPE_CHECKING
 
-from linear_theory import validation
+from linear_theory.common import validation
 from linear_theory.line.finite import FRICTIONS
 from linear_theory.line.growth import Growth
 

@@ -23,8 +23,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from linear_theory import validation
-from linear_theory.friction import LOADS
+from linear_theory.common import validation
+from linear_theory.friction.law import LOADS
 
 Array = NDArray[np.float64]
 

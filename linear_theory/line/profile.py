@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linear_theory.line.roots import EPS, bracketed_newton
-from linear_theory.waves import TravellingWave
+from linear_theory.wave.travelling import TravellingWave
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]

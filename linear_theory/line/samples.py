@@ -23,14 +23,14 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from linear_theory import validation
-from linear_theory.field import Wave
-from linear_theory.friction import FrictionLaw
+from linear_theory.common import validation
+from linear_theory.deformation.field import Wave
+from linear_theory.friction.law import FrictionLaw
 from linear_theory.line.growth import Growth
 from linear_theory.line.result import REST_PART, REST_SPEED, Balance
 from linear_theory.line.roots import EPS, bracketed_newton
 from linear_theory.line.tanh_level import NARROWEST
-from linear_theory.wave_survey import WaveSurvey
+from linear_theory.wave.survey import WaveSurvey
 
 Array = NDArray[np.float64]
 

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from linear_theory import validation
+from linear_theory.common import validation
 from linear_theory.line.closed_form import FORMS, line_speed_viscous
 
 if TYPE_CHECKING:

@@ -25,13 +25,13 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from linear_theory.friction import FrictionLaw
+from linear_theory.friction.law import FrictionLaw
 from linear_theory.line.body import Body
 from linear_theory.line.growth import Growth
 from linear_theory.line.result import REST_PART, REST_SPEED, Balance, Level
 from linear_theory.line.roots import EPS, bracketed_newton
 from linear_theory.line.tanh_level import tanh_level
-from linear_theory.waves import TravellingWave
+from linear_theory.wave.travelling import TravellingWave
 
 Array = NDArray[np.float64]
 

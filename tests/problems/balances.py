@@ -13,7 +13,7 @@ from linear_theory import (
     line_speed,
     second_order,
 )
-from linear_theory.field import Wave
+from linear_theory.deformation.field import Wave
 from tests import reference_balance
 from tests.problems.line import samples, stopping
 from tests.problems.problem import Outcome, Problem, case, family, of_speed
@@ -91,8 +91,8 @@ def slip(speed: float) -> Outcome:
 
 def joining(speed: float) -> Outcome:
     """tanh friction between its limits, against the literal balance of one time, eq. 11 with eq. 3."""
-    from linear_theory.friction import FrictionLaw
-    from linear_theory.period import Crawl, first_resolution
+    from linear_theory.balance.period import Crawl, first_resolution
+    from linear_theory.friction.law import FrictionLaw
 
     field, alpha, t = airy_series(PAPER, SINE, rtol=1e-8), 0.25, 0.06
     law = FrictionLaw("tanh", speed)

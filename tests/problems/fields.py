@@ -6,11 +6,11 @@ import numpy as np
 import skfem
 from numpy.typing import NDArray
 
-from fem_check.outline import Outline
-from fem_check.plane_stress import plane_stress_field
+from fem_check.mesh.outline import Outline
+from fem_check.plane_stress.field import plane_stress_field
 from linear_theory import FieldWave, Sheet, SineWave, TravellingWave, airy_series, ritz_field
-from linear_theory.errors import NotConvergedError
-from linear_theory.field import LinearField, Wave
+from linear_theory.common.errors import NotConvergedError
+from linear_theory.deformation.field import LinearField, Wave
 from tests.problems.line import samples
 from tests.problems.problem import Outcome, Problem, case, family
 

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linear_theory import CrawlSpeed
-from linear_theory.errors import ViscousRegimeWarning
+from linear_theory.common.errors import ViscousRegimeWarning
 
 Array = NDArray[np.float64]
 

@@ -5,19 +5,19 @@ import numpy as np
 import skfem
 from numpy.typing import NDArray
 
-from fem_check.shell.discretisation import Discretisation
 from fem_check.shell.effects.gravity import Gravity
 from fem_check.shell.effects.ground import Ground
 from fem_check.shell.effects.koiter import Membrane
 from fem_check.shell.effects.loads import DeadLoad
-from fem_check.shell.material import Material
-from fem_check.shell.potential import Load, Potential
-from fem_check.shell.rest_state import grown_state, tensor_state
+from fem_check.shell.kinematics.discretisation import Discretisation
+from fem_check.shell.kinematics.rest_state import grown_state, tensor_state
+from fem_check.shell.kinematics.supports import Supports
+from fem_check.shell.scene.material import Material
 from fem_check.shell.statics.equilibrium import ConvergenceError, Equilibrium
 from fem_check.shell.statics.newton import Minimiser
 from fem_check.shell.statics.orientation import Orientation
+from fem_check.shell.statics.potential import Load, Potential
 from fem_check.shell.statics.ramp import follow_mode, ramp
-from fem_check.shell.supports import Supports
 from linear_theory import SineWave
 from tests.problems.problem import Outcome, Problem, case, family, stated
 from tests.shell_cases import (

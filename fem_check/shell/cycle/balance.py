@@ -17,13 +17,13 @@ from fem_check.shell.cycle.contact import Contact
 from fem_check.shell.cycle.frame import gyration
 from fem_check.shell.cycle.motion import CycleMotion, is_mirrored
 from fem_check.shell.cycle.shapes import Shapes
-from fem_check.shell.places import ROUNDOFF, distinct
-from linear_theory.balance import Balance, RigidMotion
-from linear_theory.progress import track
-from linear_theory.rigid import RigidNorm
-from linear_theory.time_grid import TimeGrid, first_grid
-from linear_theory.wave_survey import PER_HARMONIC
-from linear_theory.waves import TravellingWave
+from fem_check.shell.kinematics.places import ROUNDOFF, distinct
+from linear_theory.balance.balance import Balance, RigidMotion
+from linear_theory.balance.time_grid import TimeGrid, first_grid
+from linear_theory.common.progress import track
+from linear_theory.motion.rigid import RigidNorm
+from linear_theory.wave.survey import PER_HARMONIC
+from linear_theory.wave.travelling import TravellingWave
 
 Array = NDArray[np.float64]
 

@@ -10,9 +10,9 @@ from dataclasses import dataclass
 from fem_check.shell.effects.friction import Friction
 from fem_check.shell.effects.gravity import Gravity
 from fem_check.shell.effects.ground import Ground
-from fem_check.shell.scene import Scene
-from linear_theory import validation
-from linear_theory.friction import LOADS, FrictionLaw
+from fem_check.shell.scene.scene import Scene
+from linear_theory.common import validation
+from linear_theory.friction.law import LOADS, FrictionLaw
 
 ON_GROUND = "ground"
 """Load by the reaction of the ground."""

@@ -8,23 +8,23 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fem_check import triangles
+from fem_check.mesh import location as triangles
 from fem_check.shell.cycle import contact
 from fem_check.shell.cycle.motion import CycleMotion
 from fem_check.shell.cycle.shapes import Shapes, time_factors
 from fem_check.shell.effects.gravity import Gravity
-from fem_check.shell.region import Region
-from linear_theory.deformation import Contact
-from linear_theory.field import Wave
-from linear_theory.rigid import centre_and_gyration
-from linear_theory.shown import Shown
+from fem_check.shell.kinematics.region import Region
+from linear_theory.common.shown import Shown
+from linear_theory.deformation.field import Wave
+from linear_theory.motion.rigid import centre_and_gyration
+from linear_theory.speed.drawn import Contact
 
 Array = NDArray[np.float64]
 Integers = NDArray[np.int64]
 
 
 class CycleDeformation(Shown):
-    """See `linear_theory.deformation.Deformation`; the shapes are those that gave the speed."""
+    """See `linear_theory.speed.drawn.Deformation`; the shapes are those that gave the speed."""
 
     def __init__(self, shapes: Shapes, on_ground: contact.Contact) -> None:
         self.shapes, self._load, self.law = shapes, on_ground.load, on_ground.law

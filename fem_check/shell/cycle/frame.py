@@ -16,10 +16,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fem_check.shell.cycle.shapes import Shapes, harmonics, time_factors
-from fem_check.shell.discretisation import Discretisation
-from linear_theory.path import Poses
-from linear_theory.rigid import centre_and_gyration
-from linear_theory.shown import Shown
+from fem_check.shell.kinematics.discretisation import Discretisation
+from linear_theory.common.shown import Shown
+from linear_theory.motion.rigid import centre_and_gyration
+from linear_theory.speed.path import Poses
 
 Array = NDArray[np.float64]
 

@@ -8,17 +8,17 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
+from fem_check.mesh.location import quadrilateral_points
 from fem_check.shell.cycle.frame import BodyFrame
 from fem_check.shell.cycle.shapes import Shapes, time_factors
-from fem_check.shell.discretisation import Discretisation
 from fem_check.shell.effects.ground import Ground
-from fem_check.shell.growth import metric_factor
-from fem_check.shell.places import ROUNDOFF
-from fem_check.shell.region import Region
-from fem_check.triangles import quadrilateral_points
-from linear_theory.errors import SheetcrawlError
-from linear_theory.motion import Motion
-from linear_theory.waves import TravellingWave
+from fem_check.shell.kinematics.discretisation import Discretisation
+from fem_check.shell.kinematics.places import ROUNDOFF
+from fem_check.shell.kinematics.region import Region
+from fem_check.shell.scene.growth import metric_factor
+from linear_theory.common.errors import SheetcrawlError
+from linear_theory.motion.motion import Motion
+from linear_theory.wave.travelling import TravellingWave
 
 Array = NDArray[np.float64]
 

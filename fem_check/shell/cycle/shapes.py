@@ -11,22 +11,22 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from fem_check.shell.discretisation import Discretisation
 from fem_check.shell.effects.effect import Effect
 from fem_check.shell.effects.gravity import Gravity
 from fem_check.shell.effects.ground import Ground
 from fem_check.shell.effects.koiter import Membrane
-from fem_check.shell.potential import Potential
-from fem_check.shell.scene import Scene
+from fem_check.shell.kinematics.discretisation import Discretisation
+from fem_check.shell.kinematics.supports import Supports
+from fem_check.shell.scene.scene import Scene
 from fem_check.shell.statics.ellipticity import Ellipticity
 from fem_check.shell.statics.equilibrium import ConvergenceError, Equilibrium, UnstableError
 from fem_check.shell.statics.newton import Minimiser
+from fem_check.shell.statics.potential import Potential
 from fem_check.shell.statics.ramp import follow_mode, ramp
-from fem_check.shell.supports import Supports
-from linear_theory import validation
-from linear_theory.progress import track
-from linear_theory.shown import Shown
-from linear_theory.threads import one_blas_thread
+from linear_theory.common import validation
+from linear_theory.common.progress import track
+from linear_theory.common.shown import Shown
+from linear_theory.common.threads import one_blas_thread
 
 Array = NDArray[np.float64]
 

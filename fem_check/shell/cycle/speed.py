@@ -16,7 +16,6 @@ import numpy as np
 import skfem
 from numpy.typing import NDArray
 
-from fem_check.shell.abilities import CYCLE, friction_over_growth
 from fem_check.shell.cycle.balance import CycleBalance, Period
 from fem_check.shell.cycle.contact import Contact
 from fem_check.shell.cycle.deformation import CycleDeformation
@@ -24,15 +23,16 @@ from fem_check.shell.cycle.motion import UnresolvedError, is_mirrored
 from fem_check.shell.cycle.shapes import Shapes, cycle_of_shapes, static_effects
 from fem_check.shell.effects.friction import Friction
 from fem_check.shell.effects.koiter import Membrane
-from fem_check.shell.places import distinct
-from fem_check.shell.scene import Scene
-from linear_theory import validation
-from linear_theory.friction import warn_if_viscous
-from linear_theory.progress import Report, watched
-from linear_theory.shown import Shown
-from linear_theory.speed import CrawlSpeed
-from linear_theory.threads import one_blas_thread
-from linear_theory.waves import TravellingWave
+from fem_check.shell.kinematics.places import distinct
+from fem_check.shell.scene.abilities import CYCLE, friction_over_growth
+from fem_check.shell.scene.scene import Scene
+from linear_theory.common import validation
+from linear_theory.common.progress import Report, watched
+from linear_theory.common.shown import Shown
+from linear_theory.common.threads import one_blas_thread
+from linear_theory.friction.law import warn_if_viscous
+from linear_theory.speed.result import CrawlSpeed
+from linear_theory.wave.travelling import TravellingWave
 
 Array = NDArray[np.float64]
 
@@ -76,7 +76,7 @@ def cycle_speed(
     model_error is 0 for a scene that only stretches in the plane, which is the target: the nonlinear
     sheet of the stated growth law, area measure and load; NaN for other scenes, such as those that name
     Friction, which deforms the sheet a little.
-    progress: True prints on stderr, a function is called with a `linear_theory.progress.Progress`.
+    progress: True prints on stderr, a function is called with a `Progress`.
 
     Raises ValueError for bad input, for a scene that names what a cycle of shapes cannot represent
     (see `abilities.CYCLE`), for arguments that contradict the scene and for a slope on which the sheet

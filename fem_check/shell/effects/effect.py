@@ -14,9 +14,9 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from fem_check.shell.point_state import PointState
-from fem_check.shell.rates import Step
-from fem_check.shell.region import Entries
+from fem_check.shell.kinematics.point_state import PointState
+from fem_check.shell.kinematics.rates import Step
+from fem_check.shell.kinematics.region import Entries
 
 Array = NDArray[np.float64]
 

@@ -10,11 +10,11 @@ from numpy.typing import NDArray
 from fem_check.shell.effects.effect import Effect, identity, outer
 from fem_check.shell.effects.gravity import Gravity
 from fem_check.shell.effects.ground import Ground
-from fem_check.shell.point_state import PointState, dot
-from fem_check.shell.rates import Step
-from fem_check.shell.region import Entries
-from linear_theory import validation
-from linear_theory.shown import Value
+from fem_check.shell.kinematics.point_state import PointState, dot
+from fem_check.shell.kinematics.rates import Step
+from fem_check.shell.kinematics.region import Entries
+from linear_theory.common import validation
+from linear_theory.common.shown import Value
 
 Array = NDArray[np.float64]
 

@@ -8,11 +8,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fem_check.shell.effects.effect import Effect
-from fem_check.shell.point_state import AREAS, PointState
-from fem_check.shell.rates import Step
-from fem_check.shell.region import Entries
-from linear_theory import validation
-from linear_theory.shown import Value
+from fem_check.shell.kinematics.point_state import AREAS, PointState
+from fem_check.shell.kinematics.rates import Step
+from fem_check.shell.kinematics.region import Entries
+from linear_theory.common import validation
+from linear_theory.common.shown import Value
 
 Array = NDArray[np.float64]
 

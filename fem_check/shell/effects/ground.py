@@ -10,12 +10,12 @@ from numpy.typing import NDArray
 from fem_check.shell.effects.effect import Effect, outer
 from fem_check.shell.effects.gravity import check_area
 from fem_check.shell.effects.terrain import Terrain
-from fem_check.shell.point_state import AREAS, PointState
-from fem_check.shell.rates import Step
-from fem_check.shell.region import Entries
-from linear_theory import validation
-from linear_theory.sheet import Sheet
-from linear_theory.shown import Value
+from fem_check.shell.kinematics.point_state import AREAS, PointState
+from fem_check.shell.kinematics.rates import Step
+from fem_check.shell.kinematics.region import Entries
+from linear_theory.common import validation
+from linear_theory.common.shown import Value
+from linear_theory.sheet.rectangle import Sheet
 
 Array = NDArray[np.float64]
 

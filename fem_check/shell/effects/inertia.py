@@ -8,12 +8,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fem_check.shell.effects.effect import Effect, identity
-from fem_check.shell.material import Material
-from fem_check.shell.point_state import PointState
-from fem_check.shell.rates import Affine, Step
-from fem_check.shell.region import Entries
-from linear_theory import validation
-from linear_theory.shown import Value
+from fem_check.shell.kinematics.point_state import PointState
+from fem_check.shell.kinematics.rates import Affine, Step
+from fem_check.shell.kinematics.region import Entries
+from fem_check.shell.scene.material import Material
+from linear_theory.common import validation
+from linear_theory.common.shown import Value
 
 Array = NDArray[np.float64]
 

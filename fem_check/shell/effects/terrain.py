@@ -16,9 +16,9 @@ from fem_check.shell.effects.height_sources import (
     is_expression,
     source,
 )
-from linear_theory import validation
-from linear_theory.sheet import Sheet
-from linear_theory.shown import Value
+from linear_theory.common import validation
+from linear_theory.common.shown import Value
+from linear_theory.sheet.rectangle import Sheet
 
 Array = NDArray[np.float64]
 

@@ -29,10 +29,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import brentq
 
-from fem_check.shell.discretisation import Discretisation
-from fem_check.shell.point_state import PointState
-from fem_check.shell.region import Region
-from fem_check.shell.rest_state import RestState
+from fem_check.shell.kinematics.discretisation import Discretisation
+from fem_check.shell.kinematics.point_state import PointState
+from fem_check.shell.kinematics.region import Region
+from fem_check.shell.kinematics.rest_state import RestState
 
 Array = NDArray[np.float64]
 RestOf = Callable[[Region], RestState]

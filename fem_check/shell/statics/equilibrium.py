@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from linear_theory.errors import SheetcrawlError
-from linear_theory.shown import Shown
+from linear_theory.common.errors import SheetcrawlError
+from linear_theory.common.shown import Shown
 
 Array = NDArray[np.float64]
 

@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import lapack
 
+from fem_check.plane_stress.factor import SparseFactor
 from fem_check.shell.statics.sparsity import Sparsity
-from fem_check.sparse_factor import SparseFactor
 
 Array = NDArray[np.float64]
 

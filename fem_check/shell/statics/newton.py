@@ -6,15 +6,15 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from fem_check.shell.potential import Potential
+from fem_check.shell.kinematics.supports import Supports
 from fem_check.shell.statics.equilibrium import ConvergenceError, Equilibrium
 from fem_check.shell.statics.linear_solver import Factor, factorise
 from fem_check.shell.statics.orientation import Orientation
+from fem_check.shell.statics.potential import Potential
 from fem_check.shell.statics.sparsity import Sparsity
 from fem_check.shell.statics.stability import NEUTRAL, lowest_mode
-from fem_check.shell.supports import Supports
-from linear_theory import validation
-from linear_theory.threads import one_blas_thread
+from linear_theory.common import validation
+from linear_theory.common.threads import one_blas_thread
 
 Array = NDArray[np.float64]
 

@@ -9,8 +9,8 @@ right angle or more.
 import numpy as np
 from numpy.typing import NDArray
 
-from fem_check.shell.point_state import PointState, dot
-from fem_check.shell.region import Region
+from fem_check.shell.kinematics.point_state import PointState, dot
+from fem_check.shell.kinematics.region import Region
 
 Array = NDArray[np.float64]
 

@@ -12,10 +12,10 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from fem_check.shell.potential import Potential
 from fem_check.shell.statics.equilibrium import ConvergenceError, Equilibrium
 from fem_check.shell.statics.newton import Minimiser
-from linear_theory import validation
+from fem_check.shell.statics.potential import Potential
+from linear_theory.common import validation
 
 Array = NDArray[np.float64]
 

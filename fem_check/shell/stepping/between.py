@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fem_check.shell.discretisation import Discretisation
-from fem_check.shell.region import Region
+from fem_check.shell.kinematics.discretisation import Discretisation
+from fem_check.shell.kinematics.region import Region
 from fem_check.shell.stepping.step_control import extrapolated
 
 Array = NDArray[np.float64]

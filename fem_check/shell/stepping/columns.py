@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from linear_theory.tables import LENGTH, NUMBER, SPEED, TIME, Column
+from linear_theory.common.tables import LENGTH, NUMBER, SPEED, TIME, Column
 
 if TYPE_CHECKING:
     from fem_check.shell.stepping.trajectory import Trajectory

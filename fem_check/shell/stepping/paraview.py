@@ -6,8 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fem_check.shell.stepping.trajectory import Trajectory
-from linear_theory import validation
-from linear_theory.extras import optional
+from linear_theory.common import validation
+from linear_theory.common.extras import optional
 
 Array = NDArray[np.float64]
 

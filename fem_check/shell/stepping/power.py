@@ -24,11 +24,11 @@ from fem_check.shell.effects.ground import Ground
 from fem_check.shell.effects.inertia import Inertia
 from fem_check.shell.effects.koiter import Bending, Membrane
 from fem_check.shell.effects.loads import DeadLoad
-from fem_check.shell.point_state import PointState
-from fem_check.shell.rates import Step
-from fem_check.shell.rest_state import RestState
-from fem_check.shell.scene import Scene
-from linear_theory.shown import Shown
+from fem_check.shell.kinematics.point_state import PointState
+from fem_check.shell.kinematics.rates import Step
+from fem_check.shell.kinematics.rest_state import RestState
+from fem_check.shell.scene.scene import Scene
+from linear_theory.common.shown import Shown
 
 Array = NDArray[np.float64]
 

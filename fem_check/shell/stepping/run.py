@@ -10,9 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fem_check.shell.effects.friction import Friction
-from fem_check.shell.point_state import PointState
-from fem_check.shell.rates import Affine, Step
-from fem_check.shell.scene import Scene
+from fem_check.shell.kinematics.point_state import PointState
+from fem_check.shell.kinematics.rates import Affine, Step
+from fem_check.shell.scene.scene import Scene
 from fem_check.shell.statics.equilibrium import ConvergenceError
 from fem_check.shell.statics.newton import Factorised
 from fem_check.shell.stepping.between import probe_region
@@ -25,8 +25,8 @@ from fem_check.shell.stepping.start import first_history
 from fem_check.shell.stepping.step_control import LANDED, History, step_size
 from fem_check.shell.stepping.stepper import Stepper, StepResult
 from fem_check.shell.stepping.trajectory import Trajectory
-from linear_theory.shown import Shown
-from linear_theory.threads import one_blas_thread
+from linear_theory.common.shown import Shown
+from linear_theory.common.threads import one_blas_thread
 
 Array = NDArray[np.float64]
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from linear_theory import validation
+from linear_theory.common import validation
 
 Array = NDArray[np.float64]
 

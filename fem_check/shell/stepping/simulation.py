@@ -11,13 +11,13 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from fem_check.shell.effects.friction import Friction
-from fem_check.shell.scene import Scene, default_cells
+from fem_check.shell.scene.scene import Scene, default_cells
 from fem_check.shell.stepping.run import Progress, Run, Target
 from fem_check.shell.stepping.settings import Settings
 from fem_check.shell.stepping.snapshot import check_path, check_writable, run_fingerprint
 from fem_check.shell.stepping.trajectory import Trajectory
-from linear_theory import validation
-from linear_theory.friction import warn_if_viscous
+from linear_theory.common import validation
+from linear_theory.friction.law import warn_if_viscous
 
 Array = NDArray[np.float64]
 

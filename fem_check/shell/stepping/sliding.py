@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fem_check.shell.effects.friction import Friction, sech_squared, tanh_ratio
-from fem_check.shell.point_state import PointState, dot
+from fem_check.shell.kinematics.point_state import PointState, dot
 
 Array = NDArray[np.float64]
 

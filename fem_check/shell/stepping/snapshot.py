@@ -16,10 +16,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fem_check.shell.effects.ground import Ground
-from fem_check.shell.scene import Scene
+from fem_check.shell.scene.scene import Scene
 from fem_check.shell.stepping.settings import Settings
-from linear_theory.errors import SheetcrawlError, Unidentifiable
-from linear_theory.identity import content_key
+from linear_theory.common.errors import SheetcrawlError, Unidentifiable
+from linear_theory.identity.content import content_key
 
 Array = NDArray[np.float64]
 

@@ -5,16 +5,16 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from fem_check.shell.discretisation import Discretisation
 from fem_check.shell.effects.effect import Effect
 from fem_check.shell.effects.ground import Ground
 from fem_check.shell.effects.inertia import Inertia
-from fem_check.shell.rates import Affine, Step
+from fem_check.shell.kinematics.discretisation import Discretisation
+from fem_check.shell.kinematics.rates import Affine, Step
+from fem_check.shell.kinematics.supports import Supports
 from fem_check.shell.statics.newton import Minimiser
 from fem_check.shell.stepping.step_control import History
 from fem_check.shell.stepping.stepper import Stepper
-from fem_check.shell.supports import Supports
-from linear_theory import validation
+from linear_theory.common import validation
 
 Array = NDArray[np.float64]
 

@@ -5,9 +5,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from fem_check.shell.rates import Affine, newmark, two_step
-from linear_theory.spectrum import Spectrum
-from linear_theory.wave_survey import PER_HARMONIC
+from fem_check.shell.kinematics.rates import Affine, newmark, two_step
+from linear_theory.wave.spectrum import Spectrum
+from linear_theory.wave.survey import PER_HARMONIC
 
 Array = NDArray[np.float64]
 

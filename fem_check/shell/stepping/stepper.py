@@ -12,20 +12,20 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from fem_check.shell.abilities import STEPPED
 from fem_check.shell.effects.friction import Friction, load_bearer
 from fem_check.shell.effects.gravity import Gravity
 from fem_check.shell.effects.ground import Ground
-from fem_check.shell.point_state import PointState
-from fem_check.shell.potential import Potential
-from fem_check.shell.rates import Affine, Step
-from fem_check.shell.rest_state import RestState
-from fem_check.shell.scene import Scene
+from fem_check.shell.kinematics.point_state import PointState
+from fem_check.shell.kinematics.rates import Affine, Step
+from fem_check.shell.kinematics.rest_state import RestState
+from fem_check.shell.kinematics.supports import Supports
+from fem_check.shell.scene.abilities import STEPPED
+from fem_check.shell.scene.scene import Scene
 from fem_check.shell.statics.equilibrium import ConvergenceError, Equilibrium
 from fem_check.shell.statics.newton import Factorised, Minimiser
+from fem_check.shell.statics.potential import Potential
 from fem_check.shell.statics.ramp import follow_mode
 from fem_check.shell.stepping.step_control import History
-from fem_check.shell.supports import Supports
 
 Array = NDArray[np.float64]
 

@@ -10,19 +10,19 @@ from numpy.typing import ArrayLike, NDArray
 
 from fem_check.shell.cycle.frame import poses
 from fem_check.shell.effects.friction import Friction
-from fem_check.shell.scene import Scene
+from fem_check.shell.scene.scene import Scene
 from fem_check.shell.stepping import columns
 from fem_check.shell.stepping.between import between, interpolation_error, motion_around
 from fem_check.shell.stepping.power import Works
 from fem_check.shell.stepping.sliding import COMPARED
 from fem_check.shell.stepping.step_control import LANDED
 from fem_check.shell.stepping.stepper import amplitude
-from linear_theory import validation
-from linear_theory.drawable import Drawable
-from linear_theory.path import Poses
-from linear_theory.shown import Shown
-from linear_theory.speed import CrawlSpeed, Regime, regime_of, speed_in_words
-from linear_theory.tables import Column, Tabular
+from linear_theory.common import validation
+from linear_theory.common.drawable import Drawable
+from linear_theory.common.shown import Shown
+from linear_theory.common.tables import Column, Tabular
+from linear_theory.speed.path import Poses
+from linear_theory.speed.result import CrawlSpeed, Regime, regime_of, speed_in_words
 
 Array = NDArray[np.float64]
 

@@ -1,0 +1,5 @@
+"""Growth in plane stress by finite elements, on any outline."""
+
+from fem_check.plane_stress.field import PlaneStressField, plane_stress_field
+
+__all__ = ["PlaneStressField", "plane_stress_field"]

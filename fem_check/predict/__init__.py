@@ -1,0 +1,1 @@
+"""The levels that answer a question, and the choice between them."""

@@ -1,0 +1,215 @@
+"""The answer to a tolerance: the cheapest level whose numerical and model error meet it together."""
+
+import math
+import time
+import warnings
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import Any, NamedTuple
+
+from fem_check.answer.block import block
+from fem_check.predict.levels import LEVELS, TARGET_EFFECTS, Question, distance
+from fem_check.shell.scene.abilities import left_out
+from linear_theory.common import validation
+from linear_theory.common.drawable import Drawable
+from linear_theory.common.errors import BeyondReachWarning, NotConvergedError, ViscousRegimeWarning
+from linear_theory.common.progress import Report, part_of, watched
+from linear_theory.common.shown import Shown, number
+from linear_theory.common.threads import one_blas_thread
+from linear_theory.deformation.field import Wave
+from linear_theory.friction.law import warn_if_viscous
+from linear_theory.sheet.rectangle import Sheet
+from linear_theory.speed.reach import warn_if_beyond
+from linear_theory.speed.result import CrawlSpeed, speed_in_words
+
+METHODS = ("auto", *LEVELS)
+
+SHARE = 0.5
+"""Of the tolerance, for the error of the model; the rest is for the numbers."""
+
+
+@dataclass(frozen=True)
+class Prediction(Drawable, Shown):
+    """A speed with the level that gave it.
+
+    speed: its `error` is that of the numbers and `model_error` the distance to the target, NaN where it
+    is unknown (never so for method = "auto"). level: a key of `levels.LEVELS`; reason: why this one and
+    none of those before it, in words. converged: whether `error` meets the tolerance that was asked
+    for. seconds: of all that was tried. left_out: what the target itself leaves out, in words: a flat
+    sheet of no thickness on which friction acts and nothing else. question, goal: what was asked, and
+    to which tolerance. passed: the levels that were not taken, and why. `str` tells all of it in a
+    dozen lines (see `answer.block`), in lengths L of the sheet and periods T of the wave.
+
+    >>> from fem_check import predict
+    >>> from linear_theory import Sheet, SineWave
+    >>> found = predict(Sheet(), SineWave(), alpha=0.25, rtol=0.2)
+    >>> print(f"V = {found.mean:.2f} +- {found.error:.2f} L/T: {found.reason}")
+    V = 0.10 +- 0.01 L/T: strip is near enough
+    >>> print(str(found).splitlines()[2])
+      speed     0.101 ± 0.015 L/T, along the wave; 10.1 % of L per period
+    """
+
+    speed: CrawlSpeed
+    level: str
+    reason: str
+    converged: bool
+    seconds: float
+    left_out: tuple[str, ...]
+    question: Question
+    goal: "Goal"
+    passed: tuple["Passed", ...] = ()
+
+    @property
+    def mean(self) -> float:
+        """Mean speed, length per time, positive towards +y."""
+        return self.speed.mean
+
+    @property
+    def error(self) -> float:
+        """Of numbers and model together, absolute."""
+        return total_error(self.speed)
+
+    def __str__(self) -> str:
+        return block(self)
+
+    def _title(self) -> str:
+        return f"Prediction: {speed_in_words(self.mean, self.error, self.converged)}"
+
+    def _rows(self) -> Mapping[str, Any]:
+        errors = f"{self.speed.error:.2g} of numbers, {number(self.speed.model_error)} of the model"
+        answer = {"level": self.level, "reason": self.reason, "error": errors}
+        left_out = {"left_out": "; ".join(self.left_out)} if self.left_out else {}
+        friction = {"regime": self.speed.regime, "model": self.speed.model}
+        return {**answer, **friction, **left_out, "seconds": self.seconds}
+
+    def _contents(self) -> Mapping[str, Any]:
+        return {"mean": self.mean, "error": self.error, **super()._contents()}
+
+
+@dataclass(frozen=True)
+class Goal(Shown):
+    """Tolerances, relative and absolute, for the error of numbers and model together."""
+
+    rtol: float
+    atol: float
+
+    def tolerance(self, mean: float) -> float:
+        """Allowed error of that speed."""
+        return max(self.rtol * abs(mean), self.atol)
+
+
+class _Passed(NamedTuple):
+    level: str
+    why: str
+    seconds: float
+
+
+class Passed(Shown, _Passed):
+    """A level that was not taken, why, in words, and the seconds that it took to see that."""
+
+
+def predict(
+    sheet: Sheet,
+    wave: Wave,
+    alpha: float,
+    growth_law: str = "exp",
+    area: str = "grown",
+    load: str = "current",
+    friction: str = "coulomb",
+    slip_speed: float | None = None,
+    rtol: float = 1e-2,
+    atol: float | None = None,
+    method: str = "auto",
+    *,
+    progress: bool | Report | None = None,
+) -> Prediction:
+    """How fast the nonlinear sheet crawls, by the cheapest level that is known to be near enough.
+
+    The target is a planar sheet that grows by growth_law, counts its energy per area, carries load and
+    is too stiff for friction to change its shape; arguments as in `crawl_speed`. method = "auto" takes
+    of "strip", "first order", "second order" and "cycle" the first one whose error and model error
+    together are below max(rtol |mean|, atol), atol = 1e-3 rtol alpha^2 L/T unless given; a level whose
+    model error is unknown (see `model_error`) is never taken. Any of the names takes that level.
+    A tolerance that the last level misses shows in `converged`; what the target leaves out (bending,
+    and with it the thickness; the ground; friction that deforms the sheet), in `left_out`: scenes with
+    these effects are for `cycle_speed` and `simulate`. progress: True prints on stderr, a function is
+    called with a `linear_theory.common.progress.Progress`.
+
+    Raises ValueError for bad input and what the level that is asked for raises. Warns as `crawl_speed`
+    does of the level that answers.
+
+    >>> from fem_check import predict
+    >>> from linear_theory import Sheet, SineWave
+    >>> found = predict(Sheet(), SineWave(), alpha=0.05, rtol=0.1)
+    >>> print(f"V = {found.mean:.4f} L/T by {found.level}, converged {found.converged}")
+    V = 0.0038 L/T by second order, converged True
+    """
+    start = time.perf_counter()
+    question = Question(sheet, wave, alpha, growth_law, area, load, friction, slip_speed)
+    rtol = validation.tolerance(rtol)
+    goal = Goal(rtol, validation.absolute_tolerance(atol, rtol, question.alpha, question.unit))
+    validation.choice("method", method, METHODS)
+    with watched(progress, "predict"):
+        if method == "auto":
+            found = _cheapest(question, goal)
+        else:
+            found = _answer(question, method, goal, "asked for")
+            found = replace(found, reason=f"{found.reason}; {found.speed.reach}")
+    warn_if_viscous(found.speed, slip_speed)
+    warn_if_beyond(question.alpha, found.speed.beyond_reach)
+    return replace(found, seconds=time.perf_counter() - start)
+
+
+def total_error(speed: CrawlSpeed) -> float:
+    """Of numbers and model together, absolute; NaN where that of the model is unknown."""
+    return speed.error + speed.model_error
+
+
+def _cheapest(question: Question, goal: Goal) -> Prediction:
+    """Try those levels in turn that could do, the target last."""
+    passed: list[Passed] = []
+    largest = math.inf
+    for level in LEVELS:
+        begin = time.perf_counter()
+        obstacle = _obstacle(question, level, goal.tolerance(largest))
+        if not obstacle:
+            try:
+                found = _answer(question, level, goal, "")
+            except NotConvergedError as failure:
+                obstacle = str(failure)
+            else:
+                if found.converged:
+                    return _explained(found, f"{level} is near enough", passed)
+                largest = abs(found.mean) + found.error
+                obstacle = f"error {found.error:.1g} is above {goal.tolerance(found.mean):.1g}"
+        passed.append(Passed(level, obstacle, time.perf_counter() - begin))
+    return _explained(found, "the last level", passed)
+
+
+def _explained(found: Prediction, reason: str, passed: list[Passed]) -> Prediction:
+    """With the reason why this level was taken, and none of those before."""
+    others = "".join(f"; not {one.level}: {one.why}" for one in passed)
+    return replace(found, reason=reason + others, passed=tuple(passed))
+
+
+def _obstacle(question: Question, level: str, tolerance: float) -> str:
+    """Why a level cannot do, seen without solving it; empty if it may. tolerance: at the most."""
+    model = distance(level, question)
+    if math.isnan(model):
+        return "its model error is unknown here"
+    if model > tolerance:
+        return f"its model error {model:.1g} is above {tolerance:.1g}"
+    return ""
+
+
+@one_blas_thread
+def _answer(question: Question, level: str, goal: Goal, reason: str) -> Prediction:
+    with warnings.catch_warnings():
+        for kind in (ViscousRegimeWarning, BeyondReachWarning):  # `predict` says it, of the answer
+            warnings.simplefilter("ignore", kind)
+        rtol = max(SHARE * goal.rtol, validation.SMALLEST_RTOL)
+        with part_of(level):
+            speed = LEVELS[level](question, rtol, SHARE * goal.atol)
+    converged = not speed.beyond_reach and total_error(speed) <= goal.tolerance(speed.mean)
+    omitted = left_out(TARGET_EFFECTS)
+    return Prediction(speed, level, reason, converged, speed.seconds, omitted, question, goal)

@@ -1,0 +1,1 @@
+"""Surfaces in finite elements: positions and their derivatives at quadrature points."""

@@ -1,0 +1,51 @@
+"""Which elements a shell can be built on, and on which meshes."""
+
+from typing import Any
+
+import numpy as np
+
+from fem_check.shell.kinematics.shape_functions import is_global
+
+CONFORMING = ("ElementQuadBFS", "ElementTriArgyris")
+"""scikit-fem's elements whose functions have continuous gradients (Morley's have not)."""
+
+
+def is_h2(element: Any) -> bool:
+    """Whether second derivatives are square integrable across element edges."""
+    return type(element).__name__ in CONFORMING
+
+
+def require_h2(element: Any) -> None:
+    """Raise ValueError for an element that cannot bend."""
+    if not is_h2(element):
+        name = type(element).__name__
+        raise ValueError(f"element = {name}: must be H2, one of {', '.join(CONFORMING)}, to bend")
+
+
+def check_element(mesh: Any, element: Any) -> None:
+    """Raise ValueError if the element does not fit the mesh or has no shape functions to use here."""
+    name = type(element).__name__
+    if getattr(element, "refdom", None) is not mesh.refdom:
+        raise ValueError(
+            f"element = {name}: must be an element of {mesh.refdom.__name__}, as the mesh is"
+        )
+    if is_global(element) and not is_h2(element):
+        raise ValueError(
+            f"element = {name}: must be conforming, one of {', '.join(CONFORMING)} or Lagrange"
+        )
+    if not is_global(element) and "ElementH1" not in {base.__name__ for base in type(element).__mro__}:
+        raise ValueError(f"element = {name}: must be a scalar, continuous element")
+
+
+def check_rectangles(mesh: Any, element: Any) -> None:
+    """Raise ValueError for oblique elements where the element is BFS."""
+    if type(element).__name__ != "ElementQuadBFS":
+        return
+    corners = mesh.p[:, mesh.t]
+    sides = np.abs(np.roll(corners, -1, axis=1) - corners)
+    bad = (sides.min(0) > 1e-9 * sides.max(0)).any(0)
+    if bad.any():
+        raise ValueError(
+            f"mesh: {bad.sum()} of {bad.size} elements are no rectangles along the axes, as "
+            f"ElementQuadBFS needs them, first {bad.argmax()}; triangles take any shape"
+        )

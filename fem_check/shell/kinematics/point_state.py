@@ -1,0 +1,162 @@
+"""The deformed sheet at quadrature points, as effects read it.
+
+Everything is computed when it is first asked for: an effect that a scene does not name costs nothing.
+Points are the last axis, so that every operation runs over contiguous memory.
+"""
+
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fem_check.shell.kinematics.rates import Step
+from fem_check.shell.kinematics.region import Entries, Region
+from fem_check.shell.kinematics.rest_state import RestState
+
+Array = NDArray[np.float64]
+
+AREAS = ("grown", "current", "material")
+"""What a load per area is counted in: the grown reference (appendix A.2), the deformed or the
+undeformed sheet (its weight then is that of its matter)."""
+
+
+def dot(u: Array, v: Array) -> Array:
+    """Sum over components of (..., components, points) vectors; einsum and sum are slower here."""
+    out = u[..., 0, :] * v[..., 0, :]
+    for c in range(1, u.shape[-2]):
+        out += u[..., c, :] * v[..., c, :]
+    return np.asarray(out)
+
+
+def cross(u: Array, v: Array) -> Array:
+    """Vector product of (3, points) vectors."""
+    out = np.empty_like(u)
+    for c, d, e in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):
+        np.multiply(u[d], v[e], out=out[c])
+        out[c] -= u[e] * v[d]
+    return out
+
+
+class PointState:
+    """Position jet, rest state and time step at the points of some elements of a region.
+
+    u: displacement unknowns. entries: which derivatives of the position will be read. part: which
+    elements. rest, step: of the points of that part.
+    """
+
+    def __init__(
+        self,
+        region: Region,
+        u: Array,
+        entries: Entries,
+        rest: RestState | None = None,
+        step: Step | None = None,
+        part: slice = slice(None),
+    ) -> None:
+        points = region.points(part)
+        self.region, self.part, self._points = region, part, points
+        self._rest, self._step = rest, step
+        self._jet = dict(zip(entries, region.position(u, entries, part), strict=True))
+
+    @property
+    def components(self) -> int:
+        """2 in the plane, 3 in space."""
+        return self.region.components
+
+    @property
+    def rest(self) -> RestState:
+        """Rest state of these points."""
+        assert self._rest is not None
+        return self._rest
+
+    @property
+    def step(self) -> Step | None:
+        """Time step of these points, None in statics."""
+        return self._step
+
+    @property
+    def position(self) -> Array:
+        """x, (components, points)."""
+        return np.asarray(self._jet[0])
+
+    def tangent(self, entry: int) -> Array:
+        """a_1 or a_2 alone, (components, points)."""
+        return np.asarray(self._jet[entry])
+
+    @cached_property
+    def tangents(self) -> Array:
+        """a_1, a_2: (2, components, points)."""
+        return np.stack([self._jet[1], self._jet[2]])
+
+    @cached_property
+    def second(self) -> Array:
+        """x_11, x_22, x_12: (3, 3, points)."""
+        return np.stack([self._jet[3], self._jet[4], self._jet[5]])
+
+    @cached_property
+    def measure(self) -> Array:
+        """Weight times undeformed area (length on an edge, 1 for a point), (points,)."""
+        return self.region.measure[self._points]
+
+    @cached_property
+    def metric(self) -> Array:
+        """a_11, a_22, a_12: (3, points)."""
+        first, second = self.tangents
+        return np.stack([dot(first, first), dot(second, second), dot(first, second)])
+
+    @cached_property
+    def director(self) -> Array:
+        """a_1 x a_2, (3, points), or its only component in the plane, (1, points)."""
+        first, second = self.tangents
+        if self.components == 2:
+            return np.asarray(first[:1] * second[1:] - first[1:] * second[:1])
+        return cross(first, second)
+
+    @cached_property
+    def jacobian(self) -> Array:
+        """|a_1 x a_2|, area per parameter area, (points,)."""
+        return np.sqrt(dot(self.director, self.director))
+
+    @cached_property
+    def area(self) -> Array:
+        """Quadrature weight times current area, (points,)."""
+        return self.region.weights.ravel()[self._points] * self.jacobian
+
+    def area_of(self, kind: str) -> Array:
+        """Quadrature weight times the area that a load is counted in, (points,); see `AREAS`."""
+        if kind == "material":
+            return self.measure
+        if kind == "grown":
+            return self.rest.grown_area
+        assert self._step is not None
+        assert self._step.area is not None
+        return self._step.area
+
+    @cached_property
+    def normal(self) -> Array:
+        """Unit normal n, (3, points)."""
+        return np.asarray(self.director / self.jacobian)
+
+    @cached_property
+    def inverse_metric(self) -> Array:
+        """a^11, a^22, a^12: (3, points)."""
+        a11, a22, a12 = self.metric
+        scale = 1 / self.jacobian**2
+        return np.stack([a22 * scale, a11 * scale, -a12 * scale])
+
+    @cached_property
+    def dual(self) -> Array:
+        """a^1, a^2 with a^c . a_d = delta_cd, (2, components, points)."""
+        i11, i22, i12 = self.inverse_metric
+        first, second = self.tangents
+        return np.stack([i11 * first + i12 * second, i12 * first + i22 * second])
+
+    @cached_property
+    def curvature(self) -> Array:
+        """b_11, b_22, b_12 = n . x_ab, (3, points)."""
+        return dot(self.second, self.normal)
+
+    @cached_property
+    def christoffel(self) -> Array:
+        """Gamma^c_ab = a^c . x_ab, (2, 3, points) with ab = 11, 22, 12."""
+        return dot(self.dual[:, None], self.second)

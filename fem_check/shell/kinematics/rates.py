@@ -1,0 +1,93 @@
+"""Velocity and acceleration as affine functions of the position at the end of a time step.
+
+A step as a minimisation needs no more of a time integrator than this: v = rate (x - base).
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linear_theory.common import validation
+from linear_theory.common.shown import Shown
+
+Array = NDArray[np.float64]
+
+NEWMARK_BETA = 0.25
+NEWMARK_GAMMA = 0.5
+
+
+@dataclass(frozen=True, eq=False)
+class Affine(Shown):
+    """rate (x - base): rate in 1/time (1/time^2 for an acceleration), base (components, points)."""
+
+    rate: float
+    base: Array
+
+    def __call__(self, x: Array) -> Array:
+        """Its value at positions x, (components, points)."""
+        return np.asarray(self.rate * (x - self.base))
+
+    def part(self, points: slice) -> "Affine":
+        """The same for a slice of the points."""
+        return Affine(self.rate, self.base[..., points])
+
+
+@dataclass(frozen=True, eq=False)
+class Step(Shown):
+    """What a minimisation holds fixed while it looks for the position: a time step, or a lagged area.
+
+    velocity: of the points, from their position; None in statics. acceleration: likewise, None without
+    inertia. load (points,): normal force of each point (pressure times area) that friction is
+    proportional to. area (points,): quadrature weight times current area, in which "current" loads are
+    counted. normal (3, points): unit normal of the ground under each point, None where it is e_z.
+
+    load, area and normal are those of the last state: as functions of the position they would not have
+    a potential. Repeat the minimisation until they no longer change.
+    """
+
+    velocity: Affine | None = None
+    acceleration: Affine | None = None
+    load: Array | None = None
+    area: Array | None = None
+    normal: Array | None = None
+
+    def part(self, points: slice) -> "Step":
+        """The same for a slice of the points."""
+        load, area, normal = (
+            None if a is None else a[..., points] for a in (self.load, self.area, self.normal)
+        )
+        velocity, acceleration = (
+            None if r is None else r.part(points) for r in (self.velocity, self.acceleration)
+        )
+        return Step(velocity, acceleration, load, area, normal)
+
+
+def backward_euler(x: Array, dt: float) -> Affine:
+    """v = (x_new - x)/dt, first order in dt; x (components, points) at the start of the step."""
+    return Affine(1 / validation.positive("dt", dt), x)
+
+
+def two_step(x: Array, before: Array, dt: float, dt_before: float | None = None) -> Affine:
+    """v at the end of a step from three positions, second order in dt (BDF2).
+
+    x, before: positions at its start and dt_before (by default dt) earlier. It is the slope of the
+    parabola through them; for equal steps (3 x_new - 4 x + x_before)/(2 dt).
+    """
+    dt = validation.positive("dt", dt)
+    ratio = 1.0 if dt_before is None else dt / validation.positive("dt_before", dt_before)
+    rate = (1 + 2 * ratio) / ((1 + ratio) * dt)
+    return Affine(rate, ((1 + ratio) ** 2 * x - ratio**2 * before) / (1 + 2 * ratio))
+
+
+def newmark(x: Array, v: Array, a: Array, dt: float) -> tuple[Affine, Affine]:
+    """Velocity and acceleration of Newmark's rule with beta = 1/4 and gamma = 1/2 (appendix A.2).
+
+    x, v, a: (components, points) at the start of the step.
+    """
+    dt = validation.positive("dt", dt)
+    guess = x + dt * v + dt**2 * (0.5 - NEWMARK_BETA) * a
+    acceleration = Affine(1 / (NEWMARK_BETA * dt**2), guess)
+    # v_new = v + dt ((1 - gamma) a + gamma a_new), written as rate (x_new - base).
+    rate = NEWMARK_GAMMA / (NEWMARK_BETA * dt)
+    return Affine(rate, guess - (v + dt * (1 - NEWMARK_GAMMA) * a) / rate), acceleration

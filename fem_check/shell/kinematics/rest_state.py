@@ -1,0 +1,101 @@
+"""The shape that the sheet would like to have: rest metric, rest curvature, measure of area.
+
+Tensors are covariant in the parameters, components (11, 22, 12) on the first axis.
+"""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from fem_check.shell.kinematics.region import Region
+from fem_check.shell.scene.growth import metric_factor
+from fem_check.shell.scene.material import elastic_tensor
+from linear_theory.common import validation
+from linear_theory.common.shown import Shown
+
+Array = NDArray[np.float64]
+
+CURVATURE_FORMS = ("grown", "undeformed")
+MEASURES = ("grown", "undeformed")
+
+
+@dataclass(frozen=True, eq=False)
+class RestState(Shown):
+    """abar and bbar of eq. 1 at the points of a region, whatever made them.
+
+    abar, bbar: (3, points). measure (points,): quadrature weight times the area in which the energy
+    is counted; grown_area (points,): quadrature weight times sqrt(det abar).
+    Raises ValueError if abar is not finite and positive definite or bbar not finite.
+    """
+
+    abar: Array
+    bbar: Array
+    measure: Array
+    grown_area: Array
+    _tensors: dict[float, Array] = field(default_factory=dict, repr=False)
+
+    def __post_init__(self) -> None:
+        for name in ("abar", "bbar", "measure", "grown_area"):
+            validation.real_array(name, getattr(self, name))
+        determinant = self.abar[0] * self.abar[1] - self.abar[2] ** 2
+        if np.any(determinant <= 0) or np.any(self.abar[0] <= 0):
+            raise ValueError(f"abar has determinant {determinant.min():g}: must be positive definite")
+
+    def elastic_tensor(self, poisson: float) -> Array:
+        """H of appendix A.2 in the grown metric, (3, 3, points), kept for the next call."""
+        if poisson not in self._tensors:
+            self._tensors[poisson] = elastic_tensor(self.abar, poisson)
+        return self._tensors[poisson]
+
+    def part(self, points: slice) -> "RestState":
+        """The rest state of a slice of the points."""
+        part = object.__new__(RestState)
+        for name in ("abar", "bbar", "measure", "grown_area"):
+            object.__setattr__(part, name, getattr(self, name)[..., points])
+        object.__setattr__(part, "_tensors", {k: v[..., points] for k, v in self._tensors.items()})
+        return part
+
+
+def tensor_state(region: Region, abar: ArrayLike, bbar: ArrayLike, area: str = "grown") -> RestState:
+    """Rest state of given tensors, each (3,) or (3, points); for `area` see `grown_state`.
+
+    Raises ValueError for tensors that are not finite and metrics that are not positive definite.
+    """
+    validation.choice("area", area, MEASURES)
+    metric, curvature = (
+        np.broadcast_to(value.reshape(3, -1), (3, region.size))
+        for value in (validation.real_array("abar", abar), validation.real_array("bbar", bbar))
+    )
+    determinant = metric[0] * metric[1] - metric[2] ** 2
+    grown = region.weights.ravel() * np.sqrt(np.maximum(determinant, 0))
+    return RestState(metric, curvature, grown if area == "grown" else region.measure, grown)
+
+
+def grown_state(
+    region: Region,
+    growth: ArrayLike = 0.0,
+    alpha: float = 0.0,
+    curvature_coupling: float = 0.0,
+    *,
+    law: str = "exp",
+    curvature: str = "grown",
+    area: str = "grown",
+) -> RestState:
+    """Rest state of a surface (A, B) in which a field c has grown metric and curvature (eq. 4).
+
+        abar = g(c) A,    bbar = B - beta c abar
+
+    growth: c at the points, broadcast to (points,). law: g, see `growth.metric_factor`.
+    curvature_coupling: beta, 1/length. curvature: "grown" as above, so that the rest curvature is
+    exactly -beta c; "undeformed": -beta c A, the other reading of eq. 4. The paper's sheet is flat,
+    B = 0. area: measure of the energy, "grown" sqrt(det abar) (appendix A.2) or "undeformed"
+    sqrt(det A) (eq. 1).
+    Raises ValueError for other names and for growth that is not finite.
+    """
+    validation.choice("curvature", curvature, CURVATURE_FORMS)
+    field_c = np.broadcast_to(validation.real_array("growth", growth), (region.size,))
+    abar = metric_factor(law, alpha, field_c) * region.metric
+    beta = validation.real("curvature_coupling", curvature_coupling)
+    bent = abar if curvature == "grown" else region.metric
+    return tensor_state(region, abar, region.curvature - beta * field_c * bent, area)

@@ -1,0 +1,1 @@
+"""What is simulated by a shell."""

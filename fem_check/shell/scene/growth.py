@@ -1,0 +1,73 @@
+"""How a field c grows the sheet: laws for its metric and the couplings of a bilayer."""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from linear_theory.common import validation
+from linear_theory.common.shown import Shown
+
+Array = NDArray[np.float64]
+
+GROWTH_LAWS = ("exp", "linear", "metric")
+
+
+def metric_factor(law: str, alpha: float, growth: ArrayLike) -> Array:
+    """g(c) of the rest metric g(c) A (eq. 4), of the shape of `growth`.
+
+    law: "exp" exp(2 alpha c), as printed; "linear" (1 + alpha c)^2; "metric" 1 + 2 alpha c. They
+    agree to first order in alpha c. Raises ValueError for another name, for growth that is not
+    finite and for growth by which lengths would vanish.
+    """
+    validation.choice("law", law, GROWTH_LAWS)
+    strain = validation.real("alpha", alpha) * validation.real_array("growth", growth)
+    if law == "exp":
+        return np.asarray(np.exp(2 * strain))
+    smallest, bound = (1 + strain, -1) if law == "linear" else (1 + 2 * strain, -0.5)
+    if np.any(smallest <= 0):
+        raise ValueError(f"alpha * growth = {np.min(strain):g}: must be > {bound:g} for law {law!r}")
+    return np.asarray(smallest**2 if law == "linear" else smallest)
+
+
+class _Couplings(NamedTuple):
+    alpha: float
+    curvature: float
+
+
+class Couplings(Shown, _Couplings):
+    """alpha: strain of the mid-surface per c (dimensionless). curvature: beta of eq. 4, 1/length."""
+
+
+def bilayer(
+    growth: float, thickness: float, thickness_ratio: float = 1.0, modulus_ratio: float = 1.0
+) -> Couplings:
+    """Couplings of a sheet of two bonded layers of which the upper one grows by the strain growth * c.
+
+    thickness: of both layers together. thickness_ratio and modulus_ratio: upper over lower layer;
+    both have the same Poisson ratio. Timoshenko's bimetal (J. Opt. Soc. Am. 11:233, 1925): curvature
+    6 eps (1 + m)^2 / (h [3 (1 + m)^2 + (1 + m n)(m^2 + 1/(m n))]), which for equal layers is
+    3 eps/(2 h). alpha is the strain of the mid-surface of the stack that comes with it, eps/2 for equal
+    layers. A positive growth bends the sheet away from its upper side, b = -curvature * c * a.
+
+    The mean strain of equal layers being eps/2, the paper's beta = 100 alpha at h = 0.03 is this law.
+    Raises ValueError for a thickness or ratio <= 0.
+
+    >>> from fem_check import Bending, Material, Membrane, Scene, bilayer
+    >>> from linear_theory import Sheet, SineWave
+    >>> alpha, beta = bilayer(growth=0.2, thickness=0.03)
+    >>> effects = [part(Material(thickness=0.03, poisson=0.5)) for part in (Membrane, Bending)]
+    >>> scene = Scene(Sheet(), SineWave(), alpha, curvature_coupling=beta, effects=effects)
+    >>> print(f"alpha = {scene.alpha:.2f}, beta = {scene.curvature_coupling:.0f}/L")
+    alpha = 0.10, beta = 10/L
+    """
+    eps = validation.real("growth", growth)
+    h = validation.positive("thickness", thickness)
+    m = validation.positive("thickness_ratio", thickness_ratio)
+    n = validation.positive("modulus_ratio", modulus_ratio)
+    curvature = 6 * eps * (1 + m) ** 2 / (h * (3 * (1 + m) ** 2 + (1 + m * n) * (m**2 + 1 / (m * n))))
+    upper, lower = h * m / (1 + m), h / (1 + m)
+    # No net force: n upper (e_u - eps) + lower e_l = 0 with e the strain at the layer's middle.
+    above, below = (h - upper) / 2, (lower - h) / 2
+    shift = (n * upper * above + lower * below) / (n * upper + lower)
+    return Couplings(eps * n * upper / (n * upper + lower) - curvature * shift, curvature)

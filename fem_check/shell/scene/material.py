@@ -1,0 +1,57 @@
+"""What the sheet is made of."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linear_theory.common import validation
+from linear_theory.common.shown import Value
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Material(Value):
+    """An isotropic sheet of Young modulus `young`, thickness h and Poisson ratio nu.
+
+    thickness in units of length, young in force per area (1 by default: the unit of stress).
+    Raises ValueError for thickness or young <= 0 and for a Poisson ratio outside (-1, 1/2].
+    """
+
+    thickness: float
+    poisson: float
+    young: float = 1.0
+
+    def __post_init__(self) -> None:
+        for name in ("thickness", "young"):
+            object.__setattr__(self, name, validation.positive(name, getattr(self, name)))
+        object.__setattr__(self, "poisson", validation.poisson(self.poisson))
+
+    @property
+    def stretching(self) -> float:
+        """K = E h / (1 - nu^2) of appendix A.2, force per length."""
+        return self.young * self.thickness / (1 - self.poisson**2)
+
+    @property
+    def bending(self) -> float:
+        """D = E h^3 / (12 (1 - nu^2)) of appendix A.2, force times length."""
+        return self.stretching * self.thickness**2 / 12
+
+
+def elastic_tensor(metric: Array, poisson: float) -> Array:
+    """H of appendix A.2 for a rest metric: (3, 3, points), rows and columns (11, 22, 12).
+
+    metric: (3, points), covariant (11, 22, 12). It acts on (e_11, e_22, 2 e_12) and gives the
+    contravariant (n^11, n^22, n^12). The inverse is that of the *grown* metric.
+    """
+    a11, a22, a12 = metric
+    inverse = 1 / (a11 * a22 - a12**2)
+    b11, b22, b12 = a22 * inverse, a11 * inverse, -a12 * inverse
+    out = np.empty((3, 3, *a11.shape))
+    out[0, 0], out[1, 1] = b11**2, b22**2
+    out[0, 1] = out[1, 0] = poisson * b11 * b22 + (1 - poisson) * b12**2
+    out[0, 2] = out[2, 0] = b11 * b12
+    out[1, 2] = out[2, 1] = b22 * b12
+    out[2, 2] = poisson * b12**2 + (1 - poisson) / 2 * (b11 * b22 + b12**2)
+    return out

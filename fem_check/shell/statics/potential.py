@@ -1,0 +1,242 @@
+"""The sum of the effects of a scene as a function of the unknowns."""
+
+from collections.abc import Mapping, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fem_check.shell.effects.effect import PAIRS, Effect
+from fem_check.shell.effects.gravity import Gravity
+from fem_check.shell.kinematics.discretisation import Discretisation
+from fem_check.shell.kinematics.elements import require_h2
+from fem_check.shell.kinematics.point_state import PointState
+from fem_check.shell.kinematics.rates import Step
+from fem_check.shell.kinematics.region import Entries, Region
+from fem_check.shell.kinematics.rest_state import RestState
+from linear_theory.common.shown import Shown
+
+Array = NDArray[np.float64]
+
+SECOND = 2
+"""Entries of a jet beyond this one are second derivatives."""
+
+POINTS_AT_ONCE = 1024
+"""Points whose Hessians are formed together: enough to hide Python, few enough to stay in the cache."""
+
+
+class Load(NamedTuple):
+    """An effect on a part of the sheet: an edge or a point."""
+
+    region: Region
+    effect: Effect
+
+
+class Group(NamedTuple):
+    """Effects whose derivatives are multiplied by shape functions together."""
+
+    entries: Entries
+    effects: tuple[Effect, ...]
+
+
+class Part(NamedTuple):
+    """Some elements of a region with what their points need."""
+
+    elements: slice
+    rest: RestState | None
+    step: Step | None
+
+
+class _Blocks(NamedTuple):
+    region: Region
+    values: Array
+
+
+class Blocks(Shown, _Blocks):
+    """Element Hessians, (elements, shapes, component pairs, shapes)."""
+
+
+class Potential(Shown):
+    """Energy, gradient and Hessian of the sum of some effects.
+
+    effects act on the whole sheet, loads on the region that they name. rest is needed by elastic
+    effects, step by inertia, friction and damping. Raises ValueError where either is missing, where
+    effects contradict each other and where the elements do not suit an effect.
+    """
+
+    def __init__(
+        self,
+        discretisation: Discretisation,
+        effects: Sequence[Effect],
+        rest: RestState | None = None,
+        step: Step | None = None,
+        loads: Sequence[Load] = (),
+    ) -> None:
+        self.discretisation, self.effects, self.loads = discretisation, tuple(effects), tuple(loads)
+        self.rest, self.step = rest, step
+        self._check()
+        self._terms = [Term(discretisation.interior, self.effects, rest, step)] if effects else []
+        self._terms += [Term(load.region, (load.effect,), None, None) for load in loads]
+
+    def _contents(self) -> Mapping[str, Any]:
+        names = ("discretisation", "effects", "loads", "rest", "step")
+        return {name: getattr(self, name) for name in names}
+
+    def _check(self) -> None:
+        if not self.effects and not self.loads:
+            raise ValueError("effects is empty: a scene must name at least one effect")
+        if self.rest is None and any(effect.reads_rest for effect in self.effects):
+            raise ValueError("rest = None: an effect of this scene needs a rest state")
+        for effect in (*self.effects, *(load.effect for load in self.loads)):
+            effect.check(self.discretisation.components, self.effects, self.step)
+            if max(effect.entries) > SECOND:
+                require_h2(self.discretisation.element)
+
+    def energy(self, u: Array) -> float:
+        """Sum of the effects at unknowns u (size,), force times length."""
+        return sum(term.energy(u) for term in self._terms)
+
+    def gradient(self, u: Array) -> Array:
+        """Derivative of `energy`, (size,)."""
+        out = np.zeros(self.discretisation.size)
+        for term in self._terms:
+            term.add_gradient(u, out)
+        return out
+
+    def energy_and_gradient(self, u: Array) -> tuple[float, Array]:
+        """Both at once, which spares the kinematics of one of them."""
+        out = np.zeros(self.discretisation.size)
+        return sum(term.add_gradient(u, out) for term in self._terms), out
+
+    def hessian_blocks(self, u: Array) -> list[Blocks]:
+        """Element Hessians at unknowns u, one entry per region."""
+        return [Blocks(term.region, term.hessian(u)) for term in self._terms]
+
+
+class Term:
+    """Some effects on one region."""
+
+    def __init__(
+        self, region: Region, effects: tuple[Effect, ...], rest: RestState | None, step: Step | None
+    ) -> None:
+        self.region = region
+        self.groups = grouped(effects, region.components)
+        self.entries = tuple(sorted({e for group in self.groups for e in group.entries}))
+        elements = max(1, POINTS_AT_ONCE // region.per_element)
+        self.parts = []
+        for start in range(0, len(region.elements), elements):
+            part = slice(start, min(start + elements, len(region.elements)))
+            points = region.points(part)
+            self.parts.append(
+                Part(
+                    part,
+                    None if rest is None else rest.part(points),
+                    None if step is None else step.part(points),
+                )
+            )
+
+    def state(self, u: Array, part: Part) -> PointState:
+        """Kinematics of some elements."""
+        return PointState(self.region, u, self.entries, part.rest, part.step, part.elements)
+
+    def energy(self, u: Array) -> float:
+        """Sum over effects and points."""
+        total = 0.0
+        for part in self.parts:
+            state = self.state(u, part)
+            total += sum(float(e.energy(state).sum()) for g in self.groups for e in g.effects)
+        return total
+
+    def add_gradient(self, u: Array, out: Array) -> float:
+        """Add the gradient to `out`; returns the energy, whose ingredients are at hand."""
+        count, total = self.region.components, 0.0
+        nodal = out.reshape(-1, count)
+        for part in self.parts:
+            state = self.state(u, part)
+            forces = np.zeros((*self.region.dofs[part.elements].shape, count))
+            for group in self.groups:
+                density = np.zeros((len(group.entries), count, state.measure.size))
+                for effect in group.effects:
+                    density[_rows(group, effect)] += effect.gradient(state)
+                    total += float(effect.energy(state).sum())
+                forces += self._integrated(group, density, part)
+            dofs = self.region.dofs[part.elements].ravel()
+            for c in range(count):
+                nodal[:, c] += np.bincount(dofs, forces[..., c].ravel(), len(nodal))
+        return total
+
+    def _integrated(self, group: Group, density: Array, part: Part) -> Array:
+        """Sum over the points of each element of shape functions times density."""
+        shapes = self._shapes(group.entries, part)
+        rows = shapes.reshape(len(shapes), -1, shapes.shape[3])
+        columns = density.transpose(2, 0, 1).reshape(-1, rows.shape[1], density.shape[1])
+        return np.asarray(rows.swapaxes(1, 2) @ columns)
+
+    def hessian(self, u: Array) -> Array:
+        """Element Hessians, (elements, shapes, component pairs, shapes)."""
+        shapes, pairs = self.region.dofs.shape[1], len(PAIRS[self.region.components][0])
+        out = np.zeros((len(self.region.elements), shapes, pairs * shapes))
+        for part in self.parts:
+            state = self.state(u, part)
+            for group in self.groups:
+                out[part.elements] += self._group_hessian(group, state, part)
+        return out.reshape(-1, shapes, pairs, shapes)
+
+    def _group_hessian(self, group: Group, state: PointState, part: Part) -> Array | float:
+        density = _summed_hessian(group, state)
+        if density is None:
+            return 0.0
+        count, pairs = len(group.entries), len(PAIRS[self.region.components][0])
+        shapes = self._shapes(group.entries, part)
+        elements, points, _, functions = shapes.shape
+        # At every point rows (entry k, pair), columns entry l: times shape functions of l, then of k.
+        rows = density.transpose(3, 0, 2, 1).reshape(-1, points, count * pairs, count)
+        half = (np.ascontiguousarray(rows) @ shapes).reshape(-1, points * count, pairs * functions)
+        return np.asarray(shapes.reshape(elements, points * count, functions).swapaxes(1, 2) @ half)
+
+    def _shapes(self, entries: Entries, part: Part) -> Array:
+        shapes = self.region.shapes(entries)
+        return shapes if len(shapes) == 1 else shapes[part.elements]
+
+
+def grouped(effects: Sequence[Effect], components: int) -> list[Group]:
+    """Effects sorted into groups: one joins a larger one that reads all of its derivatives.
+
+    Effects that read the position alone stay together and apart, because adding the position to the
+    five derivatives of a shell would cost them all. In the plane, on level ground, weight does no work.
+    """
+    if components == 2:
+        effects = [e for e in effects if not isinstance(e, Gravity) or e.works_in_plane]
+    groups: list[Group] = []
+    for effect in sorted(effects, key=lambda e: -len(e.entries)):
+        for i, group in enumerate(groups):
+            if set(effect.entries) <= set(group.entries):
+                groups[i] = Group(group.entries, (*group.effects, effect))
+                break
+        else:
+            groups.append(Group(tuple(effect.entries), (effect,)))
+    return groups
+
+
+def _rows(group: Group, effect: Effect) -> slice:
+    """Where the entries of an effect stand among those of its group (they are neighbours)."""
+    start = group.entries.index(effect.entries[0])
+    assert group.entries[start : start + len(effect.entries)] == tuple(effect.entries)
+    return slice(start, start + len(effect.entries))
+
+
+def _summed_hessian(group: Group, state: PointState) -> Array | None:
+    total: Array | None = None
+    for effect in group.effects:
+        density = effect.hessian(state)
+        if density is None:
+            continue
+        if total is None and len(effect.entries) == len(group.entries):
+            total = density
+            continue
+        if total is None:
+            count = len(group.entries)
+            total = np.zeros((count, count, *density.shape[2:]))
+        rows = _rows(group, effect)
+        total[rows, rows] += density
+    return total

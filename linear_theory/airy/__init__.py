@@ -1,5 +1,0 @@
-"""The Airy-stress series of a rectangular sheet."""
-
-from linear_theory.airy.series import AiryAmplitudes, AirySeries, airy_series, balanced_modes
-
-__all__ = ["AiryAmplitudes", "AirySeries", "airy_series", "balanced_modes"]

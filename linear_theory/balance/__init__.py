@@ -1,0 +1,1 @@
+"""The balance of friction, at one time and through a period."""

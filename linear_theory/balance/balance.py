@@ -1,0 +1,336 @@
+"""The rigid motion of a sheet whose shape moves in a known way: friction is balanced (eqs 7, 11).
+
+With velocities per unit alpha, v = alpha v^, V = alpha q, and the load 1 + alpha e, the balance is
+
+    integral (1 + alpha e) f(|w|) w/|w| . R_j dA = 0,      w = v^ + sum_j q_j R_j,
+
+R_j the rigid velocities: (0, 1) for motions that are mirror symmetric in x, else (1, 0), (0, 1) and
+the rotation (-y, x), x and y counted from the centre of mass. It is where the convex function
+int (1 + alpha e) F(|w|) dA, F' = f, is least. On a slope the load itself pulls, by `slope` times itself
+along -y: slope (0, 1) . R_j joins the sum.
+
+For small alpha the mean of q is much smaller than q(t). Hence q = q_0 + alpha q_1: q_0 balances the
+load 1, and q_1 solves what is left, divided by alpha, with the difference quotient of f w/|w| written
+without cancellation. A velocity of second order, v = alpha v^ + alpha^2 v_2, joins q_1, and so does
+that a sheet displaced by alpha u turns about its centre with R_2 = (-y - alpha u_y, x + alpha u_x).
+
+All of this is solved in units in which speeds, arms and areas are of order 1 (`Units`), a rotation by
+the speed that it gives the ends of the sheet: tolerances have the same meaning in any unit of length
+and time.
+"""
+
+import math
+from collections.abc import Callable
+from functools import partial
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linear_theory.balance.newton import damped_newton, guarded_newton
+from linear_theory.common.units import power_of_two
+from linear_theory.friction.law import FrictionLaw
+from linear_theory.motion.cells import Integers, graded
+from linear_theory.motion.motion import Motion
+
+Array = NDArray[np.float64]
+
+Integrand = Callable[[Array, Integers], Array]
+Velocities = Callable[[Array, Integers], list[Array]]
+Residual = Callable[..., tuple[Array, Array]]
+
+_COARSE_HALVINGS = 8
+_MARGIN = 1.5  # mean over variation of w on a cell, above which Gauss quadrature sees it as smooth
+_TINY = 1e-80  # replaces |w| = 0, where w/|w| is any direction
+_LINEAR = 1e-8  # alpha below which q_1 is the zero of a linear function
+_NEAR = 0.3  # after a Newton step s the error is some s^2 over the speed of the sheet: 10 would do
+_REST = 1e-6  # speeds below this share of the mean speed count as rest
+_ALONG = (1,)  # rigid velocities of a mirror-symmetric motion; 0, 1 translations, 2 rotation
+_ALL = (0, 1, 2)
+
+
+class RigidMotion(NamedTuple):
+    """q = leading + alpha remainder per unit alpha, (times, 3) each: V_x, V_y, Omega.
+
+    rest: (times,), the share of the points that move slower than 1e-6 of the mean speed;
+    fastest: the largest speed against the ground, per unit alpha.
+    """
+
+    leading: Array
+    remainder: Array
+    rest: Array
+    fastest: float
+
+
+class Units(NamedTuple):
+    """Of speeds, arms and areas (the load of a cell): powers of two, so that nothing is rounded."""
+
+    speed: float
+    length: float
+    area: float
+
+    @classmethod
+    def of(cls, motion: Motion) -> "Units":
+        """Those in which the largest values of a motion lie between 1 and 2."""
+        values = motion.velocity, motion.arms, motion.area
+        return cls(*(power_of_two(float(abs(v).max(initial=0.0))) for v in values))
+
+    @property
+    def motion(self) -> Array:
+        """Of V_x, V_y, Omega, (3,)."""
+        return np.array([self.speed, self.speed, self.speed / self.length])
+
+
+class Balance:
+    """Friction on a sheet in a given motion.
+
+    motion: velocities per unit alpha at T times; rate: e of the load, (T, cells, n, n); alpha: growth
+    coupling, not 0; law: for speeds per unit |alpha|; halvings: how often a cell is halved towards
+    points at rest; tolerance: of q, relative to the root mean square of v^. slope: tan(incline)/mu of
+    ground that rises towards +y, in (-1, 1), for loads that are not expanded in alpha (rate = 0).
+    """
+
+    def __init__(
+        self,
+        motion: Motion,
+        rate: Array,
+        alpha: float,
+        law: FrictionLaw,
+        halvings: int = 30,
+        tolerance: float = 1e-10,
+        slope: float = 0.0,
+    ) -> None:
+        units = self._units = Units.of(motion)
+        self._alpha, self._law, self._slope = alpha, law.scaled(units.speed), slope
+        self._modes = _ALONG if motion.mirrored else _ALL
+        area = np.broadcast_to(motion.area / units.area, rate.shape)
+        channels = [*motion.velocity / units.speed, area, rate]
+        if not motion.mirrored:
+            channels += [np.broadcast_to(p, rate.shape) for p in motion.arms / units.length]
+        self._second = slice(0, 0) if motion.second is None else slice(len(channels), len(channels) + 2)
+        if motion.second is not None:
+            channels += [*motion.second / units.speed]
+        displacement = None if motion.mirrored else motion.displacement
+        self._shift = slice(0, 0) if displacement is None else slice(len(channels), len(channels) + 2)
+        if displacement is not None:
+            channels += [*displacement / units.length]
+        # v_x, v_y, area, e, then x, y from the centre if the sheet may turn, then v_2 and u if any
+        self._values = np.stack(channels)
+        self._scale = float(np.sqrt(np.mean(self._values[:2] ** 2))) or 1.0
+        self._stages = [(halvings, tolerance)]
+        if halvings > 2 * _COARSE_HALVINGS:
+            self._stages.insert(0, (_COARSE_HALVINGS, 1e-2))
+
+    def solve(self, guess: RigidMotion | None = None) -> RigidMotion:
+        """Balance friction at all times, from a guess if there is one.
+
+        Raises NotConvergedError if an iteration stalls.
+        """
+        starts = (None, None) if guess is None else map(self._unknowns, guess[:2])
+        first, second = starts
+        leading = self._zero(self._leading, np.zeros((1, 1)), 1.0, first)
+        remainder = np.zeros_like(leading)
+        if any(np.any(self._values[i]) for i in (3, self._second, self._shift)):  # else nothing remains
+            remainder = self._remaining(leading, second)
+        change = self._change(self._values, leading, remainder)
+        speed = _norm(self._moved(self._values, leading) + self._alpha * change)
+        rest = np.mean(speed < _REST * self._scale, axis=(1, 2, 3))
+        still = ~np.any(self._values[:2], axis=(0, 2, 3, 4))
+        rest[still] = 0.0  # all is at rest, no part of it sticks
+        fastest = 0.0 if still.all() and not self._slope else self._units.speed * float(speed.max())
+        return RigidMotion(self._full(leading), self._full(remainder), rest, fastest)
+
+    def correction(self, leading: Array, remainder: Array) -> RigidMotion:
+        """One Newton step from a motion (times, 3) that was found with other cells."""
+        first, second = self._unknowns(leading), self._unknowns(remainder)
+        steps = self._step(self._leading, first), self._step(partial(self._remainder, first), second)
+        return RigidMotion(self._full(steps[0]), self._full(steps[1]), np.zeros(len(leading)), 0.0)
+
+    def _remaining(self, leading: Array, start: Array | None) -> Array:
+        """q_1, (times, unknowns)."""
+        residual = partial(self._remainder, leading)
+        if abs(self._alpha) <= _LINEAR:
+            return self._step(residual, np.zeros_like(leading))
+        return self._zero(residual, leading, self._alpha, start)
+
+    def _step(self, residual: Residual, q: Array) -> Array:
+        """One Newton step from q, (times, unknowns), with the finest cells."""
+        value, slope = residual(q, np.arange(len(q)), halvings=self._stages[-1][0])
+        return np.asarray(-np.linalg.solve(slope, value[:, :, None])[:, :, 0])
+
+    def _zero(self, residual: Residual, offset: Array, unit: float, start: Array | None) -> Array:
+        """q (times, unknowns) of residual 0; without a start, first roughly with few halvings."""
+        q = np.zeros((self._values.shape[1], len(self._modes))) if start is None else start
+        low, high = self._bracket()
+        ends = np.sort([(low - offset) / unit, (high - offset) / unit], axis=0)[:, :, 0]
+        for halvings, tolerance in self._stages if start is None else self._stages[-1:]:
+            xtol = tolerance * self._scale
+            near = _NEAR * np.sqrt(xtol * self._scale)
+            if len(self._modes) == 1:
+                q = _single(residual, halvings, q, ends, xtol, near)
+            else:
+                q = damped_newton(partial(residual, halvings=halvings), q, xtol, near)
+        return q
+
+    def _bracket(self) -> tuple[Array, Array]:
+        """Bounds of q, (times, 1): friction cannot balance where all of the sheet slips one way."""
+        along = self._values[1].reshape(self._values.shape[1], -1)
+        margin = 0.1 * np.ptp(along, axis=1) + self._scale  # the polynomials exceed these values
+        if self._slope:  # at which tanh(r/width) carries the weight down the slope
+            margin = margin + self._law.width * math.atanh(abs(self._slope))
+        return (-along.max(1) - margin)[:, None], (-along.min(1) + margin)[:, None]
+
+    def _leading(self, q: Array, times: Integers, halvings: int) -> tuple[Array, Array]:
+        """Residual and slope of the balance for the load 1."""
+
+        def integrand(values: Array, owners: Integers) -> Array:
+            w = self._moved(values, q[owners])
+            r = _norm(w)
+            ratio, slope = self._law.ratio(r), self._law.ratio_slope(r)
+            dots = [self._dot(i, w, values) for i in self._modes]
+            forces = [ratio * d + self._pull(i, values) for i, d in zip(self._modes, dots, strict=True)]
+            return values[2] * np.stack(forces + self._hessian(values, dots, ratio, slope))
+
+        def motion(values: Array, owners: Integers) -> list[Array]:
+            return [self._moved(values, q[owners])]
+
+        return self._integrate(times, integrand, motion, halvings)
+
+    def _remainder(
+        self, leading: Array, q: Array, times: Integers, halvings: int
+    ) -> tuple[Array, Array]:
+        """What is left of the balance with the load 1 + alpha e, divided by alpha, and its slope."""
+        first, alpha = leading[times], self._alpha
+
+        def integrand(values: Array, owners: Integers) -> Array:
+            before = self._moved(values, first[owners])
+            change = self._change(values, first[owners], q[owners])
+            after = before + alpha * change
+            r, r_after = _norm(before), _norm(after)
+            speed_slope = ((before + after) * change).sum(0) / (r + r_after)
+            quotient = self._law.ratio_quotient(r, r_after, speed_slope, alpha)
+            ratio, slope = self._law.ratio(r_after), self._law.ratio_slope(r_after)
+            rate = values[3]
+            force = ratio * (change + rate * after) + quotient * before
+            weight = 1 + alpha * rate
+            dots = [self._dot(i, after, values) for i in self._modes]
+            forces = [self._dot(i, force, values) for i in self._modes]
+            if self._shift.stop:
+                forces[-1] += self._law.ratio(r) * self._dot(2, before, self._arms(values))
+            hessian = self._hessian(values, dots, weight * ratio, weight * slope)
+            return values[2] * np.stack(forces + hessian)
+
+        def motion(values: Array, owners: Integers) -> list[Array]:
+            before = first[owners]
+            slow = self._moved(values, before)
+            if abs(alpha) <= _LINEAR:
+                return [slow]
+            change = self._change(values, before, q[owners])
+            return [slow, slow + alpha * change]
+
+        return self._integrate(times, integrand, motion, halvings)
+
+    def _integrate(
+        self, times: Integers, integrand: Integrand, motion: Velocities, halvings: int
+    ) -> tuple[Array, Array]:
+        """Gradients (times, J) and Hessians (times, J, J); motion: the velocities that matter."""
+        values = self._values[:, times]
+        channels, count, cells, n, _ = values.shape
+        owners = np.repeat(np.arange(count), cells)
+        sample = np.array([0, n // 2, n - 1])
+
+        def roughness(values: Array, owners: Integers) -> tuple[NDArray[np.bool_], Integers]:
+            velocities = motion(values[:, :, sample[:, None], sample], owners)
+            return self._roughness(np.stack(velocities))
+
+        flat = values.reshape(channels, count * cells, n, n)
+        cells_now = graded(flat, owners, roughness, halvings)
+        sums = cells_now.integrals(integrand(cells_now.values, cells_now.owners))
+        unknowns = len(self._modes)
+        return sums[:unknowns].T, sums[unknowns:].T.reshape(count, unknowns, unknowns)
+
+    def _moved(self, values: Array, q: Array, at: Array | None = None) -> Array:
+        """Velocity against the ground, (2, ...), of points that move with values[:2]; q (..., J)."""
+        spread = q.T.reshape(len(self._modes), -1, *(1,) * (values.ndim - 2))
+        if len(self._modes) == 1:
+            return np.stack([values[0], values[1] + spread[0]])
+        x, y = (values if at is None else at)[4:6]
+        return np.stack([values[0] + spread[0] - y * spread[2], values[1] + spread[1] + x * spread[2]])
+
+    def _change(self, values: Array, leading: Array, q: Array) -> Array:
+        """What a rigid motion q of second order, v_2 and u add to w/alpha, (2, ...)."""
+        still = np.zeros_like(values[:2]) if self._second.stop == 0 else values[self._second]
+        if self._shift.stop:
+            still = self._moved(still, leading * [0.0, 0.0, 1.0], self._arms(values))
+        return self._moved(still, q, values)
+
+    def _arms(self, values: Array) -> Array:
+        """The values with u in the place of x, y."""
+        return np.concatenate([values[:4], values[self._shift]])
+
+    def _dot(self, mode: int, w: Array, values: Array) -> Array:
+        """w . R of a rigid velocity R."""
+        return w[mode] if mode < 2 else values[4] * w[1] - values[5] * w[0]
+
+    def _pull(self, mode: int, values: Array) -> Array | float:
+        """slope (0, 1) . R of a rigid velocity R."""
+        return 0.0 if mode == 0 or not self._slope else self._slope * (1.0 if mode == 1 else values[4])
+
+    def _hessian(self, values: Array, dots: list[Array], ratio: Array, slope: Array) -> list[Array]:
+        """Integrands of the Hessian, row by row."""
+        rows = []
+        for i in range(len(self._modes)):
+            for j in range(len(self._modes)):
+                rigid = self._rigid_product(self._modes[i], self._modes[j], values)
+                rows.append(ratio * rigid + slope * dots[i] * dots[j])
+        return rows
+
+    def _rigid_product(self, i: int, j: int, values: Array) -> Array | float:
+        """R_i . R_j."""
+        if i == j:
+            return 1.0 if i < 2 else values[4] ** 2 + values[5] ** 2
+        if 2 not in (i, j):
+            return 0.0
+        return -values[5] if 0 in (i, j) else values[4]
+
+    def _roughness(self, w: Array) -> tuple[NDArray[np.bool_], Integers]:
+        """Cells on which w/|w| may turn for one of several w, and the axis along which it varies more.
+
+        w: (velocities, 2, cells, 3, 3), at corners, middles of edges and centre.
+        """
+        centre = w[..., 1:2, 1:2]
+        spread = ((w - centre) ** 2).sum(1).max(axis=(-2, -1))
+        size = (centre**2).sum(1)[..., 0, 0]
+        # tanh(r/s)/r is smooth up to r = i pi s/2
+        rough = size + (np.pi / 2 * self._law.width) ** 2 < _MARGIN**2 * spread
+        across = ((w[..., 2, 1] - w[..., 0, 1]) ** 2).sum(1)
+        along = ((w[..., 1, 2] - w[..., 1, 0]) ** 2).sum(1)
+        which = rough.argmax(0), np.arange(w.shape[2])
+        return rough.any(0), np.where(across[which] > along[which], 0, 1)
+
+    def _unknowns(self, motion: Array) -> Array:
+        """Of V_x, V_y, Omega (times, 3) those that are solved for, in units of their own."""
+        return np.asarray((motion / self._units.motion)[:, list(self._modes)])
+
+    def _full(self, q: NDArray[np.floating]) -> Array:
+        """(times, 3): V_x, V_y, Omega."""
+        full = np.zeros((q.shape[0], 3))
+        full[:, list(self._modes)] = q
+        return full * self._units.motion
+
+
+def _single(
+    residual: Residual, halvings: int, q: Array, ends: Array, xtol: float, near: float
+) -> Array:
+    """The zero for motions along y alone."""
+
+    def function(x: Array, which: Integers) -> tuple[Array, Array]:
+        value, slope = residual(x[:, None], which, halvings=halvings)
+        return value[:, 0], slope[:, 0, 0]
+
+    low, high = ends
+    return guarded_newton(function, np.clip(q[:, 0], low, high), low, high, xtol, near)[:, None]
+
+
+def _norm(w: Array) -> Array:
+    return np.maximum(np.sqrt(w[0] * w[0] + w[1] * w[1]), _TINY)  # np.hypot takes ten times as long

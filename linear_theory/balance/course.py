@@ -1,0 +1,171 @@
+"""The motion of a sheet at chosen times, and what can hide between them.
+
+The quadrature in time judges itself by differences of the motion on its grid. A harmonic of the wave
+that the grid does not tell from a lower one is not seen there, but is known from a survey of the wave.
+Where such harmonics can matter, the motion is found at random times, too: what it is off the
+polynomials of the grid has the error of the grid's mean as its expectation, whatever the wave.
+"""
+
+import math
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linear_theory.balance.balance import RigidMotion
+from linear_theory.balance.time_grid import TimeGrid
+
+if TYPE_CHECKING:
+    from linear_theory.balance.period import Crawl
+
+Array = NDArray[np.float64]
+
+CHECKS, SEED = 16, 7
+"""Random times at which a motion is checked."""
+
+HIDDEN = 0.1
+"""Share of the tolerance of the times up to which a wave may hide without a check."""
+
+
+class Known(NamedTuple):
+    """The motion at some ascending times."""
+
+    times: Array
+    motion: RigidMotion
+
+    def between(self, times: Array) -> RigidMotion:
+        """Linear interpolation of q."""
+        leading, remainder = (
+            np.stack([np.interp(times, self.times, column) for column in q.T], axis=1)
+            for q in (self.motion.leading, self.motion.remainder)
+        )
+        return RigidMotion(leading, remainder, np.zeros(times.size), 0.0)
+
+
+@dataclass(frozen=True)
+class Course:
+    """The motion at the times of a grid; checks: at random times that the grid does not know.
+
+    hides: whether more may hide between the times than was asked for.
+    """
+
+    crawl: "Crawl"
+    grid: TimeGrid
+    motion: RigidMotion
+    checks: RigidMotion | None = None
+    hides: bool = False
+
+    @property
+    def mean(self) -> Array:
+        """Mean V_x, V_y, Omega that count, (3,)."""
+        return self.grid.means(self.crawl.counted(self.motion))[0]
+
+    def error(self) -> Array:
+        """Its estimated error, (3,)."""
+        seen = self.grid.means(self.crawl.counted(self.motion))[1]
+        if self.checks is None:
+            return np.asarray(seen + self.crawl.norm.each(self._hidden))
+        counted = (self.crawl.counted(m) for m in (self.motion, self.checks))
+        return np.maximum(seen, self._off(*counted))
+
+    def means(self) -> tuple[Array, Array]:
+        """Of q_0 and q_1, (2, 3), and their errors; none where symmetry says 0."""
+        orders = _orders(self.motion)
+        means, errors = np.stack([self.grid.means(order) for order in orders], axis=1)
+        if self.checks is not None:
+            errors = np.maximum(errors, self._off(orders, _orders(self.checks)))
+        else:
+            survey = self.crawl.survey
+            rate = survey.hidden(self.grid.longest_step)
+            speeds = (rate * survey.speed_per_rate(1.0, leading) for leading in (True, False))
+            errors = errors + np.stack([self.crawl.norm.each(speed) for speed in speeds])
+        if self.crawl.starts_at_second_order:
+            means[0] = errors[0] = 0.0
+        return means, errors
+
+    def improved(self, tolerance: float) -> tuple["Course", TimeGrid | None]:
+        """Itself, with checks where they are needed, and the grid that the tolerance asks for.
+
+        None where that is met, or the least larger one for which the wave asks an affordable number of
+        times.
+        """
+        crawl, norm = self.crawl, self.crawl.norm
+        speeds, goal = norm.speeds(crawl.counted(self.motion)), self._within_reach(tolerance)
+        course = replace(self, hides=self._hidden > HIDDEN * tolerance)
+        if self.grid.error(speeds) > goal:
+            return course, self.grid.refined(speeds, goal)[0]
+        if self._hidden <= HIDDEN * goal:
+            return course, None
+        course = course.checked()
+        if norm.size(course._between) <= goal:
+            return course, None
+        times = self._times(goal)
+        step = crawl.field.wave.period / times if math.isfinite(times) else self.grid.longest_step / 2
+        return course, self.grid.with_steps(step)
+
+    def _within_reach(self, tolerance: float) -> float:
+        """The least tolerance from this one on, doubled, for which the wave can be seen."""
+        while not (math.isinf(self._times(tolerance)) or self.crawl.reaches(self._times(tolerance))):
+            tolerance *= 2
+        return tolerance
+
+    def _times(self, tolerance: float) -> float:
+        """Equidistant times per period from which harmonics of no consequence hide; inf if unknown."""
+        unit = self.crawl.speed_per_rate
+        return self.crawl.survey.times_for(HIDDEN * tolerance / unit if unit > 0 else math.inf)
+
+    def on(self, grid: TimeGrid) -> "Course":
+        """On a grid with more times."""
+        added = ~np.isin(grid.times, self.grid.times)
+        more = self.crawl.balance(grid.times[added], Known(self.grid.times, self.motion))
+        return replace(self, grid=grid, motion=_joined(self.motion, more, added))
+
+    def checked(self) -> "Course":
+        """With the motion at random times, where it can hide and is not known there yet."""
+        if not self.hides or self.checks is not None:
+            return self
+        known = Known(self.grid.times, self.motion)
+        return replace(self, checks=self.crawl.balance(self._check_times, known))
+
+    @property
+    def _hidden(self) -> float:
+        """Largest V of the harmonics of the wave that the grid does not tell from lower ones."""
+        return self.crawl.speed_per_rate * self.crawl.survey.hidden(self.grid.longest_step)
+
+    @property
+    def _between(self) -> Array:
+        """Error of the mean by the checks, (3,)."""
+        assert self.checks is not None
+        return self._off(*(self.crawl.counted(m) for m in (self.motion, self.checks)))
+
+    def _off(self, values: Array, checks: Array) -> Array:
+        """Error of means of values (..., grid times) by those at the random times.
+
+        The mean distance from the polynomials, and twice the standard deviation of that mean.
+        """
+        off = checks - self.grid.interpolated(values, self._check_times)
+        return np.asarray(abs(off.mean(-1)) + 2 * off.std(-1) / math.sqrt(CHECKS))
+
+    @property
+    def _check_times(self) -> Array:
+        start, end = self.grid.times[[0, -1]]
+        return np.asarray(
+            start + (end - start) * np.sort(np.random.default_rng(SEED).uniform(size=CHECKS))
+        )
+
+
+def _orders(motion: RigidMotion) -> Array:
+    """q_0 and q_1, (2, 3, times)."""
+    return np.stack([motion.leading.T, motion.remainder.T])
+
+
+def _joined(motion: RigidMotion, more: RigidMotion, added: NDArray[np.bool_]) -> RigidMotion:
+    """Both, `more` at the places `added`."""
+    order = np.empty(added.size, int)
+    order[~added] = np.arange(len(motion.rest))
+    order[added] = len(motion.rest) + np.arange(len(more.rest))
+    leading, remainder, rest = (
+        np.concatenate([a, b])[order] for a, b in zip(motion[:3], more[:3], strict=True)
+    )
+    return RigidMotion(leading, remainder, rest, max(motion.fastest, more.fastest))

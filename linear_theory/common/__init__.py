@@ -1,0 +1,1 @@
+"""What every part uses: checks of input, errors, how results show themselves, progress, threads."""

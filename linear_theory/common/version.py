@@ -1,0 +1,16 @@
+"""The version of the program: of the installed package, or of the folder that it runs from."""
+
+import importlib.metadata
+import tomllib
+from pathlib import Path
+
+PROJECT = Path(__file__).parents[2] / "pyproject.toml"
+
+
+def current_version() -> str:
+    """Of pyproject.toml where these files lie beside it, else of the installed package."""
+    if PROJECT.exists():
+        project = tomllib.loads(PROJECT.read_text(encoding="utf-8")).get("project", {})
+        if project.get("name") == "sheetcrawl":
+            return str(project["version"])
+    return importlib.metadata.version("sheetcrawl")

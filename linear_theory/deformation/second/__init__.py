@@ -1,0 +1,1 @@
+"""The deformation to second order in the growth coupling."""

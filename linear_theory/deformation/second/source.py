@@ -1,0 +1,126 @@
+"""What drives the displacement u_2 of second order: a stress P quadratic in u_1 and c.
+
+    P(z) = C : (k c^2 I - grad(u_1)^T grad(u_1)/2) - m c s_1 - grad(u_1) s_1,    z = (grad(u_1), c),
+
+with s_1 = C : (e(u_1) - c I), k by the growth law and m by the area measure: see `second_field`.
+P being quadratic, its rate is a central difference of any step h, without error:
+
+    dP/dt = [P(z + h dz/dt) - P(z - h dz/dt)]/(2 h).
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linear_theory.deformation.field import Wave
+from linear_theory.deformation.ritz import legendre
+from linear_theory.sheet import hooke
+from linear_theory.sheet.rectangle import Sheet
+
+Array = NDArray[np.float64]
+
+GROWTH_LAWS = {"exp": 1.0, "linear": 0.5, "metric": 0.0}
+"""k by law: g = exp(2 alpha c), (1 + alpha c)^2, 1 + 2 alpha c."""
+
+AREAS = {"grown": -2.0, "undeformed": -4.0}
+"""m by the area in which the energy is counted: sqrt(det abar) or that of the undeformed sheet."""
+
+EXTRA_POINTS = 6
+"""Gauss points beyond those that polynomials need: c^2 and c s_1 are sines of y."""
+
+
+@dataclass(frozen=True, eq=False)
+class Source:
+    """P of a sheet under a wave, from the gradients of u_1.
+
+    gradients: (cases, k, j, degree x + 1, degree y + 1), du_k/dx_j of the load cases in orthonormal
+    Legendre polynomials; square, weight: k and m; finer: with half as many points again.
+    """
+
+    sheet: Sheet
+    wave: Wave
+    gradients: Array
+    square: float
+    weight: float
+    finer: bool = False
+
+    def moments(self, times: Array, amplitudes: Array) -> Array:
+        """Integrals of P_kj p_i p_j over [-1, 1]^2 at times (T,), (T, 2, 2, degrees x, degrees y).
+
+        amplitudes: of the load cases, (cases, T).
+        """
+        grid = self._grid()
+        growths = grid.growth(self.wave.value, times)
+        slopes = grid.values(self.gradients)
+        stresses = [
+            self._stress(np.tensordot(a, slopes, 1), c)
+            for a, c in zip(amplitudes.T, growths, strict=True)
+        ]
+        return grid.moments(np.stack(stresses))
+
+    def moment_rates(self, times: Array, amplitudes: Array, rates: Array) -> Array:
+        """Their time derivatives; rates: of the amplitudes."""
+        grid = self._grid()
+        step = self.wave.period / (2 * np.pi)  # makes both terms of z + h dz/dt of one size
+        growths = grid.growth(self.wave.value, times)
+        changes = step * grid.growth(self.wave.rate, times)
+        slopes = grid.values(self.gradients)
+        ahead, behind = (
+            np.stack(
+                [
+                    self._stress(np.tensordot(a + sign * step * b, slopes, 1), c + sign * d)
+                    for a, b, c, d in zip(amplitudes.T, rates.T, growths, changes, strict=True)
+                ]
+            )
+            for sign in (1, -1)
+        )
+        return grid.moments((ahead - behind) / (2 * step))
+
+    def _stress(self, slope: Array, growth: Array) -> Array:
+        """P_kj from du_k/dx_j (2, 2, ...) and c (...)."""
+        poisson = self.sheet.poisson
+        strain = np.stack([slope[0, 0], slope[1, 1], (slope[0, 1] + slope[1, 0]) / 2])
+        stress = _matrix(hooke.stress(strain, growth, poisson))
+        square = np.einsum("kiab,kjab->ijab", slope, slope) / 2
+        square = np.stack([square[0, 0], square[1, 1], square[0, 1]])
+        resting = -_matrix(hooke.stress(square, self.square * growth**2, poisson))
+        turned = np.einsum("kiab,ijab->kjab", slope, stress)
+        return np.asarray(resting - self.weight * growth * stress - turned)
+
+    def _grid(self) -> "_GaussGrid":
+        across, along = self.gradients.shape[-2:]
+        return _GaussGrid(self.sheet, (across - 1, along - 1), 1.5 if self.finer else 1.0)
+
+
+class _GaussGrid:
+    """Gauss points for products of three polynomials of these degrees (across, along), times `more`."""
+
+    def __init__(self, sheet: Sheet, degree: tuple[int, int], more: float) -> None:
+        self.sheet = sheet
+        counts = [int(more * (3 * d // 2 + 2 + EXTRA_POINTS)) for d in degree]
+        (self.x, self._weight_x), (self.y, self._weight_y) = (legendre.gauss(n) for n in counts)
+        self._across, self._along = (
+            legendre.orthonormal(d + 1, at) for d, at in zip(degree, (self.x, self.y), strict=True)
+        )
+
+    def growth(self, function: Callable[..., Array], times: Array) -> Array:
+        """c or its rate, (T, points x, points y)."""
+        x, y = self.x[:, None] * self.sheet.width / 2, self.y * self.sheet.length / 2
+        return function(x, y, times[:, None, None], self.sheet.length)
+
+    def values(self, coefficients: Array) -> Array:
+        """Of polynomials (..., degree x + 1, degree y + 1) at the points."""
+        return np.asarray(self._across @ coefficients @ self._along.T)
+
+    def moments(self, values: Array) -> Array:
+        """Integrals of values at the points against p_i(x) p_j(y)."""
+        across, along = self._across * self._weight_x[:, None], self._along * self._weight_y[:, None]
+        return np.asarray(across.T @ values @ along)
+
+
+def _matrix(tensor: Array) -> Array:
+    """(2, 2, ...) from (xx, yy, xy)."""
+    xx, yy, xy = tensor
+    return np.stack([np.stack([xx, xy]), np.stack([xy, yy])])

@@ -1,0 +1,128 @@
+"""How the displacement u_2 of second order depends on time: a sum of factors of time times fields.
+
+A wave c(y, t) has few harmonics, and u_2 has twice as many (`Series`); for any other wave the fields
+are u_2 and du_2/dt themselves at the times that are asked for (`AtTimes`).
+"""
+
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linear_theory.deformation.field import Wave
+from linear_theory.deformation.load_cases import LoadCases, Snapshots
+from linear_theory.deformation.second.source import Source
+from linear_theory.wave.travelling import TravellingWave
+
+Array = NDArray[np.float64]
+
+SAMPLES = 16
+"""Phases at which the error of u_2 is estimated, per period of its highest harmonic."""
+
+
+class FirstOrder(Protocol):
+    """What is asked of u_1: the amplitudes of its load cases at times."""
+
+    def _amplitudes(self, t: Array) -> Array: ...
+
+    def _amplitude_rates(self, t: Array) -> Array: ...
+
+
+class SecondTimes(Protocol):
+    """Factors of time, and the sources that go with them."""
+
+    @property
+    def phases(self) -> Array:
+        """Times that cover a period, (phases,)."""
+
+    def factors(self, t: Array) -> Array:
+        """Of u_2, (basis, *t.shape)."""
+
+    def rates(self, t: Array) -> Array:
+        """Time derivatives of `factors`."""
+
+    def serve(self, t: Array) -> bool:
+        """Whether the basis spans the motion at times t."""
+
+    def moments(self, source: Source, first: FirstOrder) -> Array:
+        """Moments of the source of each basis function, as in `RitzSolver.solve_stress`."""
+
+
+def second_times(wave: Wave, cases: LoadCases) -> SecondTimes:
+    """Those that suit a wave, for load cases of first order."""
+    if isinstance(cases, Snapshots):
+        return AtTimes(cases)
+    assert isinstance(wave, TravellingWave)
+    return Series(wave)
+
+
+class Series:
+    """1, cosines of all harmonics of u_2, and sines; even ones only if c(t + T/2) = -c(t)."""
+
+    def __init__(self, wave: TravellingWave) -> None:
+        step = 2 if wave.is_half_period_antisymmetric else 1
+        self.period = wave.period
+        self.highest = 2 * int(wave.harmonics[-1])
+        self.harmonics = np.arange(step, self.highest + 1, step)
+
+    @property
+    def phases(self) -> Array:
+        """SAMPLES for the highest harmonic."""
+        return np.linspace(0, self.period, SAMPLES * self.highest, endpoint=False)
+
+    def factors(self, t: Array) -> Array:
+        """(2 harmonics + 1, *t.shape)."""
+        angle = np.multiply.outer(2 * np.pi / self.period * self.harmonics, t)
+        return np.concatenate([np.ones((1, *t.shape)), np.cos(angle), np.sin(angle)])
+
+    def rates(self, t: Array) -> Array:
+        """Time derivatives of `factors`."""
+        frequency = 2 * np.pi / self.period * self.harmonics
+        angle = np.multiply.outer(frequency, t)
+        frequency = frequency.reshape(-1, *(1,) * t.ndim)
+        parts = [np.zeros((1, *t.shape)), -frequency * np.sin(angle), frequency * np.cos(angle)]
+        return np.concatenate(parts)
+
+    def serve(self, t: Array) -> bool:
+        """Always."""
+        return True
+
+    def moments(self, source: Source, first: FirstOrder) -> Array:
+        """From 4K + 1 phases, which tell harmonics up to 2K apart."""
+        times = np.linspace(0, self.period, 2 * self.highest + 1, endpoint=False)
+        samples = source.moments(times, first._amplitudes(times))
+        spectrum = np.fft.rfft(samples, axis=0) / len(samples)
+        some = spectrum[self.harmonics]
+        return np.concatenate([spectrum[:1].real, 2 * some.real, -2 * some.imag])
+
+
+class AtTimes:
+    """u_2 at each of some times, then du_2/dt at each; every factor is 0 or 1."""
+
+    def __init__(self, cases: Snapshots) -> None:
+        self.cases = cases
+
+    @property
+    def phases(self) -> Array:
+        """The times themselves."""
+        return self.cases.times
+
+    def factors(self, t: Array) -> Array:
+        """(2 times, *t.shape); t must be among the times."""
+        return self.cases.amplitudes(t)
+
+    def rates(self, t: Array) -> Array:
+        """Likewise."""
+        return self.cases.rates(t)
+
+    def serve(self, t: Array) -> bool:
+        """Whether t are these times."""
+        return np.array_equal(np.unique(t), self.cases.times)
+
+    def moments(self, source: Source, first: FirstOrder) -> Array:
+        """Of P, then of dP/dt."""
+        t = self.cases.times
+        amplitudes, rates = first._amplitudes(t), first._amplitude_rates(t)
+        return np.concatenate(
+            [source.moments(t, amplitudes), source.moment_rates(t, amplitudes, rates)]
+        )

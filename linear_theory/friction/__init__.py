@@ -1,0 +1,1 @@
+"""Friction with the ground: its law and its load."""

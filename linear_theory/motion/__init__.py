@@ -1,0 +1,1 @@
+"""The motion of the points of a sheet as the balance of friction reads it."""

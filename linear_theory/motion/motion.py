@@ -1,0 +1,111 @@
+"""The motion of a sheet as the friction balance reads it: values on polynomial cells.
+
+Every cell is the image of the square [-1, 1]^2 and carries values at order x order Gauss-Legendre
+points, that is one polynomial per quantity. This is all that passes from a deformation (series,
+Ritz, finite elements, shell) to the friction balance, which can refine a cell by interpolation
+without asking the deformation again.
+"""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linear_theory.common.shown import Shown
+from linear_theory.sheet.rectangle import Sheet
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Motion(Shown):
+    """Values per unit alpha at the Gauss points of all cells; c cells, n = order, T times.
+
+    position: (2, c, n, n), reference coordinates x, y.
+    area: (c, n, n), Jacobian of the map from [-1, 1]^2 (quadrature weights not included); (T, c, n, n)
+    where it is the load, for motions whose load is known and not expanded in alpha.
+    velocity: (2, T, c, n, n), length per time, in the frame of the mean motion.
+    dilation: (T, c, n, n), trace of the strain.
+    growth: (T, c, n, n), the wave c.
+    mirrored: the cells cover x >= 0 of a motion that is mirror symmetric in x.
+    second: (2, T, c, n, n), velocity per unit alpha^2 that adds to alpha times `velocity`; None in a
+    theory of first order. displacement: likewise, alpha times which moves the points on which friction
+    acts when the sheet turns; None where position is that of the points, or where it does not count.
+    centre: x, y of the centre of mass of the undeformed area, in the coordinates of `position`.
+    """
+
+    position: Array
+    area: Array
+    velocity: Array
+    dilation: Array
+    growth: Array
+    mirrored: bool = False
+    second: Array | None = None
+    displacement: Array | None = None
+    centre: tuple[float, float] = (0.0, 0.0)
+
+    @property
+    def arms(self) -> Array:
+        """Positions from the centre of mass, about which the sheet turns, the shape of `position`."""
+        return self.position - np.reshape(self.centre, (2, *(1,) * (self.position.ndim - 1)))
+
+
+@dataclass(frozen=True)
+class CellGrid(Shown):
+    """Rows and columns of cells on a rectangle; edges ascend; `half`: the columns cover x >= 0 only."""
+
+    x_edges: tuple[float, ...]
+    y_edges: tuple[float, ...]
+    half: bool
+
+    @classmethod
+    def uniform(cls, sheet: Sheet, across: int, along: int, half: bool) -> "CellGrid":
+        """Equal cells."""
+        left = 0.0 if half else -sheet.width / 2
+        x = np.linspace(left, sheet.width / 2, across + 1)
+        y = np.linspace(-sheet.length / 2, sheet.length / 2, along + 1)
+        return cls(tuple(x.tolist()), tuple(y.tolist()), half)
+
+    @classmethod
+    def graded(
+        cls, sheet: Sheet, waves: int, density: float, half: bool, across: int = 1
+    ) -> "CellGrid":
+        """Cells for waves along and across the sheet: `density` to a wave, more in the edge layers.
+
+        Across, the first wave is left to the layers.
+
+        Away from an edge the deformation follows the wave alone; next to it the scale is the shorter of
+        the width and the wave. Layers double in thickness from there.
+        """
+        layer = 2 / density * min(sheet.width, sheet.length / waves)
+        rows = math.ceil(density * waves)
+        y = _graded(sheet.length / 2, layer, sheet.length / rows)
+        columns = math.ceil(density * across) if across > 1 else 1
+        x = _graded(sheet.width / 2, layer, sheet.width / columns)
+        x = np.concatenate([[0.0], x[x > 1e-9 * sheet.width]]) if half else x
+        return cls(tuple(x.tolist()), tuple(y.tolist()), half)
+
+    def points(self, order: int) -> tuple[Array, Array, Array]:
+        """Gauss points x (cells, n, 1), y (cells, 1, n), and Jacobians (cells, n, n)."""
+        nodes, _ = np.polynomial.legendre.leggauss(order)
+        left, bottom = np.array(self.x_edges), np.array(self.y_edges)
+        column, row = np.divmod(np.arange((left.size - 1) * (bottom.size - 1)), bottom.size - 1)
+        dx, dy = np.diff(left)[column], np.diff(bottom)[row]
+        x = left[column][:, None] + dx[:, None] * (nodes + 1) / 2
+        y = bottom[row][:, None] + dy[:, None] * (nodes + 1) / 2
+        area = np.repeat(dx * dy / 4, order * order).reshape(-1, order, order)
+        return x[:, :, None], y[:, None, :], area
+
+
+def _graded(half: float, layer: float, largest: float) -> Array:
+    """Edges from -half to half: layers that double from both ends, up to equal cells <= largest."""
+    depths = [0.0]
+    while layer < largest / 1.5 and depths[-1] + layer < 0.8 * half:
+        depths.append(depths[-1] + layer)
+        layer *= 2
+    inner = half - depths[-1]
+    count = 2 * math.ceil(inner / largest - 1e-9)  # even: one edge lies at the middle
+    middle = np.linspace(-inner, inner, max(count, 2) + 1)
+    ends = half - np.array(depths[:-1])
+    return np.concatenate([-ends, middle, ends[::-1]])

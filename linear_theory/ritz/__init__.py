@@ -1,5 +1,0 @@
-"""The Legendre-Ritz solution of a rectangular sheet, for any wave."""
-
-from linear_theory.ritz.field import RitzField, ritz_field
-
-__all__ = ["RitzField", "ritz_field"]

@@ -1,0 +1,1 @@
+"""What is asked: a scene and the checks of its parts."""

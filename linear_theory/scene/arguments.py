@@ -1,0 +1,51 @@
+"""The checks of sheets, waves and fields that every public function makes first."""
+
+from typing import Any
+
+from linear_theory.common import validation
+from linear_theory.deformation.field import LinearField, Wave
+from linear_theory.sheet.rectangle import Sheet
+
+WAVE_PARTS = ("period", "value", "rate")
+"""What makes an object a wave, see `field.Wave`."""
+
+
+def sheet(value: object, name: str = "sheet") -> Sheet:
+    """`value`, which must be a Sheet. Raises ValueError that says what to do with anything else."""
+    hint = ""
+    if value is Sheet:
+        hint = "write Sheet()"
+    elif _is_wave(value):
+        hint = "a wave stands in its place, the order is sheet, wave, alpha"
+    elif hasattr(value, "corners") and hasattr(value, "mesh"):
+        hint = "an outline goes to plane_stress_field, or into Scene(..., mesh=outline.mesh(size))"
+    return validation.instance(name, value, Sheet, hint)
+
+
+def wave(value: Any, name: str = "wave") -> Wave:
+    """`value`, which must have what `field.Wave` asks for. Raises ValueError otherwise."""
+    if _is_wave(value):
+        validation.positive(f"{name}.period", value.period)
+        return value
+    hint = "must be a SineWave, a TravellingWave or a FieldWave"
+    if isinstance(value, type):
+        hint += f"; make one of it, {value.__name__}(...)"
+    elif isinstance(value, Sheet):
+        hint += "; a sheet stands in its place, the order is sheet, wave, alpha"
+    elif callable(value):
+        hint += "; FieldWave(function, period) makes one of a function of x, y, t"
+    else:
+        missing = ", ".join(part for part in WAVE_PARTS if not hasattr(value, part))
+        hint += f", or have their {', '.join(WAVE_PARTS)} (no {missing})"
+    raise ValueError(f"{name} = {validation.shown(value)}: {hint}")
+
+
+def field(value: object, name: str = "field") -> LinearField:
+    """`value`, which must be a deformation. Raises ValueError otherwise."""
+    hint = "airy_series, ritz_field and fem_check.plane_stress_field make one"
+    return validation.instance(name, value, LinearField, hint)  # type: ignore[type-abstract]
+
+
+def _is_wave(value: object) -> bool:
+    """Whether it is an object, and no class, with all parts of a wave."""
+    return not isinstance(value, type) and all(hasattr(value, part) for part in WAVE_PARTS)

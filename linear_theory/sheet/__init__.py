@@ -1,0 +1,1 @@
+"""The sheet: a rectangle of one material."""

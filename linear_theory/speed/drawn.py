@@ -1,0 +1,126 @@
+"""How the sheet behind a speed deforms through a period: what pictures of it are made of.
+
+A speed carries a `Deformation` and asks nothing of it: a deformation that nobody draws costs nothing.
+"""
+
+from collections.abc import Callable, Mapping
+from functools import cached_property
+from typing import Any, NamedTuple, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linear_theory.common.shown import Shown
+from linear_theory.deformation.field import LinearField, Wave
+from linear_theory.friction.law import FrictionLaw, load_rate
+
+Array = NDArray[np.float64]
+Integers = NDArray[np.int64]
+
+
+class _Contact(NamedTuple):
+    velocity: Array
+    load: Array
+
+
+class Contact(Shown, _Contact):
+    """At one time, at n points: velocity (2, n) in the frame of the body, length per time, and load
+    (n,) per area of the undeformed sheet, 1 without growth."""
+
+
+class Deformation(Protocol):
+    """A sheet that deforms periodically, as seen from its own frame.
+
+    The frame has its origin in the centre of mass of the undeformed area and moves and turns with the
+    sheet as a whole (see `path`). points: (2, n), of the undeformed sheet, units of length. words: what
+    the shape is, for a caption.
+    """
+
+    alpha: float
+    law: FrictionLaw
+    words: str
+
+    @property
+    def wave(self) -> Wave:
+        """The wave that drives it."""
+
+    @property
+    def length(self) -> float:
+        """Of the sheet along y."""
+
+    @property
+    def centre(self) -> Array:
+        """Centre of mass of the undeformed area, (2,)."""
+
+    def covering(self) -> tuple[Array, Integers]:
+        """Points (2, n) and triangles (m, 3) that cover the undeformed sheet, fine enough to draw."""
+
+    def places(self, points: Array, times: Array) -> Array:
+        """Where the points are relative to the centre of mass, (2 or 3, times, n)."""
+
+    def growth(self, points: Array, times: Array) -> Array:
+        """c at the points, (times, n)."""
+
+    def contact(self, points: Array, t: float) -> Contact:
+        """What friction acts on, at one time."""
+
+
+class LinearDeformation(Shown):
+    """`Deformation` x + alpha u(x, y, t) of small strain.
+
+    find: returns the field u; called when it is first needed, so that a speed need not keep a solution.
+    """
+
+    def __init__(
+        self,
+        find: Callable[[], LinearField],
+        alpha: float,
+        load: str,
+        law: FrictionLaw,
+        words: str = "shape of first order in alpha",
+    ) -> None:
+        self._find, self.alpha, self._load, self.law, self.words = find, alpha, load, law, words
+
+    def _contents(self) -> Mapping[str, Any]:
+        return {"words": self.words, "alpha": self.alpha, "load": self._load, "law": self.law}
+
+    @cached_property
+    def field(self) -> LinearField:
+        """u per unit alpha."""
+        return self._find()
+
+    @property
+    def wave(self) -> Wave:
+        """See Deformation."""
+        return self.field.wave
+
+    @property
+    def length(self) -> float:
+        """See Deformation."""
+        return self.field.sheet.length
+
+    @property
+    def centre(self) -> Array:
+        """See Deformation."""
+        return np.array(self.field.centre)
+
+    def covering(self) -> tuple[Array, Integers]:
+        """See Deformation."""
+        return self.field.covering()
+
+    def places(self, points: Array, times: Array) -> Array:
+        """See Deformation."""
+        moved = self.alpha * self.field.displacement(points[0], points[1], np.reshape(times, (-1, 1)))
+        return np.asarray((points - self.centre[:, None])[:, None] + moved)
+
+    def growth(self, points: Array, times: Array) -> Array:
+        """See Deformation."""
+        value = self.wave.value(points[0], points[1], np.reshape(times, (-1, 1)), self.length)
+        return np.broadcast_to(value, (np.size(times), points.shape[1]))
+
+    def contact(self, points: Array, t: float) -> Contact:
+        """See Deformation."""
+        field, (x, y) = self.field, points
+        dilation = field.strain(x, y, t)[:2].sum(0)
+        rate = load_rate(self._load, dilation, self.growth(points, np.array([t]))[0])
+        return Contact(self.alpha * field.velocity(x, y, t), 1 + self.alpha * rate)

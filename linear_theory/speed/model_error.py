@@ -1,0 +1,181 @@
+"""How far a theory is from the nonlinear sheet, from a table of measured distances.
+
+The target is the planar nonlinear sheet of a growth law, area measure and load, under dry friction and
+too stiff for it to change its shape. Theories of three levels were compared with it for sine waves (see
+`figures/model_error_table.py`): a narrow strip at finite strain, small strain (order = 1 of
+`crawl_speed`) and the second order in alpha (order = 2). With V of order alpha^2 the distances are
+
+    |V - V_target| = D alpha^2,                 the second order: D alpha^4,
+
+and D varies slowly with width, Poisson ratio and alpha. Between points of the table its largest value
+at the points around is taken, times a factor of safety.
+"""
+
+import functools
+import math
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linear_theory.common import validation
+from linear_theory.common.records import read_rows
+from linear_theory.common.shown import Shown
+from linear_theory.deformation.field import Wave
+from linear_theory.deformation.second.source import AREAS, GROWTH_LAWS
+from linear_theory.friction.law import LOADS
+from linear_theory.scene import arguments
+from linear_theory.sheet.rectangle import Sheet
+from linear_theory.wave.travelling import TravellingWave
+
+Array = NDArray[np.float64]
+
+PATH = Path(__file__).parents[1] / "data" / "model_error.csv"
+COMMAND = "python -m figures.model_error_table"
+
+LEVELS = ("strip", "first order", "second order")
+"""Names of the theories, as in `fem_check.predict.levels`, and of columns of the table."""
+
+SAFETY = 1.25
+"""Factor between points of the table. Of 32 other sheets, waves and growths (widths 0.12 to 0.85 L,
+alpha 0.03 to 0.38) under three loads none was farther from any theory than the points around."""
+
+SAME = 1e-12
+"""Relative distance of numbers that count as one."""
+
+
+@dataclass(frozen=True)
+class Row(Shown):
+    """One point of the table; speeds over alpha^2 L/T.
+
+    nonlinear: of the target, the limit V_2 for alpha = 0, nan where the sheet has no static shape;
+    error: numerical error of it and of any level together; strip, first_order, second_order: difference
+    of the level to it, nan where a level has no answer.
+    """
+
+    width: float
+    poisson: float
+    count: int
+    growth_law: str
+    area: str
+    load: str
+    alpha: float
+    nonlinear: float
+    error: float
+    strip: float
+    first_order: float
+    second_order: float
+
+
+Model = tuple[str, str, str, int]
+"""growth_law, area, load and count."""
+
+
+@dataclass(frozen=True, eq=False)
+class _Grid:
+    """Distances of one model: axes of W/L, nu and alpha, and |difference| + error, (3, W, nu,
+    alpha)."""
+
+    axes: tuple[Array, Array, Array]
+    distances: Array
+
+
+def model_error(
+    level: str,
+    sheet: Sheet,
+    wave: Wave,
+    alpha: float,
+    growth_law: str = "exp",
+    area: str = "grown",
+    load: str = "current",
+    friction: str = "coulomb",
+) -> float:
+    """Measured bound of |V - V_target| for a theory, absolute, in length/time.
+
+    level: "strip", "first order" or "second order"; the target's growth_law, area, load and friction as
+    in `crawl_speed`. The numerical error of V itself is not in it.
+
+    0 without growth that changes. NaN where the distance is not known: any wave but a sine of 1 or 2
+    waves on the sheet (the amplitude of a wave counts as a part of alpha); widths beyond 0.1 to 2 L,
+    with two waves 1 L, Poisson ratios beyond 0 to 1/2, |alpha| beyond 0.4; friction other than dry; and
+    where the level or the target has no speed. Between points of the table the bound is mostly 1.5 to 3
+    times the difference, and more where that changes its sign. Raises ValueError for names that do not
+    exist and FileNotFoundError where the table is missing.
+    """
+    validation.choice("level", level, LEVELS)
+    sheet, wave = arguments.sheet(sheet), arguments.wave(wave)
+    alpha = validation.real("alpha", alpha)
+    validation.choice("growth_law", growth_law, tuple(GROWTH_LAWS))
+    validation.choice("area", area, tuple(AREAS))
+    validation.choice("load", load, LOADS)
+    validation.choice("friction", friction, ("coulomb", "tanh", "viscous"))
+    if alpha == 0 or (isinstance(wave, TravellingWave) and not wave.moves):
+        return 0.0  # the sheet is at rest in every theory
+    if friction != "coulomb" or not isinstance(wave, TravellingWave) or not is_sine(wave):
+        return math.nan
+    grid = table().get((growth_law, area, load, abs(wave.count)))
+    if grid is None:
+        return math.nan
+    strength = abs(alpha) * float(np.hypot(wave.cosine[0], wave.sine[0]))
+    bound = _bound(grid, level, (sheet.width / sheet.length, sheet.poisson, strength))
+    return bound * sheet.length / wave.period
+
+
+def is_sine(wave: TravellingWave) -> bool:
+    """Whether the wave is one sine of any amplitude and phase, c = a sin(2 pi n y/L - 2 pi t/T + b)."""
+    return wave.mean == 0 and not np.any(wave.cosine[1:]) and not np.any(wave.sine[1:])
+
+
+def _bound(grid: _Grid, level: str, point: tuple[float, float, float]) -> float:
+    """Bound of the distance at (W/L, nu, alpha), in L/T."""
+    alpha = point[2]
+    if alpha == 0:
+        return 0.0
+    around = [_around(axis, value) for axis, value in zip(grid.axes, point, strict=True)]
+    if any(places.size == 0 for places in around):
+        return math.nan
+    widths, poissons, alphas = around
+    power = 2
+    if level == "second order":
+        power, alphas = 4, alphas[grid.axes[2][alphas] > 0]  # there it has no difference: 0/0
+    strengths = grid.axes[2][alphas]
+    values = grid.distances[LEVELS.index(level)][np.ix_(widths, poissons, alphas)]
+    largest = (values * strengths ** (2.0 - power)).max()  # NaN if any of them is
+    safety = 1.0 if all(places.size == 1 for places in around) else SAFETY
+    return float(safety * largest * alpha**power)
+
+
+def _around(axis: Array, value: float) -> NDArray[np.intp]:
+    """Indices of the points next to a value: one where it is a point, two, or none beyond the ends."""
+    same = np.flatnonzero(abs(axis - value) <= SAME * abs(value))
+    if same.size:
+        return same
+    above = int(np.searchsorted(axis, value))
+    return np.arange(above - 1, above + 1) if 0 < above < axis.size else np.arange(0)
+
+
+@functools.cache
+def table(path: Path = PATH) -> dict[Model, _Grid]:
+    """The table by models, read once."""
+    rows = read(path)
+    models = sorted({(r.growth_law, r.area, r.load, r.count) for r in rows})
+    return {
+        model: _grid([r for r in rows if (r.growth_law, r.area, r.load, r.count) == model])
+        for model in models
+    }
+
+
+def _grid(rows: list[Row]) -> _Grid:
+    points = np.array([(r.width, r.poisson, r.alpha) for r in rows])
+    axes = [np.unique(column) for column in points.T]
+    distances = np.full((len(LEVELS), *(axis.size for axis in axes)), math.nan)
+    places = tuple(np.searchsorted(axis, column) for axis, column in zip(axes, points.T, strict=True))
+    differences = np.array([(r.strip, r.first_order, r.second_order) for r in rows]).T
+    distances[:, *places] = abs(differences) + [r.error for r in rows]
+    return _Grid((axes[0], axes[1], axes[2]), distances)
+
+
+def read(path: Path = PATH) -> list[Row]:
+    """The rows of a table. Raises FileNotFoundError, naming the command that makes it."""
+    return read_rows(path, Row, COMMAND)

@@ -1,0 +1,309 @@
+"""The path of a sheet that crawls and turns: the rigid motion of one period, repeated.
+
+The body frame moves and turns with the sheet as a whole. Its origin is the centre of mass of the sheet
+and its axes are turned so that the mean rotation is zero, both means over the undeformed area: for
+small strains that of (du_y/dx - du_x/dy)/2, else the rotation in the mean deformation gradient.
+`CrawlSpeed.rigid` is the velocity of its origin along its own axes and its rate of rotation,
+
+    dX/dt = R(theta) (V_x, V_y),   dtheta/dt = Omega.
+
+One period moves it by d and turns it by phi, in its axes at the start of the period. n of them make, as
+complex numbers x + i y,
+
+    z_n = d (1 + q + ... + q^(n - 1)) = d (1 - q^n)/(1 - q),   q = exp(i phi),
+
+which lie on a circle of radius |d|/(2 sin(phi/2)). d is not T times the mean of V: a sheet that goes to
+and fro at order alpha while it swings at order alpha gets ahead by order alpha^2 from that alone.
+"""
+
+import math
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.interpolate import CubicHermiteSpline
+
+from linear_theory.balance.time_grid import TimeGrid
+from linear_theory.common import validation
+from linear_theory.common.tables import LENGTH, RADIANS, TIME, Column, Tabular
+from linear_theory.common.threads import one_blas_thread
+from linear_theory.speed.result import CrawlSpeed
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+SAME = 1e-6
+"""Relative difference of time steps that count as equal; times have the roundoff of the period."""
+
+_NODES = np.arange(5.0)
+_POWERS = np.arange(5)
+_CUMULATIVE = (_NODES[:, None] ** (_POWERS + 1) / (_POWERS + 1)) @ np.linalg.inv(
+    _NODES[:, None] ** _POWERS
+)
+"""Integrals from the first of five equidistant nodes to each, by the quartic through them; Boole's rule
+in the last row. Step 1."""
+
+
+@dataclass(frozen=True)
+class Poses(Tabular):
+    """Where the body frame was: times (N,), position (2, N) of its origin, heading (N,).
+
+    The heading is the angle of its axes against those of the resting sheet, anticlockwise, radians, not
+    reduced to a circle.
+    """
+
+    times: Array
+    position: Array
+    heading: Array
+
+    def seen_from(self, index: int) -> "Poses":
+        """Position and heading in the axes of the pose of that index; the times are the same."""
+        origin = self.position[0, index] + 1j * self.position[1, index]
+        place = self.position[0] + 1j * self.position[1] - origin
+        place = place * np.exp(-1j * self.heading[index])
+        heading = self.heading - self.heading[index]
+        return Poses(self.times, np.stack([place.real, place.imag]), heading)
+
+    def _columns(self) -> Sequence[Column]:
+        x, y = self.position
+        return [
+            Column("time", self.times, "time", TIME),
+            Column("x", x, "position of the centre of mass across", LENGTH),
+            Column("y", y, "position of the centre of mass along", LENGTH),
+            Column("heading", self.heading, "angle of the axes of the sheet, anticlockwise", RADIANS),
+        ]
+
+
+@dataclass(frozen=True)
+class Path(Poses):
+    """The path of a sheet over many periods, from the origin with heading 0 at the first time.
+
+    step (2,), turn: displacement d and angle phi of one period in the axes at its start, length and
+    radians (anticlockwise); period: T. step_error, turn_error: estimates of their numerical errors,
+    absolute. position_error, heading_error (N,): of the path, which add up over the periods. Like the
+    error of the speed they leave out how far its model is from another one. seconds: spent here.
+    """
+
+    period: float
+    step: Array
+    turn: float
+    step_error: float
+    turn_error: float
+    position_error: Array
+    heading_error: Array
+    seconds: float
+
+    @property
+    def is_straight(self) -> bool:
+        """Whether the turning is not told from none."""
+        return abs(self.turn) <= self.turn_error
+
+    @property
+    def radius(self) -> float:
+        """Of the circle on which the origin lies at the ends of the periods; infinite if straight."""
+        if self.is_straight:
+            return math.inf
+        return float(np.linalg.norm(self.step) / abs(2 * math.sin(self.turn / 2)))
+
+    @property
+    def radius_error(self) -> float:
+        """Estimate of its error, absolute; infinite if straight."""
+        if self.is_straight:
+            return math.inf
+        relative = self.turn_error / abs(self.turn)
+        return self.radius * relative + self.step_error / abs(2 * math.sin(self.turn / 2))
+
+    @property
+    def speed(self) -> float:
+        """Mean speed along that circle, or along the line, length per time."""
+        arc_over_chord = 1 / abs(np.sinc(self.turn / (2 * math.pi)))
+        return float(np.linalg.norm(self.step) * arc_over_chord / self.period)
+
+    def _title(self) -> str:
+        count = round(float(self.times[-1] - self.times[0]) / self.period) if self.period else 0
+        way = "straight" if self.is_straight else f"on a circle of radius {self.radius:.6g} length"
+        return f"Path: {count} periods, {way}"
+
+    def _columns(self) -> Sequence[Column]:
+        errors = self.position_error, self.heading_error
+        return [
+            *super()._columns(),
+            Column("position_error", errors[0], "estimated error of the position", LENGTH),
+            Column("heading_error", errors[1], "estimated error of the heading", RADIANS),
+        ]
+
+
+@one_blas_thread
+def rigid_path(speed: CrawlSpeed, periods: int = 1, samples: int = 16) -> Path:
+    """The path that the rigid motion of one period makes when it is repeated.
+
+    speed: of `crawl_speed`, `field_speed` or `cycle_speed`; where `rigid` is None the motion is mirror
+    symmetric and its path straight. The path is that of the centre of mass, from where it is at
+    speed.times[0] (which counts as 0, 0 wherever an outline lies), and with `periods` periods of
+    `samples` equal intervals it has N = periods samples + 1 times.
+
+    The mean velocities and their errors are those of the speed. To d adds what comes of turning within
+    the period, (R(theta) - 1)(V_x, V_y); its quadrature in time is compared with one that is coarser.
+
+    Raises ValueError for numbers below 1, for a speed whose times are not those of a solver: panels of
+    five equidistant times, neighbours sharing their ends, and for one with `rigid` but without
+    rigid_mean and rigid_error. A sheet at rest (alpha = 0) has one time only.
+
+    >>> import numpy as np
+    >>> from linear_theory import FieldWave, Sheet, crawl_speed, rigid_path
+    >>> lopsided = FieldWave(lambda x, y, t: (1 + 2 * x) * np.sin(2 * np.pi * (y - t)), period=1.0)
+    >>> path = rigid_path(crawl_speed(Sheet(), lopsided, alpha=0.25, rtol=1e-2), periods=10)
+    >>> print(f"turns left by {path.turn:.2f} rad a period, on a circle of radius {path.radius:.1f} L")
+    turns left by 0.08 rad a period, on a circle of radius 1.4 L
+    """
+    start = time.perf_counter()
+    periods = validation.integer("periods", periods, 1)
+    samples = validation.integer("samples", samples, 1)
+    cycle = _one_period(_checked_grid(speed), speed)
+    shares = np.arange(samples) / samples
+    whole = np.append(np.repeat(np.arange(periods), samples), periods)
+    share = np.append(np.tile(shares, periods), 0.0)
+    place, heading = cycle.repeated(whole, share)
+    position_error, heading_error = cycle.errors(np.ceil(whole + share))
+    return Path(
+        times=cycle.start + cycle.length * (whole + share),
+        position=np.stack([place.real, place.imag]),
+        heading=heading,
+        period=cycle.length,
+        step=np.array([cycle.step.real, cycle.step.imag]),
+        turn=cycle.turn,
+        step_error=cycle.step_error,
+        turn_error=cycle.turn_error,
+        position_error=position_error,
+        heading_error=heading_error,
+        seconds=time.perf_counter() - start,
+    )
+
+
+class _Cycle(NamedTuple):
+    """One period. spline: x, y, heading over the time; inner, inner_turn: errors within the period
+    that do not add up; swing: largest distance from the start."""
+
+    spline: CubicHermiteSpline
+    step_error: float
+    turn_error: float
+    inner: float
+    inner_turn: float
+    swing: float
+
+    @property
+    def start(self) -> float:
+        return float(self.spline.x[0])
+
+    @property
+    def length(self) -> float:
+        return float(self.spline.x[-1] - self.spline.x[0])
+
+    @property
+    def step(self) -> complex:
+        x, y, _ = self.spline(self.spline.x[-1])
+        return complex(x, y)
+
+    @property
+    def turn(self) -> float:
+        return float(self.spline(self.spline.x[-1])[2])
+
+    def repeated(self, whole: Array, share: Array) -> tuple[Complex, Array]:
+        """Place (complex) and heading after whole periods and a share of the next."""
+        x, y, angle = self.spline(self.start + share * self.length).T
+        turned = np.exp(1j * self.turn * whole)
+        return self.step * _powers(whole, self.turn) + turned * (x + 1j * y), self.turn * whole + angle
+
+    def errors(self, periods: Array) -> tuple[Array, Array]:
+        """Bounds of the errors of place and heading within so many periods, of first order.
+
+        Every period brings the same error of d and phi: d times the sum of q^k, its slope in phi times
+        the sum of k q^k, k < n. On a circle both sums stop growing like n and n^2.
+        """
+        chord = max(abs(math.sin(self.turn / 2)) - self.turn_error / 2, 1e-300)
+        sums = np.minimum(periods, 1 / chord)
+        slopes = np.maximum(np.minimum(periods / 2, 1 / chord) * (periods - 1), 0.0)
+        turned = periods * self.turn_error
+        place = self.step_error * sums + abs(self.step) * self.turn_error * slopes
+        inside = periods > 0
+        return place + turned * self.swing + self.inner * inside, turned + self.inner_turn * inside
+
+
+def _powers(count: Array, angle: float) -> Complex:
+    """1 + q + ... + q^(count - 1) of q = exp(i angle)."""
+    half = math.remainder(angle, 2 * math.pi) / 2
+    if half == 0:
+        return count.astype(complex)
+    return np.asarray(np.exp(1j * (count - 1) * half) * np.sin(count * half) / math.sin(half))
+
+
+def _checked_grid(speed: CrawlSpeed) -> TimeGrid:
+    """Panels of the whole period with its end. Raises ValueError where the times are none."""
+    hint = "crawl_speed, field_speed and cycle_speed make one"
+    times = validation.instance("speed", speed, CrawlSpeed, hint).times
+    if times.size < 4 or times.size % 4:
+        raise ValueError(f"speed.times has {times.size} times: must be panels of four, 4 or more")
+    closed = np.append(times, 2 * times[-1] - times[-2])
+    steps = np.diff(closed).reshape(-1, 4)
+    if not np.all(steps > 0) or np.any(np.ptp(steps, axis=1) > SAME * steps.min(1)):
+        raise ValueError("speed.times: must be panels of equal, positive steps")
+    return TimeGrid(closed)
+
+
+def _one_period(grid: TimeGrid, speed: CrawlSpeed) -> _Cycle:
+    """The motion through one period and its errors."""
+    times, length = grid.times, grid.lengths.sum()
+    rigid, mean_errors = _closed_velocities(grid, speed)
+    along, omega = rigid[0] + 1j * rigid[1], rigid[2]
+    heading = _integral(grid, omega)
+    velocity = along * np.exp(1j * heading)
+    place = _integral(grid, velocity)
+    poses = np.stack([place.real, place.imag, heading], 1)
+    rates = np.stack([velocity.real, velocity.imag, omega], 1)
+    inner, inner_turn = _inner_errors(times, poses, rates)
+    mean_error = math.hypot(mean_errors[0], mean_errors[1])
+    # a wrong heading within the period turns the ways there
+    wrong_way = inner_turn * float(grid.mean(abs(along))[0])
+    turning = grid.error(np.stack([(velocity - along).real, (velocity - along).imag]))
+    return _Cycle(
+        spline=CubicHermiteSpline(times, poses, rates),
+        step_error=length * (mean_error + wrong_way + turning),
+        turn_error=length * mean_errors[2],
+        inner=inner,
+        inner_turn=inner_turn,
+        swing=float(abs(place).max()),
+    )
+
+
+def _closed_velocities(grid: TimeGrid, speed: CrawlSpeed) -> tuple[Array, Array]:
+    """V_x, V_y, Omega at all times of the grid, (3, times), and the errors of their means, (3,).
+
+    The means are the speed's own: it knows better than the values, of which a part has exactly none.
+    """
+    if speed.rigid is None:
+        rigid = np.multiply.outer([0.0, 1.0, 0.0], speed.velocity)
+        mean, error = np.array([0.0, speed.mean, 0.0]), np.array([0.0, speed.error, 0.0])
+    elif speed.rigid_mean is None or speed.rigid_error is None:
+        raise ValueError("speed.rigid: must come with rigid_mean and rigid_error")
+    else:
+        rigid, mean, error = speed.rigid, speed.rigid_mean, speed.rigid_error
+    rigid = np.concatenate([rigid, rigid[:, :1]], axis=1)
+    return rigid + (mean - grid.means(rigid)[0])[:, None], error
+
+
+def _integral(grid: TimeGrid, values: NDArray[np.inexact]) -> NDArray[np.inexact]:
+    """Integrals of values (times,) from the first time to each."""
+    panels = np.lib.stride_tricks.sliding_window_view(values, 5)[::4]
+    inside = panels @ _CUMULATIVE.T * (grid.lengths / 4)[:, None]
+    before = np.concatenate([[0.0], np.cumsum(inside[:, -1])])
+    return np.append((before[:-1, None] + inside[:, :-1]).ravel(), before[-1])
+
+
+def _inner_errors(times: Array, poses: Array, rates: Array) -> tuple[float, float]:
+    """Largest errors of place and heading within the period: what every second time leaves out."""
+    coarse = CubicHermiteSpline(times[::2], poses[::2], rates[::2])
+    x, y, angle = (coarse(times) - poses).T
+    return float(np.hypot(x, y).max()), float(abs(angle).max())

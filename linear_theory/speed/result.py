@@ -1,0 +1,159 @@
+"""The answer to the one question: how fast, how sure, at what cost."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linear_theory.common.drawable import Drawable
+from linear_theory.common.shown import with_error
+from linear_theory.common.tables import SPEED, SPIN, TIME, Column, Tabular
+
+if TYPE_CHECKING:
+    from linear_theory.speed.drawn import Deformation
+
+Array = NDArray[np.float64]
+
+Regime = Literal["dry", "mixed", "viscous", "none"]
+
+DRY_RATIO = 0.05
+"""Slip ratio up to which tanh(v/v0) is dry friction. The speed of the paper's sheet has gone there 0.2
+to 1.2 % of the way from its dry to its viscous value under a sine wave (alpha from 0.02 to 0.3), 4 to
+9 % under a pulse of two harmonics, whose speed is of first order."""
+
+VISCOUS_RATIO = 1.0
+"""Slip ratio from which it is viscous: v0 is above all speeds at all times. The speed of the paper's
+sheet has gone there 90 % of the way under a sine wave, 94 to 96 % under the pulse."""
+
+
+def regime_of(slip_ratio: float) -> Regime:
+    """Regime of friction at a slip ratio (see `CrawlSpeed`); "none" for NaN, which is no friction."""
+    if np.isnan(slip_ratio):
+        return "none"
+    if slip_ratio <= DRY_RATIO:
+        return "dry"
+    return "viscous" if slip_ratio >= VISCOUS_RATIO else "mixed"
+
+
+@dataclass(frozen=True)
+class CrawlSpeed(Drawable, Tabular):
+    """Speed of a crawling sheet, in length/time; positive is towards +y, the way of the wave.
+
+    mean: V averaged over one period; error: estimate of its numerical error, absolute;
+    model_error: distance to the nonlinear sheet, absolute, NaN where it is not known;
+    converged: whether error met the tolerance that was asked for; where rigid_error is given, that; and
+    the theory reaches so far.
+    times (T,), velocity (T,): V_y(t) over one period.
+    rigid: (3, T), V_x, V_y of the centre of mass of the undeformed area and the rate of rotation Omega
+    about it (anticlockwise) in the frame of the body (see `second_order`), for motions that are not
+    mirror symmetric in x; None otherwise.
+    rigid_mean, rigid_error: (3,), their means and the estimates of their numerical errors, absolute;
+    V_y again has mean and error. None for mirror symmetric motions.
+    first_order, second_order: V_1 and V_2 of V = V_1 alpha + V_2 alpha**2 + ..., within this model;
+    NaN where they were not computed.
+    slip_ratio: slip speed of the friction law over the largest speed relative to the ground: dry
+    friction where it is << 1, viscous where it is >> 1; 0 for Coulomb, infinite for viscous, and for
+    tanh where nothing moves; NaN without friction. `regime` is what it means.
+    sticks: whether at some time part of the sheet is at rest and a range of forces is balanced,
+    so that V is the value that the regularised law selects.
+    seconds: time spent, set-up and solution; model: what is assumed, in words.
+    beyond_reach: why a theory of small growth says nothing at this alpha (see `reach`), in words; empty
+    where it does. Such answers are never converged.
+    deformation: how the sheet deforms, for pictures (see `deformation.Deformation`); None where there
+    is no shape. It is not part of the value, and a copy or a pickle goes without it.
+
+    >>> from linear_theory import Sheet, SineWave, crawl_speed
+    >>> speed = crawl_speed(Sheet(), SineWave(), alpha=0.25, rtol=1e-3)
+    >>> print(f"V = {speed.mean:.3f} L/T along the wave, converged {speed.converged}")
+    V = 0.106 L/T along the wave, converged True
+    >>> print(f"friction is {speed.regime}; {speed.model}")
+    friction is dry; small strain (AirySeries), current load, coulomb friction
+    """
+
+    mean: float
+    error: float
+    model_error: float
+    converged: bool
+    times: Array
+    velocity: Array
+    seconds: float
+    model: str
+    slip_ratio: float
+    first_order: float = np.nan
+    second_order: float = np.nan
+    sticks: bool = False
+    rigid: Array | None = None
+    rigid_mean: Array | None = None
+    rigid_error: Array | None = None
+    beyond_reach: str = ""
+    deformation: "Deformation | None" = field(default=None, repr=False, compare=False)
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Without the deformation: a speed that travels between processes is numbers only."""
+        return self.__dict__ | {"deformation": None}
+
+    @property
+    def regime(self) -> Regime:
+        """Friction as the sheet meets it: "dry", "mixed", "viscous", or "none" where there is none."""
+        return regime_of(self.slip_ratio)
+
+    @property
+    def reach(self) -> str:
+        """What the answer says of the nonlinear sheet, in words."""
+        if self.beyond_reach:
+            return f"beyond the reach of the theory: {self.beyond_reach}"
+        if np.isnan(self.model_error):
+            return "distance to the nonlinear sheet not known"
+        if self.model_error == 0:
+            return "no distance to the nonlinear sheet"
+        return f"within {self.model_error:.1g} of the nonlinear sheet"
+
+    def _title(self) -> str:
+        return f"CrawlSpeed: {speed_in_words(self.mean, self.error, self.converged)}"
+
+    def _rows(self) -> Mapping[str, Any]:
+        """All but what the title says and what was not computed."""
+        ratio = "" if np.isnan(self.slip_ratio) else f", slip ratio {self.slip_ratio:.3g}"
+        first = {"model_error": self.model_error, "regime": f"{self.regime}{ratio}"}
+        rest = {name: v for name, v in self._contents().items() if name not in TOLD and _is_there(v)}
+        return {**first, **rest}
+
+    def _columns(self) -> Sequence[Column]:
+        columns = [
+            Column("time", self.times, "time", TIME),
+            Column("velocity", self.velocity, "velocity of the sheet along y", SPEED),
+        ]
+        if self.rigid is not None:
+            columns += [
+                Column("velocity_x", self.rigid[0], "velocity across the sheet, in its axes", SPEED),
+                Column("rotation", self.rigid[2], "rate of rotation, anticlockwise", SPIN),
+            ]
+        return columns
+
+
+TOLD = ("mean", "error", "converged", "model_error", "slip_ratio")
+"""What the title of a speed and its first rows say."""
+
+
+def speed_in_words(mean: float, error: float, converged: bool) -> str:
+    """A mean speed with its error and direction, and whether its tolerance was met."""
+    met = "converged" if converged else "NOT converged"
+    return f"mean {with_error(mean, error)} length/time, {direction(mean, error)}, {met}"
+
+
+def direction(mean: float, error: float) -> str:
+    """Which way a speed goes, where its error leaves no doubt."""
+    if mean == 0 and error == 0:
+        return "at rest"
+    if not abs(mean) > error:
+        return "direction not resolved"
+    return "towards +y" if mean > 0 else "towards -y"
+
+
+def _is_there(value: Any) -> bool:
+    """Whether a field says more than that it was not computed, or is not so."""
+    if isinstance(value, float):
+        return not np.isnan(value)
+    return value is not None and value is not False and not (isinstance(value, str) and not value)

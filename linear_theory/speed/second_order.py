@@ -1,0 +1,339 @@
+"""The speed of a nonlinear sheet to second order in the growth coupling, V = V_1 alpha + V_2 alpha^2.
+
+With v = alpha v_1 + alpha^2 v_2 from `second_field`, load 1 + alpha e and V = alpha q_0 + alpha^2 q_1
+the balance of friction says, at its first and second order,
+
+    int f(|w|) w/|w| . R dA = 0,                                   w = v_1 + q_0,
+    int [D(w) (v_2 + q_1) + e f(|w|) w/|w|] . R dA = 0,             D(w) = d(f(|w|) w/|w|)/dw.
+
+For waves that are not mirror symmetric in x, q stands for V_x, V_y and Omega together, and displaced
+points turn: R = (-y - alpha u_y, x + alpha u_x) for the rotation about the centre of mass, so that v_2
+is joined by Omega_0 (-u_y, u_x), and the moment by the force of first order times that arm.
+
+V_x and V_y are the velocity of the centre of mass (of the undeformed area) along the axes of the body,
+Omega the rate at which these axes turn, with the mean deformation gradient: see `second_field`, and
+`fem_check/shell/cycle/frame.py` for the same frame of a nonlinear sheet. Another choice of axes would
+change V_x and V_y at order alpha^2. Means of V_x, V_y are not the drift over the ground, which Omega
+turns.
+
+For dry friction D(w) is of size 1/|w|: at the few points where w = 0 that is integrable in the plane.
+The cells are halved towards these points until the rest, of size the square root of the area of the
+last cell, is below the tolerance (`period.first_resolution`); V_1 and V_2 are the means of q_0 and q_1.
+"""
+
+import math
+import time
+from dataclasses import dataclass, replace
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linear_theory.balance.balance import RigidMotion
+from linear_theory.balance.period import Crawl, Period, average, first_resolution
+from linear_theory.common import validation
+from linear_theory.common.shown import Shown, with_error
+from linear_theory.common.threads import one_blas_thread
+from linear_theory.deformation.field import Wave
+from linear_theory.deformation.second.field import (
+    AREAS,
+    GROWTH_LAWS,
+    SecondOrderField,
+    second_order_field,
+)
+from linear_theory.friction.law import LOADS, FrictionLaw
+from linear_theory.motion.rigid import RigidNorm
+from linear_theory.scene import arguments
+from linear_theory.sheet.rectangle import Sheet
+from linear_theory.speed.reach import growths, judged, too_large_growth, too_large_term
+from linear_theory.speed.result import CrawlSpeed
+
+Array = NDArray[np.float64]
+
+ORDERS = (1, 2)
+"""Of the theories that `crawl_speed` offers."""
+
+TINY_ALPHA = 1e-9
+"""At which the balance is solved: what is neglected is of this relative size."""
+
+MORE_HALVINGS = 8
+"""Of cells, than an alpha that is not tiny asks for: a point at rest next to which a cell is not halved
+enough makes q_1(t) uneven, and the mean over time would then be refined in vain."""
+
+POINTS = 33
+"""Points per direction at which growth of any shape is checked."""
+
+FIELD_SHARE = 0.1
+"""Of rtol, for the deformation: it costs little."""
+
+FIRST_SHARE, SECOND_SHARE = 0.02, 1.2
+"""Of the error of the velocity, what at most reaches V_1 (see `Crawl.field_error`) and V_2."""
+
+
+class _Orders(NamedTuple):
+    first: float
+    second: float
+    first_error: float
+    second_error: float
+    seconds: float
+    model: str
+    rigid_first: Array
+    rigid_second: Array
+    rigid_first_error: Array
+    rigid_second_error: Array
+
+
+class SecondOrder(Shown, _Orders):
+    """Coefficients of V = first alpha + second alpha^2 + ..., length/time, and their errors, absolute.
+
+    first is 0 where c(t + T/2) = -c(t). second is NaN, its error infinite, where at some time part of
+    the sheet is at rest, since V is not smooth in alpha then.
+    seconds: time spent; model: what is assumed, in words.
+    rigid_first, rigid_second (3,): coefficients of the means of V_x, V_y (these are first and second
+    again) and of Omega (1/time, anticlockwise), in the frame of the body, see the module's head;
+    rigid_first_error, rigid_second_error (3,): their errors. V_x and Omega are 0 for mirrored motions.
+
+    >>> from linear_theory import Sheet, SineWave, second_order
+    >>> found = second_order(Sheet(), SineWave(), rtol=1e-2)
+    >>> print(f"V = {found.first:.0f} alpha + {found.second:.2f} alpha^2, in L/T")
+    V = 0 alpha + 1.53 alpha^2, in L/T
+    """
+
+    def _title(self) -> str:
+        first = with_error(self.first, self.first_error)
+        second = with_error(self.second, self.second_error)
+        return f"SecondOrder: V = ({first}) alpha + ({second}) alpha^2, length/time"
+
+    def rigid_mean(self, alpha: float) -> Array:
+        """Means of V_x, V_y, Omega at one alpha, (3,)."""
+        return np.asarray(alpha * self.rigid_first + alpha**2 * self.rigid_second)
+
+    def rigid_error(self, alpha: float) -> Array:
+        """Their errors, (3,)."""
+        return np.asarray(abs(alpha) * self.rigid_first_error + alpha**2 * self.rigid_second_error)
+
+
+class Model(NamedTuple):
+    """Growth, elasticity, load and friction; law: for speeds per unit |alpha|."""
+
+    growth_law: str
+    area: str
+    load: str
+    law: FrictionLaw
+
+    @property
+    def words(self) -> str:
+        """What the coefficients assume."""
+        return (
+            f"second order in alpha, growth law {self.growth_law}, energy per {self.area} area, "
+            f"{self.load} load, {self.law.name} friction"
+        )
+
+
+@dataclass(frozen=True)
+class _Coefficients(Crawl):
+    """The balance of which q_1 alone counts."""
+
+    field: SecondOrderField
+
+    @property
+    def counts_leading(self) -> bool:
+        """Never."""
+        return False
+
+    def field_error(self, motion: RigidMotion) -> float:
+        """What the errors of u_1 and u_2 do to V_2."""
+        return self.alpha**2 * _second_field_error(self.field, motion.fastest)
+
+
+@one_blas_thread
+def second_order(
+    sheet: Sheet,
+    wave: Wave,
+    growth_law: str = "exp",
+    area: str = "grown",
+    load: str = "current",
+    friction: str = "coulomb",
+    slip_speed: float | None = None,
+    rtol: float = 1e-3,
+) -> SecondOrder:
+    """Coefficients of the mean speed of a stiff, planar, nonlinear sheet for small growth.
+
+    They are those of the planar Koiter membrane (eq. 1a), not of a linear theory: for a sine wave,
+    first = 0 and second is the limit of V/alpha^2. How far in alpha two orders reach they do not say.
+
+    wave: a TravellingWave or a FieldWave; growth_law: of lengths, "exp" exp(alpha c), "linear"
+    1 + alpha c or "metric" (1 + 2 alpha c)^(1/2); area: in which energy is counted, "grown" or
+    "undeformed"; load: "current", "grown" or "material" (see `friction.load_rate`); friction:
+    "coulomb", "viscous", or "tanh" with slip_speed.
+    slip_speed: length per time *and unit |alpha|*, since what stays fixed as alpha -> 0 is its ratio to
+    the speeds. `crawl_speed(order=2, alpha=a, slip_speed=s)` takes a speed and looks s/|a| up here.
+    rtol: of `second`, whose error is to be below max(rtol |second|, 0.01 rtol L/T); where the motion is
+    not mirror symmetric, of the size of rigid_second (see `rigid.RigidNorm`). A miss shows in the
+    errors. All else comes with the same cells and times.
+
+    Raises ValueError for bad input.
+
+    >>> from linear_theory import Sheet, SineWave, second_order
+    >>> for growth_law in ("exp", "metric"):
+    ...     found = second_order(Sheet(), SineWave(), growth_law, rtol=3e-2)
+    ...     print(f"{growth_law}: V = {found.second:.1f} alpha^2 L/T", found.second_error < 0.05)
+    exp: V = 1.5 alpha^2 L/T True
+    metric: V = 2.1 alpha^2 L/T True
+    """
+    start, rtol = time.perf_counter(), validation.tolerance(rtol)
+    sheet, wave = arguments.sheet(sheet), arguments.wave(wave)
+    model = checked_model(growth_law, area, load, FrictionLaw(friction, slip_speed))
+    field = second_order_field(sheet, wave, growth_law, area, field_tolerance(rtol))
+    return coefficients(field, leading_period(field, load, model.law, rtol), model, start)
+
+
+def checked_model(growth_law: str, area: str, load: str, law: FrictionLaw) -> Model:
+    """Raise ValueError for names that do not exist."""
+    validation.choice("growth_law", growth_law, GROWTH_LAWS)
+    validation.choice("area", area, AREAS)
+    validation.choice("load", load, LOADS)
+    return Model(growth_law, area, load, law)
+
+
+def field_tolerance(rtol: float) -> float:
+    """Of the deformation, whose error is then a small part of that of V_2."""
+    return max(FIELD_SHARE * rtol, validation.SMALLEST_RTOL)
+
+
+def leading_period(field: SecondOrderField, load: str, law: FrictionLaw, rtol: float) -> Period:
+    """A period of motion at TINY_ALPHA, whose mean and error are those of second order alone.
+
+    law: for speeds per unit alpha.
+    """
+    unit = field.sheet.length / field.wave.period
+    atol = 1e-2 * rtol * TINY_ALPHA**2 * unit
+    resolution = first_resolution(rtol)
+    resolution = replace(resolution, halvings=resolution.halvings + MORE_HALVINGS)
+    crawl = _Coefficients(field, TINY_ALPHA, load, law.scaled(1 / TINY_ALPHA), resolution)
+    return average(crawl, rtol, atol)
+
+
+def coefficients(field: SecondOrderField, period: Period, model: Model, start: float) -> SecondOrder:
+    """Means of q_0 and q_1 and their errors; start: of the time that is counted."""
+    first, second = period.means
+    first_error, second_error = period.mean_errors + field_errors(field, period)
+    if period.sticks:
+        second, second_error = np.full(3, math.nan), np.full(3, math.inf)
+    return SecondOrder(
+        first=float(first[1]),
+        second=float(second[1]),
+        first_error=float(first_error[1]),
+        second_error=float(second_error[1]),
+        seconds=time.perf_counter() - start,
+        model=model.words,
+        rigid_first=first,
+        rigid_second=second,
+        rigid_first_error=first_error,
+        rigid_second_error=second_error,
+    )
+
+
+def field_errors(field: SecondOrderField, period: Period) -> Array:
+    """What the errors of u_1 and u_2 do to V_x, V_y, Omega of first and second order, (2, 3).
+
+    Nothing where symmetry makes them 0.
+    """
+    fastest = period.fastest / TINY_ALPHA
+    first = 0.0 if field.survey.changes_sign else FIRST_SHARE * field.error * fastest
+    norm = RigidNorm(field.gyration, field.mirrored)
+    return np.stack([norm.each(first), norm.each(_second_field_error(field, fastest))])
+
+
+def _second_field_error(field: SecondOrderField, fastest: float) -> float:
+    """What the errors of u_1 and u_2 do to V_2.
+
+    At single times met were factors up to 1.1 where SECOND_SHARE stands (widths from 0.1 L to 2 L,
+    one and two waves, all loads); most are below 0.1.
+    """
+    return SECOND_SHARE * (field.error * fastest + field.second_error * field.second_speed)
+
+
+@one_blas_thread
+def second_order_speed(
+    sheet: Sheet,
+    wave: Wave,
+    alpha: float,
+    growth_law: str,
+    area: str,
+    load: str,
+    friction: str,
+    slip_speed: float | None,
+    rtol: float,
+    atol: float | None,
+) -> CrawlSpeed:
+    """V_1 alpha + V_2 alpha^2; arguments, result and errors raised are those of `crawl_speed`."""
+    start, alpha = time.perf_counter(), validation.real("alpha", alpha)
+    rtol, law = validation.tolerance(rtol), FrictionLaw(friction, slip_speed)
+    model = checked_model(growth_law, area, load, law.scaled(abs(alpha) or 1.0))
+    field = second_order_field(sheet, wave, growth_law, area, field_tolerance(rtol))
+    unit = sheet.length / wave.period
+    atol = validation.absolute_tolerance(atol, rtol, alpha, unit)
+    check_growth(growth_law, alpha, wave, sheet)
+    period = leading_period(field, load, model.law, rtol)
+    both = coefficients(field, period, model, start)
+    norm = RigidNorm(field.gyration, field.mirrored)
+    fastest = abs(alpha) * period.fastest / TINY_ALPHA
+    found = replace(
+        speed_at(alpha, both, period, field.mirrored),
+        converged=norm.meets(both.rigid_mean(alpha), both.rigid_error(alpha), rtol, atol),
+        slip_ratio=law.slip_ratio(fastest),
+        seconds=time.perf_counter() - start,
+    )
+    beyond = too_large_growth(wave, alpha, *_points(sheet), sheet.length)
+    return judged(found, beyond or too_large_term(alpha**2 * both.second, fastest))
+
+
+def speed_at(alpha: float, found: SecondOrder, period: Period, mirrored: bool) -> CrawlSpeed:
+    """What coefficients say at one alpha, without any judgement of it."""
+    rigid = alpha * period.orders[0] + alpha**2 * period.orders[1]
+    mean, error = found.rigid_mean(alpha), found.rigid_error(alpha)
+    return CrawlSpeed(
+        mean=float(mean[1]),
+        error=float(error[1]),
+        model_error=math.nan,
+        converged=False,
+        times=period.times,
+        velocity=rigid[1],
+        seconds=found.seconds,
+        model=found.model,
+        slip_ratio=math.nan,
+        first_order=found.first,
+        second_order=found.second,
+        sticks=period.sticks,
+        rigid=None if mirrored else rigid,
+        rigid_mean=None if mirrored else mean,
+        rigid_error=None if mirrored else error,
+    )
+
+
+def check_growth(growth_law: str, alpha: float, wave: Wave, sheet: Sheet) -> None:
+    """Raise ValueError where lengths would vanish: 1 + alpha c or 1 + 2 alpha c not positive."""
+    if growth_law == "exp":
+        return
+    factor = 1.0 if growth_law == "linear" else 2.0
+    lowest = float((alpha * growths(wave, *_points(sheet), sheet.length)).min())
+    if 1 + factor * lowest <= 0:
+        raise ValueError(
+            f"alpha = {alpha:g}: alpha c reaches {lowest:.3g}; must be > {-1 / factor:g} for "
+            f"growth_law {growth_law!r}"
+        )
+
+
+def _points(sheet: Sheet) -> tuple[Array, Array]:
+    """x and y of a grid over the sheet, edges included, (n,) each."""
+    x, y = (s * np.linspace(-0.5, 0.5, POINTS) for s in (sheet.width, sheet.length))
+    return np.repeat(x, POINTS), np.tile(y, POINTS)
+
+
+def check_model(order: int, growth_law: str, area: str) -> None:
+    """Raise ValueError for an order or for names that do not exist."""
+    if validation.integer("order", order) not in ORDERS:
+        raise ValueError(f"order = {order}: must be one of {', '.join(map(str, ORDERS))}")
+    validation.choice("growth_law", growth_law, GROWTH_LAWS)
+    validation.choice("area", area, AREAS)

@@ -1,0 +1,102 @@
+"""Series of functions of one variable, from samples that are checked at places in between.
+
+Samples at N points are met by a series of N terms whatever the function. That it is the function is
+seen at other points, which are random: an alias, or what is finer than the samples, differs there.
+"""
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.fft import dct
+
+from linear_theory.common.shown import Shown
+
+Array = NDArray[np.float64]
+Function = Callable[[Array], Array]
+"""Values (n, lines) at points (n,), of several functions at once."""
+
+RESOLVED, ROUNDOFF = 1e-9, 1e-13
+"""Root mean square of what a series misses that counts as nothing: shares of that of the function less
+its mean, and of its largest value."""
+
+
+@dataclass(frozen=True, eq=False)
+class Spectrum(Shown):
+    """sizes (K,): root mean squares of the terms 1 ... K of a series; missed: of all that they miss."""
+
+    sizes: Array
+    missed: float
+
+    @property
+    def total(self) -> float:
+        """Root mean square of all but the constant term."""
+        return float(self._beyond[0])
+
+    def beyond(self, term: float) -> float:
+        """Root mean square of the terms above this one."""
+        return float(self._beyond[min(max(int(term), 0), self.sizes.size)])
+
+    def needed(self, size: float) -> float:
+        """The term beyond which no more than that size is left; inf where it is not known."""
+        enough = np.flatnonzero(self._beyond <= size)
+        return float(max(enough[0], 1)) if enough.size else math.inf
+
+    def highest(self, share: float) -> float:
+        """The term beyond which no more than that share is left; inf where it is not known."""
+        return self.needed(share * self.total)
+
+    @cached_property
+    def _beyond(self) -> Array:
+        """Above term 0, 1, ..., K, (K + 1,)."""
+        squares = np.cumsum(np.append(self.missed, self.sizes[::-1]) ** 2)
+        return np.sqrt(squares[::-1])
+
+
+def fourier(function: Function, checks: Array, fewest: int, most: int) -> Spectrum:
+    """Harmonics of functions of period 1; checks: random points (n,); fewest, most: samples."""
+    known, tolerance = _checked(function, checks)
+    count = fewest
+    values = function(np.arange(count) / count)
+    while True:
+        terms = np.fft.rfft(values, axis=0)[: count // 2] / count
+        turns = np.exp(2j * np.pi * np.multiply.outer(checks, np.arange(1, count // 2)))
+        missed = _rms(terms[0].real + 2 * (turns @ terms[1:]).real - known)
+        if missed <= tolerance or count >= most:
+            break
+        between = function((np.arange(count) + 0.5) / count)
+        values = np.stack([values, between], 1).reshape(2 * count, -1)
+        count *= 2
+    sizes = np.sqrt(2 * np.mean(abs(terms[1:]) ** 2, axis=1))
+    return Spectrum(sizes, 0.0 if missed <= tolerance else missed)
+
+
+def chebyshev(function: Function, checks: Array, fewest: int, most: int) -> Spectrum:
+    """Chebyshev polynomials of functions on [-1, 1]; arguments as of `fourier`."""
+    known, tolerance = _checked(function, checks)
+    count = fewest
+    while True:
+        nodes = np.cos(np.pi * (np.arange(count) + 0.5) / count)
+        terms = dct(function(nodes), axis=0) / count
+        terms[0] /= 2
+        found = np.polynomial.chebyshev.chebval(checks, terms).T
+        missed = _rms(found - known)
+        if missed <= tolerance or count >= most:
+            break
+        count *= 2
+    sizes = np.sqrt(np.mean(terms[1:] ** 2, axis=1) / 2)
+    return Spectrum(sizes, 0.0 if missed <= tolerance else missed)
+
+
+def _checked(function: Function, checks: Array) -> tuple[Array, float]:
+    """Values at the checks, and the distance from them that counts as nothing."""
+    known = function(checks)
+    varying = float(np.sqrt(np.mean(np.var(known, axis=0))))
+    return known, max(RESOLVED * varying, ROUNDOFF * float(abs(known).max()))
+
+
+def _rms(values: Array) -> float:
+    return float(np.sqrt(np.mean(values**2)))
