@@ -3,6 +3,7 @@
 from .mesh.outline import Outline
 from .plane_stress.field import PlaneStressField, plane_stress_field
 from .predict.prediction import Prediction, predict
+from .scene import Scene, bilayer
 from .shell.cycle.speed import cycle_speed
 from .shell.effects.friction import Friction
 from .shell.effects.gravity import Gravity
@@ -11,9 +12,7 @@ from .shell.effects.inertia import Inertia
 from .shell.effects.koiter import Bending, Membrane
 from .shell.effects.loads import DeadLoad
 from .shell.effects.terrain import Terrain
-from .shell.scene.growth import bilayer
-from .shell.scene.material import Material
-from .shell.scene.scene import Scene
+from .shell.material import Material
 from .shell.stepping.paraview import write_paraview
 from .shell.stepping.simulation import simulate
 from .shell.stepping.trajectory import Trajectory

@@ -27,8 +27,8 @@ from fem_check.shell.effects.gravity import Gravity
 from fem_check.shell.effects.ground import Ground
 from fem_check.shell.effects.koiter import Bending, Membrane
 from fem_check.shell.kinematics.supports import Supports
-from fem_check.shell.scene.material import Material
-from fem_check.shell.scene.scene import Scene
+from fem_check.shell.material import Material
+from fem_check.shell.model import ShellModel
 from fem_check.shell.statics.linear_solver import factorise
 from fem_check.shell.statics.newton import Minimiser
 from fem_check.shell.statics.potential import Potential
@@ -37,6 +37,7 @@ from fem_check.shell.stepping.simulation import simulate
 from figures.cost_measure import machine, timed
 from figures.output import Progress
 from linear_theory import Sheet, SineWave
+from linear_theory.scene.scene import Scene
 
 Array = NDArray[np.float64]
 
@@ -96,14 +97,15 @@ class Static:
     """The static shape of a scene at t = 0, and what one of its Newton iterations costs."""
 
     def __init__(self, scene: Scene) -> None:
-        self.scene, self.sheet = scene, scene.discretisation()
+        self.model = ShellModel(scene)
+        self.sheet = self.model.discretisation
         self.supports = Supports(self.sheet).anchor(motions=held_motions(scene))
         self.minimiser = Minimiser(self.supports)
-        self.result = ramp(self.minimiser, self.problem, static_depth(scene), follow=1e-3)
+        self.result = ramp(self.minimiser, self.problem, static_depth(self.model), follow=1e-3)
 
     def problem(self, share: float) -> Potential:
         """Energy at a share of the growth."""
-        return self.scene.potential(self.scene.rest(0.0, share))
+        return self.model.potential(self.model.rest(0.0, share))
 
     def positions(self) -> Array:
         """Of a grid of points, (3, points)."""
@@ -204,7 +206,7 @@ def stepped(cells: tuple[int, int], steps: int | None) -> Run:
     run = simulate(scene, periods=1, steps=steps, rtol=None if steps else 1e-2)
     unit = 1 if sys.platform == "darwin" else 1024  # bytes there, kilobytes elsewhere
     return Run(
-        scene.discretisation().size,
+        run.model.discretisation.size,
         run.speed.mean,
         run.speed.error,
         run.seconds,

@@ -13,7 +13,7 @@ import numpy as np
 import skfem
 from numpy.typing import NDArray
 
-from fem_check.shell.cycle.shapes import extrapolated, static_depth, static_effects
+from fem_check.shell.cycle.shapes import extrapolated, static_depth, working_effects
 from fem_check.shell.effects.effect import Effect
 from fem_check.shell.effects.friction import Friction
 from fem_check.shell.effects.gravity import Gravity
@@ -22,8 +22,8 @@ from fem_check.shell.effects.inertia import Inertia
 from fem_check.shell.effects.koiter import Bending, Membrane
 from fem_check.shell.kinematics.rates import Step
 from fem_check.shell.kinematics.supports import Supports
-from fem_check.shell.scene.material import Material
-from fem_check.shell.scene.scene import Scene
+from fem_check.shell.material import Material
+from fem_check.shell.model import ShellModel
 from fem_check.shell.statics.newton import Minimiser
 from fem_check.shell.statics.potential import Potential
 from fem_check.shell.stepping.simulation import simulate
@@ -32,6 +32,7 @@ from fem_check.shell.stepping.stepper import Stepper
 from figures.cost_cases import SHEET, WAVE
 from figures.cost_measure import calls, held_memory, timed
 from linear_theory import line_speed
+from linear_theory.scene.scene import Scene
 
 Array = NDArray[np.float64]
 
@@ -181,23 +182,23 @@ class Named:
 
     def problem(self) -> tuple[Potential, Array]:
         """Energy of a step and a state to evaluate it at."""
-        scene = self.scene()
-        rest = scene.rest(0.1)
+        model = ShellModel(self.scene())
+        rest = model.rest(0.1)
         if not self.moves:
-            energy = Potential(scene.discretisation(), static_effects(scene), rest)
-            return energy, static_depth(scene)
-        dt = scene.period / self.steps
-        stepper = Stepper(scene, 0.5, dt)
+            energy = Potential(model.discretisation, working_effects(model), rest)
+            return energy, static_depth(model)
+        dt = model.scene.period / self.steps
+        stepper = Stepper(model, 0.5, dt)
         history = first_history(stepper, dt, None)
         velocity, acceleration = history.rules(dt)
         moving = Step(stepper.at_points(velocity), acceleration and stepper.at_points(acceleration))
-        return scene.potential(rest, stepper.held(moving, history.state, rest)), history.state
+        return model.potential(rest, stepper.held(moving, history.state, rest)), history.state
 
     def run(self) -> tuple[int, int]:
         """Make the steps; their number and that of their iterations."""
         scene = self.scene()
         if not self.moves:
-            return static_shapes(scene, self.steps)
+            return static_shapes(ShellModel(scene), self.steps)
         run = simulate(scene, periods=1, steps=self.steps)
         return run.times.size - 1, run.iterations
 
@@ -212,14 +213,14 @@ class Named:
         return {name: count / parts.get(name, 1.0) / steps[0] for name, count in counts.items()}
 
 
-def static_shapes(scene: Scene, steps: int) -> tuple[int, int]:
+def static_shapes(model: ShellModel, steps: int) -> tuple[int, int]:
     """One shape after the other, phases 1/steps apart; their number and that of iterations."""
-    motions = "xyz" if scene.find(Ground) is None else "xy"
-    supports = Supports(scene.discretisation()).anchor(motions=motions)
+    motions = "xyz" if model.find(Ground) is None else "xy"
+    supports = Supports(model.discretisation).anchor(motions=motions)
     minimiser = Minimiser(supports, keep_factor=True, check_stability=False)
-    states, iterations = [static_depth(scene)], 0
+    states, iterations = [static_depth(model)], 0
     for i in range(SHAPES):
-        potential = Potential(scene.discretisation(), static_effects(scene), scene.rest(i / steps))
+        potential = Potential(model.discretisation, working_effects(model), model.rest(i / steps))
         guess = extrapolated(states[-4:]) if len(states) > 4 else states[-1]
         result = minimiser.minimise(potential, guess)
         states.append(result.state)

@@ -9,13 +9,14 @@ import skfem
 from fem_check.plane_stress.field import PlaneStressField
 from fem_check.shell.effects.koiter import Bending, Membrane
 from fem_check.shell.kinematics.supports import Supports
-from fem_check.shell.scene.material import Material
-from fem_check.shell.scene.scene import Scene
+from fem_check.shell.material import Material
+from fem_check.shell.model import ShellModel
 from fem_check.shell.statics.linear_solver import factorise
 from fem_check.shell.statics.potential import Potential
 from fem_check.shell.statics.sparsity import Sparsity
 from figures.cost_cases import LINE, P2, P4, PLAIN, RITZ, SHEET, TAIL, WAVE, Case, elements
 from linear_theory import SineWave, airy_series, crawl_speed, field_speed, line_speed, ritz_field
+from linear_theory.scene.scene import Scene
 
 PANEL = "growth"
 
@@ -109,10 +110,11 @@ class NewtonIteration:
             x, y = SHEET.width / 2, SHEET.length / 2
             grid = np.linspace(-x, x, size[0] + 1), np.linspace(-y, y, size[1] + 1)
             scene = Scene(SHEET, WAVE, ALPHA, effects=effects, mesh=skfem.MeshTri.init_tensor(*grid))
-        supports = Supports(scene.discretisation()).anchor()
-        self.potential: Potential = scene.potential(scene.rest(0.0, 0.0))
-        self.sparsity = Sparsity(scene.discretisation(), supports.free)
-        self.start = np.zeros(scene.discretisation().size)
+        model = ShellModel(scene)
+        supports = Supports(model.discretisation).anchor()
+        self.potential: Potential = model.potential(model.rest(0.0, 0.0))
+        self.sparsity = Sparsity(model.discretisation, supports.free)
+        self.start = np.zeros(model.discretisation.size)
 
     def __call__(self) -> object:
         """One correction, of nothing."""

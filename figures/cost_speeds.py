@@ -14,15 +14,13 @@ from typing import Any
 import numpy as np
 import skfem
 
-from fem_check.predict.levels import Question
 from fem_check.predict.levels import strip as strip_level
 from fem_check.predict.prediction import Prediction, predict
 from fem_check.shell.cycle.speed import cycle_speed
 from fem_check.shell.effects.friction import Friction
 from fem_check.shell.effects.gravity import Gravity
 from fem_check.shell.effects.koiter import Membrane
-from fem_check.shell.scene.material import Material
-from fem_check.shell.scene.scene import Scene
+from fem_check.shell.material import Material
 from fem_check.shell.stepping.simulation import simulate
 from figures.cost_cases import (
     AUTO,
@@ -51,6 +49,9 @@ from linear_theory import (
     line_cycle_speed,
     line_speed,
 )
+from linear_theory.common.tolerance import Tolerance
+from linear_theory.friction.load import Load
+from linear_theory.scene.scene import Scene
 from linear_theory.speed.result import CrawlSpeed
 
 LINEAR, NONLINEAR = "linear speed", "nonlinear speed"
@@ -160,7 +161,8 @@ class NonlinearSpeeds:
         """All that is compared."""
         yield self._case(LINE, "points", 1, partial(line_speed, NONLINEAR_ALPHA))
         yield self._case(BAR, "points", 1, partial(line_cycle_speed, NONLINEAR_ALPHA, "exp"))
-        strip = partial(strip_level, Question(SHEET, WAVE, NONLINEAR_ALPHA), 1e-4, 1e-9)
+        scene = Scene(SHEET, WAVE, NONLINEAR_ALPHA)
+        strip = partial(strip_level, scene, Tolerance(1e-4, 1e-9))
         yield self._case(STRIP, "points", 1, strip)
         for level, options in (
             (TAIL, {"method": "airy"}),
@@ -212,7 +214,7 @@ def stepped(
     steps: int = STEPS, cells: tuple[int, int] = STEPPED_CELLS, slip: float = SLIP
 ) -> CrawlSpeed:
     """Its speed by stepping through a ramp of half a period and one period."""
-    effects = (MEMBRANE, Gravity(WEAK, "current"), Friction(1.0, slip))
+    effects = (MEMBRANE, Gravity(WEAK, Load.CURRENT), Friction(1.0, slip))
     scene = Scene(SHEET, WAVE, NONLINEAR_ALPHA, effects=effects, cells=cells)
     return simulate(scene, periods=1, steps=steps).speed
 

@@ -26,10 +26,13 @@ from fem_check.shell.statics.equilibrium import ConvergenceError
 from figures import output
 from figures.cycles import planar_scene
 from figures.records import write_rows
+from linear_theory.common.tolerance import Tolerance
 from linear_theory.deformation.airy import airy_series
 from linear_theory.deformation.field import LinearField
-from linear_theory.deformation.second.source import AREAS, GROWTH_LAWS
-from linear_theory.friction.law import LOADS
+from linear_theory.friction.contact import Contact
+from linear_theory.friction.load import WEIGHTS as LOADS
+from linear_theory.growth.growth import Growth, Reference
+from linear_theory.growth.laws import GROWTH_LAWS
 from linear_theory.line.finite import line_cycle_speed
 from linear_theory.sheet.rectangle import Sheet
 from linear_theory.speed.crawl import field_speed
@@ -82,7 +85,7 @@ def cases() -> Iterator[Case]:
     """All of them, in the order of the table."""
     for width, poisson, count in itertools.product(WIDTHS, POISSONS, COUNTS):
         if width * count <= WIDEST:
-            for model in itertools.product(GROWTH_LAWS, AREAS):
+            for model in itertools.product(GROWTH_LAWS, Reference):
                 yield Case(width, poisson, count, *model)
 
 
@@ -106,11 +109,12 @@ def leading(case: Case, load: str, rtol: float) -> tuple[float, float]:
     V_2 is linear in the coefficients k of the growth law and m of the area measure and in the load (see
     `second_field` and `second_order`): one call for each, besides that of BASE, gives all 18 models.
     """
-    law, area = (GROWTH_LAWS[case.growth_law], AREAS[case.area])
+    areas = {area: Growth(1.0, energy_area=area).energy_weight for area in Reference}
+    law, area = GROWTH_LAWS[case.growth_law].square, areas[Reference(case.area)]
+    grown, undeformed = areas[Reference.GROWN], areas[Reference.UNDEFORMED]
     shares = {
         ("metric", *BASE[1:]): 1 - law,
-        (BASE[0], "undeformed", BASE[2]): (area - AREAS["grown"])
-        / (AREAS["undeformed"] - AREAS["grown"]),
+        (BASE[0], "undeformed", BASE[2]): (area - grown) / (undeformed - grown),
         (*BASE[:2], load): float(load != BASE[2]),
     }
     shares = {model: share for model, share in shares.items() if share}
@@ -176,7 +180,8 @@ def nonlinear_speeds(case: Case, alpha: float, rtol: float) -> dict[str, tuple[f
     scene = planar_scene(case.sheet, case.count, alpha, case.growth_law, case.area)
     try:
         cycle = Cycle(scene)
-        speeds = {load: cycle.speed(load, rtol=rtol, atol=rtol * alpha**2) for load in LOADS}
+        tolerance = Tolerance(rtol, rtol * alpha**2)
+        speeds = {load: cycle.speed(tolerance, Contact(load)) for load in LOADS}
     except (ConvergenceError, UnresolvedError):
         return {}
     return {load: (v.mean / alpha**2, v.error / alpha**2) for load, v in speeds.items()}

@@ -20,13 +20,13 @@ import skfem
 
 from fem_check.shell.cycle.speed import cycle_speed
 from fem_check.shell.effects.koiter import Membrane
-from fem_check.shell.scene.material import Material
-from fem_check.shell.scene.scene import Scene
+from fem_check.shell.material import Material
 from figures import output
 from figures.records import write_rows
 from linear_theory.common.errors import ViscousRegimeWarning
 from linear_theory.common.records import read_rows
 from linear_theory.line.finite import line_cycle_speed
+from linear_theory.scene.scene import Scene
 from linear_theory.sheet.rectangle import Sheet
 from linear_theory.wave.travelling import SineWave
 

@@ -25,7 +25,7 @@ from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
 from figures import output, regimes_table, style
-from linear_theory.speed.result import DRY_RATIO, VISCOUS_RATIO
+from linear_theory.friction.regime import DRY_RATIO, VISCOUS_RATIO
 
 Array = NDArray[np.float64]
 

@@ -25,8 +25,7 @@ from fem_check.shell.cycle.speed import cycle_speed
 from fem_check.shell.effects.friction import Friction
 from fem_check.shell.effects.gravity import Gravity
 from fem_check.shell.effects.koiter import Membrane
-from fem_check.shell.scene.material import Material
-from fem_check.shell.scene.scene import Scene
+from fem_check.shell.material import Material
 from fem_check.shell.stepping.simulation import simulate
 from figures import output
 from figures.records import write_rows
@@ -42,6 +41,8 @@ from linear_theory import (
     ritz_field,
 )
 from linear_theory.common.records import read_rows
+from linear_theory.friction.load import Load
+from linear_theory.scene.scene import Scene
 
 PATH = Path(__file__).parent / "data" / "regimes.csv"
 COMMAND = "python -m figures.regimes_table"
@@ -120,7 +121,7 @@ def nonlinear(law: Law, rtol: float) -> CrawlSpeed:
 
 def stepped(law: Law, steps: int = STEPS) -> CrawlSpeed:
     """A ramp of half a period and one period, with the error of the mesh."""
-    effects = (MEMBRANE, Gravity(WEAK, "current"), Friction(1.0, law["slip_speed"]))
+    effects = (MEMBRANE, Gravity(WEAK, Load.CURRENT), Friction(1.0, law["slip_speed"]))
     scene = Scene(SHEET, WAVE, ALPHA, effects=effects)
     return simulate(scene, periods=1, steps=steps, mesh_error=True).speed
 

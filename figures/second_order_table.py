@@ -21,13 +21,16 @@ import skfem
 
 from fem_check.shell.cycle.speed import Cycle
 from fem_check.shell.effects.koiter import Membrane
-from fem_check.shell.scene.material import Material
-from fem_check.shell.scene.scene import Scene
+from fem_check.shell.material import Material
 from figures import output
 from figures.records import write_rows
 from linear_theory.common.records import read_rows
-from linear_theory.deformation.second.field import AREAS, GROWTH_LAWS
-from linear_theory.friction.law import LOADS
+from linear_theory.common.tolerance import Tolerance
+from linear_theory.friction.contact import Contact
+from linear_theory.friction.load import WEIGHTS as LOADS
+from linear_theory.growth.growth import Reference
+from linear_theory.growth.laws import GROWTH_LAWS
+from linear_theory.scene.scene import Scene
 from linear_theory.sheet.rectangle import Sheet
 from linear_theory.speed.second_order import second_order
 from linear_theory.wave.travelling import SineWave, TravellingWave
@@ -114,7 +117,7 @@ class Row:
 
 def cases() -> Iterator[Case]:
     """All rows of the table."""
-    models = list(itertools.product(GROWTH_LAWS, AREAS, LOADS))
+    models = list(itertools.product(GROWTH_LAWS, Reference, LOADS))
     for sheet, model in itertools.product((*SINES, *PULSES), models):
         yield Case(*sheet, *model)
 
@@ -165,7 +168,7 @@ def odd_and_even(case: Case, alpha: float, rtol: float) -> tuple[float, float, f
 def nonlinear_speed(case: Case, alpha: float, rtol: float) -> tuple[float, float]:
     """Mean speed and its error, L/T; with an absolute tolerance where V_2 is next to 0."""
     cycle = cycle_of(replace(case, load=LOADS[0]), alpha)
-    speed = cycle.speed(case.load, rtol=rtol, atol=0.1 * rtol * alpha**2)
+    speed = cycle.speed(Tolerance(rtol, 0.1 * rtol * alpha**2), Contact.named(case.load))
     return speed.mean, speed.error
 
 

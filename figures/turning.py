@@ -22,10 +22,10 @@ from matplotlib.ticker import MultipleLocator
 from numpy.typing import NDArray
 
 from fem_check.shell.cycle.speed import cycle_speed
-from fem_check.shell.scene.scene import Scene
 from figures import output, style
 from figures.turning_table import ALPHA, SHEET, WAVES, Row, membrane, read
 from linear_theory import crawl_speed, rigid_path, ritz_field
+from linear_theory.scene.scene import Scene
 from linear_theory.speed import path as paths
 
 Array = NDArray[np.float64]

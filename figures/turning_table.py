@@ -18,12 +18,13 @@ from numpy.typing import ArrayLike, NDArray
 from fem_check.shell.effects.friction import Friction
 from fem_check.shell.effects.gravity import Gravity
 from fem_check.shell.effects.koiter import Membrane
-from fem_check.shell.scene.material import Material
-from fem_check.shell.scene.scene import Scene
+from fem_check.shell.material import Material
 from fem_check.shell.stepping.simulation import simulate
 from figures import output
 from figures.records import write_rows
 from linear_theory.common.records import read_rows
+from linear_theory.friction.load import Load
+from linear_theory.scene.scene import Scene
 from linear_theory.sheet.rectangle import Sheet
 from linear_theory.speed.path import Poses
 from linear_theory.wave.given import FieldWave
@@ -109,7 +110,7 @@ def rows(name: str, periods: int) -> list[Row]:
 
 def stepped(name: str, periods: int, steps: int) -> Poses:
     """Poses at the start of the ramp, at its end, from which they are seen, and at ends of periods."""
-    effects = (membrane(), Gravity(WEAK * SHEET.thickness, "current"), Friction(1.0, SLIP))
+    effects = (membrane(), Gravity(WEAK * SHEET.thickness, Load.CURRENT), Friction(1.0, SLIP))
     scene = Scene(SHEET, WAVES[name], ALPHA, effects=effects, cells=CELLS)
     return simulate(scene, periods, steps=steps, ramp=1.0, keep_every=steps).path.seen_from(1)
 

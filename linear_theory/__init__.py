@@ -6,9 +6,16 @@ from linear_theory.common.errors import (
     SheetcrawlError,
     ViscousRegimeWarning,
 )
+from linear_theory.common.tolerance import Tolerance
 from linear_theory.common.version import current_version
 from linear_theory.deformation.airy import AirySeries, airy_series
 from linear_theory.deformation.ritz import RitzField, ritz_field
+from linear_theory.friction.contact import Contact
+from linear_theory.friction.laws import Coulomb, FrictionLaw, Tanh, Viscous
+from linear_theory.friction.load import Load
+from linear_theory.growth.bilayer import bilayer
+from linear_theory.growth.growth import Growth
+from linear_theory.growth.laws import Exp, GrowthLaw, Linear, Metric
 from linear_theory.line import (
     LAPLACE_LIMIT,
     line_balance,
@@ -20,10 +27,12 @@ from linear_theory.line import (
     line_speed_tanh,
     line_speed_viscous,
 )
+from linear_theory.scene.scene import Scene
 from linear_theory.sheet.rectangle import Sheet
-from linear_theory.speed.crawl import crawl_speed, field_speed, friction_field
+from linear_theory.speed.crawl import crawl_speed, field_speed
+from linear_theory.speed.friction_field import friction_field
 from linear_theory.speed.path import rigid_path
-from linear_theory.speed.result import CrawlSpeed
+from linear_theory.speed.result import CrawlSpeed, Estimate
 from linear_theory.speed.second_order import SecondOrder, second_order
 from linear_theory.speed.si import Scale, speed_si
 from linear_theory.wave.given import FieldWave
@@ -36,18 +45,33 @@ __all__ = [
     "LAPLACE_LIMIT",
     "AirySeries",
     "BeyondReachWarning",
+    "Contact",
+    "Coulomb",
     "CrawlSpeed",
+    "Estimate",
+    "Exp",
     "FieldWave",
+    "FrictionLaw",
+    "Growth",
+    "GrowthLaw",
+    "Linear",
+    "Load",
+    "Metric",
     "NotConvergedError",
     "RitzField",
     "Scale",
+    "Scene",
     "SecondOrder",
     "Sheet",
     "SheetcrawlError",
     "SineWave",
+    "Tanh",
+    "Tolerance",
     "TravellingWave",
+    "Viscous",
     "ViscousRegimeWarning",
     "airy_series",
+    "bilayer",
     "crawl_speed",
     "field_speed",
     "friction_field",

@@ -9,14 +9,14 @@ from scipy.interpolate import CubicSpline
 
 from fem_check import cycle_speed
 from fem_check.shell.cycle.shapes import cycle_of_shapes
-from fem_check.shell.scene.scene import Scene
 from fem_check.shell.statics.ellipticity import edge_limit
 from fem_check.shell.statics.equilibrium import ConvergenceError
 from figures import regimes, regimes_table, turning_table
 from figures.cycles import planar_scene
 from figures.reach_table import LIMIT_STEP
 from linear_theory import Sheet, SineWave, ViscousRegimeWarning, crawl_speed, rigid_path
-from linear_theory.speed.result import DRY_RATIO, VISCOUS_RATIO
+from linear_theory.friction.regime import DRY_RATIO, VISCOUS_RATIO
+from linear_theory.scene.scene import Scene
 from paper.number import SHEET, SHOWN_ALPHA, WAVE, Number, Numbers
 
 MESHES = (8, 16)
@@ -61,8 +61,8 @@ def boundaries() -> Numbers:
     origin = "figures.regimes.boundaries, nonlinear sheet, alpha = 0.1, over alpha L/T"
     small, large = regimes.limits(table, "linear"), regimes.limits(table, "line")
     return {
-        "regime.ratio_dry": Number(DRY_RATIO, "linear_theory.speed.result.DRY_RATIO"),
-        "regime.ratio_viscous": Number(VISCOUS_RATIO, "linear_theory.speed.result.VISCOUS_RATIO"),
+        "regime.ratio_dry": Number(DRY_RATIO, "linear_theory.friction.regime.DRY_RATIO"),
+        "regime.ratio_viscous": Number(VISCOUS_RATIO, "linear_theory.friction.regime.VISCOUS_RATIO"),
         "regime.dry_up_to": Number(ends[0], origin),
         "regime.viscous_from": Number(ends[1], origin),
         "regime.gone_dry": Number(float(gone[0]), "share of dry - viscous lost at dry_up_to"),

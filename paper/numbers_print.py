@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
-from fem_check.shell.scene.growth import bilayer
+from linear_theory.growth.bilayer import bilayer
 from paper.number import SHEET, Number, Numbers
 
 Array = NDArray[np.float64]

@@ -36,7 +36,7 @@ from linear_theory import (
     crawl_speed,
     line_balance,
 )
-from linear_theory.friction.law import LOADS
+from linear_theory.friction.load import WEIGHTS as LOADS
 
 REFUSALS = (ValueError, NotConvergedError, ConvergenceError, UnresolvedError)
 LAWS = ("exp", "linear", "metric")

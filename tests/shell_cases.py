@@ -22,7 +22,7 @@ from fem_check.shell.kinematics.discretisation import Discretisation
 from fem_check.shell.kinematics.rest_state import grown_state
 from fem_check.shell.kinematics.supports import Supports
 from fem_check.shell.kinematics.surface import AnnulusSector, Cylinder, Flat, Surface
-from fem_check.shell.scene.material import Material
+from fem_check.shell.material import Material
 from fem_check.shell.statics.equilibrium import Equilibrium
 from fem_check.shell.statics.newton import Minimiser
 from fem_check.shell.statics.potential import Load, Potential

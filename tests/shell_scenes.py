@@ -7,9 +7,9 @@ from fem_check.shell.effects.friction import Friction
 from fem_check.shell.effects.gravity import Gravity
 from fem_check.shell.effects.ground import Ground
 from fem_check.shell.effects.koiter import Bending, Membrane
-from fem_check.shell.scene.material import Material
-from fem_check.shell.scene.scene import Scene
+from fem_check.shell.material import Material
 from linear_theory import FieldWave, Sheet, SineWave
+from linear_theory.scene.scene import Scene
 
 PAPER = Sheet()
 MATERIAL = Material(PAPER.thickness, PAPER.poisson)

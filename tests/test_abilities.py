@@ -19,9 +19,9 @@ from fem_check import (
     predict,
     simulate,
 )
+from fem_check.shell.abilities import CYCLE, LEVELS, STEPPED, WEAK, WORDS, friction_over_growth
 from fem_check.shell.cycle.contact import Contact
 from fem_check.shell.effects.koiter import Membrane as Stretching
-from fem_check.shell.scene.abilities import CYCLE, LEVELS, STEPPED, WEAK, WORDS, friction_over_growth
 from linear_theory import FieldWave, Sheet, SineWave, TravellingWave, ViscousRegimeWarning, rigid_path
 
 ALPHA, WEIGHT, SLIP = 0.1, 3e-7, 5e-4
@@ -72,7 +72,7 @@ BEYOND_A_CYCLE = {
     ),
     "current area": (
         r"Gravity\(area = 'current'\).*; Ground\(area = 'current'\)",
-        (BENDING, Gravity(WEIGHT, "current"), Ground(0.5, area="current"), FRICTION),
+        (BENDING, Gravity(WEIGHT, "current"), Ground(0.5, load="current"), FRICTION),
     ),
     "slope in space": (
         r"Gravity\(incline = 0.1\)",

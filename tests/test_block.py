@@ -6,6 +6,7 @@ import warnings
 
 import numpy as np
 import pytest
+from linear_theory.line.growth import GROWTH_LAWS
 from scipy import special
 
 from fem_check.answer.block import block
@@ -23,7 +24,6 @@ from linear_theory import (
     line_cycle_speed,
     pulse_wave,
 )
-from linear_theory.line.growth import GROWTH_LAWS
 
 MM = Units("mm", "s")
 NUMBER = r"([−\d.]+)"

@@ -27,7 +27,7 @@ from fem_check.predict.prediction import METHODS, predict
 from linear_theory import Sheet, SineWave, TravellingWave, pulse_wave
 from linear_theory.common.progress import Progress
 from linear_theory.deformation.second.field import AREAS, GROWTH_LAWS
-from linear_theory.friction.law import LAWS, LOADS
+from linear_theory.friction.laws import LAWS, LOADS
 from tests.processes import interruptible
 
 SPEED = ("speed", "--growth", "5 %")

@@ -18,7 +18,7 @@ from linear_theory import (
     ritz_field,
 )
 from linear_theory.balance.period import Crawl, first_resolution
-from linear_theory.friction.law import FrictionLaw
+from linear_theory.friction.laws import Coulomb, Tanh, Viscous
 from tests import reference_balance
 
 PAPER = Sheet()
@@ -33,7 +33,7 @@ def paper_field():
 
 def rigid(field, alpha, times, load="current", law=None, rtol=1e-7):
     """V_x, V_y, Omega at given times, (times, 3), without any use of symmetry in time."""
-    crawl = Crawl(field, alpha, load, law or FrictionLaw(), first_resolution(rtol))
+    crawl = Crawl(field, alpha, load, law or Coulomb(), first_resolution(rtol))
     motion = crawl.balance(np.asarray(times, float))
     return alpha * (motion.leading + alpha * motion.remainder)
 
@@ -52,13 +52,13 @@ def test_viscous_friction_is_a_weighted_mean(paper_field):
     strain, v = paper_field.strain(x, y, 0.2), 0.3 * paper_field.velocity(x, y, 0.2)
     weight = 1 + 0.3 * (strain[0] + strain[1])
     exact = -np.sum(weight * v[1]) / np.sum(weight)
-    found = rigid(paper_field, 0.3, [0.2], law=FrictionLaw("viscous"))[0, 1]
+    found = rigid(paper_field, 0.3, [0.2], law=Viscous())[0, 1]
     assert found == pytest.approx(exact, abs=1e-6)  # midpoint rule, h^2/24 of the second derivatives
 
 
 @pytest.mark.parametrize("slip", [0.01, 0.1, 1.0])
 def test_tanh_law_solves_its_balance(paper_field, slip):
-    found = rigid(paper_field, 0.25, [0.06], law=FrictionLaw("tanh", slip))[0, 1]
+    found = rigid(paper_field, 0.25, [0.06], law=Tanh(slip))[0, 1]
     literal = reference_balance.speed_at(paper_field, 0.25, 0.06, force=lambda r: np.tanh(r / slip) / r)
     assert found == pytest.approx(literal, abs=2e-6)
 

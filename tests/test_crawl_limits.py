@@ -5,7 +5,7 @@ import pytest
 
 from linear_theory import FieldWave, Sheet, SineWave, TravellingWave, crawl_speed, ritz_field
 from linear_theory.balance.period import Crawl
-from linear_theory.friction.law import FrictionLaw
+from linear_theory.friction.laws import Tanh
 
 PAPER = Sheet()
 SINE = SineWave()
@@ -51,7 +51,7 @@ def test_a_field_solved_for_at_each_time_counts_as_work():
 def test_slip_speeds_of_any_size_make_finite_forces():
     speeds = np.array([1e-30, 0.1, 1e5])
     for slip in (5e-324, 1e-320, 1e-110, 1e308):
-        law = FrictionLaw("tanh", slip)
+        law = Tanh(slip)
         ratio, slope = law.ratio(speeds), law.ratio_slope(speeds)
         np.testing.assert_allclose(ratio, np.tanh(np.minimum(speeds / max(slip, 1e-300), 50)) / speeds)
         dry = slip < 1e-30

@@ -12,10 +12,10 @@ from fem_check.shell.cycle.speed import cycle_speed
 from fem_check.shell.effects.friction import Friction
 from fem_check.shell.effects.gravity import Gravity
 from fem_check.shell.effects.koiter import Membrane
-from fem_check.shell.scene.material import Material
-from fem_check.shell.scene.scene import Scene
+from fem_check.shell.material import Material
 from fem_check.shell.stepping.simulation import simulate
 from linear_theory import FieldWave, crawl_speed, rigid_path, ritz_field
+from linear_theory.scene.scene import Scene
 from linear_theory.speed.path import Path, Poses
 from tests.path_cases import PAPER, Array, Growth, oblique, theory, unequal
 

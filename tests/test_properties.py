@@ -20,8 +20,7 @@ from fem_check.shell.cycle.speed import cycle_speed
 from fem_check.shell.effects.friction import Friction
 from fem_check.shell.effects.gravity import Gravity
 from fem_check.shell.effects.koiter import Membrane
-from fem_check.shell.scene.material import Material
-from fem_check.shell.scene.scene import Scene
+from fem_check.shell.material import Material
 from fem_check.shell.statics.equilibrium import ConvergenceError
 from fem_check.shell.statics.newton import Minimiser
 from fem_check.shell.stepping.simulation import simulate
@@ -38,6 +37,7 @@ from linear_theory import (
 )
 from linear_theory.balance.period import Crawl
 from linear_theory.common.errors import BeyondReachWarning, ViscousRegimeWarning
+from linear_theory.scene.scene import Scene
 from tests import reference_line
 
 LIMITS = (NotConvergedError, ConvergenceError, UnresolvedError)

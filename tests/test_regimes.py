@@ -11,7 +11,6 @@ from scipy.integrate import solve_ivp
 from fem_check.shell.cycle.speed import cycle_speed
 from fem_check.shell.effects.inertia import Inertia
 from fem_check.shell.effects.koiter import Membrane
-from fem_check.shell.scene.scene import Scene
 from fem_check.shell.stepping.simulation import simulate
 from figures import regimes, regimes_table
 from linear_theory import (
@@ -29,7 +28,8 @@ from linear_theory import (
     line_speed_viscous,
     ritz_field,
 )
-from linear_theory.speed.result import DRY_RATIO, VISCOUS_RATIO, regime_of
+from linear_theory.friction.regime import DRY_RATIO, VISCOUS_RATIO, regime_of
+from linear_theory.scene.scene import Scene
 from tests.shell_scenes import MATERIAL, planar
 
 PAPER, SINE = Sheet(), SineWave()

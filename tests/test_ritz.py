@@ -6,12 +6,12 @@ import sympy as sp
 
 from linear_theory import Sheet, SineWave, TravellingWave
 from linear_theory.common.errors import NotConvergedError
-from linear_theory.deformation.load_cases import phases
 from linear_theory.deformation.ritz import field as ritz
 from linear_theory.deformation.ritz import ritz_field
 from linear_theory.motion.motion import CellGrid
 from linear_theory.sheet import hooke
 from linear_theory.wave.given import FieldWave
+from linear_theory.wave.phases import phases
 
 SHEETS = [
     Sheet(),

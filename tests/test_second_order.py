@@ -6,15 +6,14 @@ import numpy as np
 import pytest
 import skfem
 import sympy
+from fem_check.shell.scene.growth import metric_factor
 from skfem.helpers import ddot, grad
 
 from fem_check.plane_stress.solver import PlaneStressSolver
 from fem_check.shell.cycle.frame import BodyFrame
 from fem_check.shell.cycle.shapes import cycle_of_shapes
 from fem_check.shell.effects.koiter import Membrane
-from fem_check.shell.scene.growth import metric_factor
-from fem_check.shell.scene.material import Material
-from fem_check.shell.scene.scene import Scene
+from fem_check.shell.material import Material
 from figures import second_order_table as table
 from linear_theory import Sheet, SineWave, TravellingWave, crawl_speed, second_order
 from linear_theory.deformation.ritz import RitzField
@@ -25,7 +24,8 @@ from linear_theory.deformation.second.field import (
     SecondOrderField,
     second_order_field,
 )
-from linear_theory.friction.law import FrictionLaw
+from linear_theory.friction.laws import Coulomb
+from linear_theory.scene.scene import Scene
 from linear_theory.speed.second_order import checked_model, coefficients, leading_period
 
 PAPER, SINE = Sheet(), SineWave()
@@ -202,7 +202,7 @@ def test_error_estimate_is_honest(sheet, wave, options):
 
 
 def test_error_of_coarse_polynomials_is_honest():
-    law = FrictionLaw()
+    law = Coulomb()
     exact = leading_period(second_order_field(PAPER, SINE, rtol=1e-6), "current", law, 1e-3)
     for degree in ((5, 9), (7, 11), (9, 15)):
         field = SecondOrderField(RitzField(SINE, RitzSolver(PAPER, degree)))
@@ -273,7 +273,7 @@ def test_no_growth_no_motion():
 def test_a_sheet_that_rests_has_no_second_coefficient():
     field, model = (
         second_order_field(PAPER, SINE),
-        checked_model("exp", "grown", "current", FrictionLaw()),
+        checked_model("exp", "grown", "current", Coulomb()),
     )
     period = leading_period(field, model.load, model.law, 1e-2)
     assert coefficients(field, period, model, 0.0).second == pytest.approx(1.533, rel=1e-2)

@@ -8,14 +8,14 @@ from fem_check.shell.cycle.balance import CycleBalance
 from fem_check.shell.cycle.contact import Contact
 from fem_check.shell.cycle.shapes import cycle_of_shapes
 from fem_check.shell.effects.koiter import Membrane
-from fem_check.shell.scene.material import Material
-from fem_check.shell.scene.scene import Scene
+from fem_check.shell.material import Material
 from linear_theory import FieldWave, Sheet, SineWave, TravellingWave, crawl_speed, second_order
 from linear_theory.balance.period import Resolution
 from linear_theory.deformation.load_cases import mixed_norms
 from linear_theory.deformation.ritz import ritz_field
 from linear_theory.deformation.second.field import SecondOrderField, second_order_field
-from linear_theory.friction.law import FrictionLaw
+from linear_theory.friction.laws import Coulomb, Viscous
+from linear_theory.scene.scene import Scene
 from linear_theory.speed.second_order import TINY_ALPHA, _Coefficients
 from linear_theory.wave.survey import WaveSurvey
 
@@ -72,7 +72,7 @@ def nonlinear(wave, load, law, times, alpha, area="grown"):
 @pytest.mark.parametrize("area", ["grown", "undeformed"])
 def test_viscous_motion_is_that_of_the_nonlinear_sheet_at_every_time(name, area):
     """Smooth in alpha: both orders of all three components, the frame and the displaced arms."""
-    times, law = np.array([0.03, 0.11, 0.2, 0.37]), FrictionLaw("viscous")
+    times, law = np.array([0.03, 0.11, 0.2, 0.37]), Viscous()
     expected = nonlinear(WAVES[name], "current", law, times, 0.01, area)
     found = theory(WAVES[name], "current", law, times, area)
     # 4 x 6 cells; alpha^2 of the next order
@@ -81,7 +81,7 @@ def test_viscous_motion_is_that_of_the_nonlinear_sheet_at_every_time(name, area)
 
 @pytest.mark.parametrize("name", WAVES)
 def test_dry_motion_is_that_of_the_nonlinear_sheet(name):
-    times, law = np.array([0.03, 0.2, 0.37]), FrictionLaw()
+    times, law = np.array([0.03, 0.2, 0.37]), Coulomb()
     expected = nonlinear(WAVES[name], "grown", law, times, 0.01)
     found = theory(WAVES[name], "grown", law, times)
     # largest differences 6e-4 and 2.3e-3; 4e-5 and 1e-4 with 8 x 12 elements and alpha = 0.003

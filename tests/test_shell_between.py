@@ -6,11 +6,12 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from fem_check.shell.scene.scene import Scene
+from fem_check.shell.model import ShellModel
 from fem_check.shell.stepping.between import PROBES, between, probe_region
 from fem_check.shell.stepping.simulation import simulate
 from fem_check.shell.stepping.trajectory import Trajectory
 from linear_theory import FieldWave, SineWave, TravellingWave
+from linear_theory.scene.scene import Scene
 from tests.shell_scenes import lying, planar
 
 pytestmark = pytest.mark.filterwarnings("ignore::linear_theory.ViscousRegimeWarning")
@@ -38,7 +39,7 @@ def whole(request: pytest.FixtureRequest) -> Trajectory:
 
 def positions(trajectory: Trajectory) -> Array:
     """Of the vertices at the stored times, (times, components, vertices)."""
-    sheet = trajectory.scene.discretisation()
+    sheet = trajectory.model.discretisation
     region = sheet.points(sheet.mesh.p)
     return np.array([region.position(u, (0,))[0] for u in trajectory.states])
 
@@ -151,7 +152,7 @@ def test_a_sheet_at_rest_has_shapes_at_all_times() -> None:
 
 @pytest.mark.parametrize("scene", [planar(cells=(2, 4)), lying(cells=(1, 2))], ids=["many", "few"])
 def test_probes_lie_at_the_corners_and_far_from_each_other(scene: Scene) -> None:
-    sheet = scene.discretisation()
+    sheet = ShellModel(scene).discretisation
     points = probe_region(sheet).parameters.reshape(2, -1)
     assert points.shape[1] == min(PROBES, sheet.mesh.p.shape[1])
     corners = {tuple(p) for p in points.T if abs(p[0]) == 0.25 and abs(p[1]) == 0.5}

@@ -14,8 +14,7 @@ from fem_check.shell.cycle.speed import Cycle, cycle_speed
 from fem_check.shell.effects.gravity import Gravity
 from fem_check.shell.effects.ground import Ground
 from fem_check.shell.effects.koiter import Bending, Membrane
-from fem_check.shell.scene.material import Material
-from fem_check.shell.scene.scene import Scene
+from fem_check.shell.material import Material
 from fem_check.shell.statics.equilibrium import ConvergenceError
 from linear_theory import (
     FieldWave,
@@ -27,6 +26,7 @@ from linear_theory import (
     line_speed,
 )
 from linear_theory.line.finite import line_cycle_speed
+from linear_theory.scene.scene import Scene
 
 Array = NDArray[np.float64]
 

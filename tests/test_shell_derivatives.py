@@ -25,9 +25,10 @@ from fem_check.shell.kinematics.surface import (
     Surface,
     Trapezoid,
 )
-from fem_check.shell.scene.material import Material
+from fem_check.shell.material import Material
 from fem_check.shell.statics.potential import Load, Potential
 from fem_check.shell.statics.sparsity import Sparsity
+from linear_theory.growth.growth import Growth
 
 Array = NDArray[np.float64]
 
@@ -80,7 +81,9 @@ MATERIALS = {"soft": Material(0.3, 0.5, 0.01), "stiff": Material(0.003, -0.3, 1e
 def test_koiter_in_space(element: str, surface: str, material: str, effect: type[Effect]) -> None:
     d = sheet(SHELL_ELEMENTS[element](), SURFACES[surface])
     rng = np.random.default_rng(len(element) + len(surface))
-    rest = grown_state(d.interior, rng.normal(size=d.interior.size), 0.2, 0.7)
+    rest = grown_state(
+        d.interior, rng.normal(size=d.interior.size), Growth(0.2, curvature_coupling=0.7)
+    )
     check(Potential(d, (effect(MATERIALS[material]),), rest), 0.02 * rng.normal(size=d.size), 0.02, 1)
 
 
@@ -107,7 +110,7 @@ PLANAR = [skfem.ElementQuad2, skfem.ElementTriP2, skfem.ElementTriP4, skfem.Elem
 def test_membrane_in_the_plane(element: Callable[[], object], material: str) -> None:
     d = sheet(element(), Trapezoid(0.5, 0.8), 2)
     rng = np.random.default_rng(2)
-    rest = grown_state(d.interior, rng.normal(size=d.interior.size), 0.2)
+    rest = grown_state(d.interior, rng.normal(size=d.interior.size), Growth(0.2))
     check(Potential(d, (Membrane(MATERIALS[material]),), rest), 0.01 * rng.normal(size=d.size), 0.01, 2)
 
 
@@ -133,8 +136,8 @@ def moving(d: Discretisation, seed: int) -> Step:
 
 CONTACT = {
     "ground": (Ground(0.5),),
-    "stiff ground": (Ground(5e4, area="current"),),
-    "damped ground": (Ground(2.0, damping=0.03, area="material"),),
+    "stiff ground": (Ground(5e4, load="current"),),
+    "damped ground": (Ground(2.0, damping=0.03, load="material"),),
     "damped ground, as printed": (Ground(2.0, damping=0.03, form="printed"),),
     "hill": (Ground(3.0, height=hill),),
     "damped hill": (Ground(3.0, damping=0.03, height=hill, form="printed"),),
@@ -162,7 +165,7 @@ def test_friction(components: int, slip: float, tilted: bool) -> None:
     d = sheet(skfem.ElementQuadBFS() if components == 3 else skfem.ElementQuad2(), None, components)
     step = moving(d, 7)
     step = Step(step.velocity, load=step.load, area=step.area, normal=step.normal if tilted else None)
-    bearer: Effect = Ground(1.0, area="material") if components == 3 else Gravity(1.0, "material")
+    bearer: Effect = Ground(1.0, load="material") if components == 3 else Gravity(1.0, "material")
     potential = Potential(d, (Friction(0.7, slip), bearer), None, step)
     u = 0.02 * np.random.default_rng(8).normal(size=d.size)
     u.reshape(-1, components)[:, -1] -= 0.3 if components == 3 else 0.0
@@ -187,7 +190,11 @@ def test_sums_of_effects_are_sums() -> None:
     """One evaluation of all effects equals the sum of the single ones, value by value."""
     d = sheet(skfem.ElementQuadBFS(), Cylinder(0.7))
     rng = np.random.default_rng(0)
-    u, step, rest = 0.02 * rng.normal(size=d.size), moving(d, 1), grown_state(d.interior, 0.3, 0.1, 1.0)
+    u, step, rest = (
+        0.02 * rng.normal(size=d.size),
+        moving(d, 1),
+        grown_state(d.interior, 0.3, Growth(0.1, curvature_coupling=1.0)),
+    )
     material = MATERIALS["soft"]
     effects = (Membrane(material), Bending(material), Ground(1.0), Gravity(1.0), Inertia(1.0, material))
     together = Potential(d, effects, rest, step)

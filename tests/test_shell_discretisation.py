@@ -20,7 +20,7 @@ from fem_check.shell.kinematics.surface import (
     Surface,
     Trapezoid,
 )
-from fem_check.shell.scene.material import Material, elastic_tensor
+from fem_check.shell.material import Material, elastic_tensor
 from fem_check.shell.statics import linear_solver
 from fem_check.shell.statics.potential import Potential
 from fem_check.shell.statics.sparsity import Sparsity

@@ -18,8 +18,7 @@ from fem_check.shell.kinematics.discretisation import Discretisation
 from fem_check.shell.kinematics.point_state import PointState
 from fem_check.shell.kinematics.rest_state import grown_state, tensor_state
 from fem_check.shell.kinematics.supports import Supports
-from fem_check.shell.scene.material import Material
-from fem_check.shell.scene.scene import Scene
+from fem_check.shell.material import Material
 from fem_check.shell.statics.ellipticity import (
     Ellipticity,
     acoustic_reserve,
@@ -31,6 +30,7 @@ from fem_check.shell.statics.newton import Minimiser
 from fem_check.shell.statics.potential import Potential
 from fem_check.shell.statics.ramp import ramp
 from linear_theory import Sheet, SineWave
+from linear_theory.scene.scene import Scene
 from tests.shell_cases import at
 
 Array = NDArray[np.float64]

@@ -15,11 +15,12 @@ from fem_check.shell.kinematics.point_state import PointState
 from fem_check.shell.kinematics.rates import Affine, Step, backward_euler, newmark, two_step
 from fem_check.shell.kinematics.rest_state import RestState, grown_state
 from fem_check.shell.kinematics.supports import Supports
-from fem_check.shell.scene.material import Material
+from fem_check.shell.material import Material
 from fem_check.shell.statics.newton import Minimiser
 from fem_check.shell.statics.potential import Potential
 from fem_check.shell.statics.ramp import ramp
 from linear_theory import SineWave
+from linear_theory.growth.growth import Growth
 from tests.shell_cases import affine, koiter, shell
 
 Array = NDArray[np.float64]
@@ -40,7 +41,7 @@ def at_rest(d: Discretisation, u: Array, rest: RestState, step: Step | None = No
 def test_a_sheet_lies_at_its_static_depth(area: str) -> None:
     """sqrt(rho g/k) = 0.022 L = 0.75 h with the paper's numbers (F5); the ground carries the weight."""
     d = shell("bfs", (-0.25, 0.25, 2), (-0.5, 0.5, 4))
-    gravity, ground = Gravity(WEIGHT, area), Ground(STIFFNESS, area=area)
+    gravity, ground = Gravity(WEIGHT, area), Ground(STIFFNESS, load=area)
     rest = grown_state(d.interior)
     start = 1.3 * lying(d)
     minimiser = Minimiser(Supports(d).anchor(motions="xy"))
@@ -60,7 +61,7 @@ def test_the_ground_carries_the_weight_of_a_bent_sheet() -> None:
     minimiser = Minimiser(Supports(d).anchor(motions="xy"))
 
     def rest(s: float) -> RestState:
-        return grown_state(d.interior, c, 0.05 * s, 2.0 * s)
+        return grown_state(d.interior, c, Growth(0.05 * s, curvature_coupling=2.0 * s))
 
     result = ramp(minimiser, lambda s: Potential(d, effects, rest(s)), lying(d))
     state = at_rest(d, result.state, rest(1))
@@ -209,7 +210,7 @@ def test_a_planar_block_is_slowed_down_by_its_friction() -> None:
 def test_weight_may_count_three_areas() -> None:
     """A sheet of stretch 1.2, its rest state grown by 1.1: 1, 1.21 and 1.44 of the undeformed area."""
     d = shell("bfs", (0, 1, 2), (0, 1, 2))
-    rest = grown_state(d.interior, 1.0, 0.1, law="linear")
+    rest = grown_state(d.interior, 1.0, Growth(0.1, law="linear"))
     u = affine(d, 0.2 * np.eye(3)[:, :2], np.zeros(3))
     current = PointState(d.interior, u, (1, 2)).area
     state = PointState(d.interior, u, (0,), rest, Step(area=current))

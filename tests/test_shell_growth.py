@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 import skfem
+from fem_check.shell.scene.growth import GROWTH_LAWS, bilayer, metric_factor
 from numpy.typing import NDArray
 
 from fem_check.shell.effects.koiter import Membrane
@@ -11,12 +12,12 @@ from fem_check.shell.kinematics.point_state import PointState
 from fem_check.shell.kinematics.rest_state import RestState, grown_state, tensor_state
 from fem_check.shell.kinematics.supports import Supports
 from fem_check.shell.kinematics.surface import AnnulusSector, Cylinder
-from fem_check.shell.scene.growth import GROWTH_LAWS, bilayer, metric_factor
-from fem_check.shell.scene.material import Material
+from fem_check.shell.material import Material
 from fem_check.shell.statics.newton import Minimiser
 from fem_check.shell.statics.potential import Potential
 from fem_check.shell.statics.ramp import ramp
 from linear_theory import SineWave
+from linear_theory.growth.growth import Growth
 from tests.shell_cases import koiter, shell
 
 Array = NDArray[np.float64]
@@ -90,13 +91,13 @@ def test_rest_states(area: str) -> None:
     )
     region = d.interior
     c = np.linspace(-1, 1, region.size)
-    rest = grown_state(region, c, 0.2, 3.0, area=area)
+    rest = grown_state(region, c, Growth(0.2, curvature_coupling=3.0, energy_area=area))
     np.testing.assert_allclose(rest.abar, np.exp(0.4 * c) * region.metric)
     np.testing.assert_allclose(rest.bbar, region.curvature - 3 * c * rest.abar)
     measure = np.exp(0.4 * c) * region.measure
     np.testing.assert_allclose(rest.grown_area, measure)
     np.testing.assert_allclose(rest.measure, measure if area == "grown" else region.measure)
-    other = grown_state(region, c, 0.2, 3.0, curvature="undeformed")
+    other = grown_state(region, c, Growth(0.2, curvature_coupling=3.0, curvature="undeformed"))
     np.testing.assert_allclose(other.bbar, region.curvature - 3 * c * region.metric)
 
 
@@ -127,7 +128,7 @@ def test_uniform_growth_of_a_planar_ring() -> None:
     supports = Supports(ring)
     supports.held[ring.dofs_at((0.6, 0))["u"]] = True
     supports.held[ring.dofs_at((1.0, 0))["u"], 1] = True
-    rest = grown_state(ring.interior, 1.0, 0.1)
+    rest = grown_state(ring.interior, 1.0, Growth(0.1))
     result = Minimiser(supports).minimise(
         Potential(ring, (Membrane(Material(0.1, 0.3)),), rest), ring.zeros()
     )
@@ -190,7 +191,10 @@ def test_equal_bilayer_bends_to_its_curvature() -> None:
     alpha, curvature = bilayer(eps, h)
     d = shell("bfs", (-0.02, 0.02, 1), (-0.5, 0.5, 8))
     result = grown(
-        d, Material(h, 0.0), lambda s: grown_state(d.interior, 1.0, alpha * s, curvature * s), first=0.5
+        d,
+        Material(h, 0.0),
+        lambda s: grown_state(d.interior, 1.0, Growth(alpha * s, curvature_coupling=curvature * s)),
+        first=0.5,
     )
     state = PointState(d.interior, result.state, (1, 2, 3, 4, 5))
     along = state.curvature[1] / state.metric[1]
@@ -212,7 +216,9 @@ def test_planar_waves_on_four_kinds_of_element_agree(law: str) -> None:
         d = Discretisation(mesh, element, components=2)
         c = SineWave().value(*d.interior.parameters.reshape(2, -1), 0.1)
         result = grown(
-            d, Material(0.03, 0.5), lambda s, d=d, c=c: grown_state(d.interior, c, 0.25 * s, law=law)
+            d,
+            Material(0.03, 0.5),
+            lambda s, d=d, c=c: grown_state(d.interior, c, Growth(0.25 * s, law=law)),
         )
         energies.append(result.energy)
         assert not result.buckled

@@ -5,6 +5,8 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 import skfem
+from fem_check.shell.scene.growth import bilayer, metric_factor
+from fem_check.shell.scene.scene import Scene, default_cells
 
 from fem_check.shell.effects.friction import Friction
 from fem_check.shell.effects.gravity import Gravity
@@ -17,13 +19,12 @@ from fem_check.shell.kinematics.rates import Affine, Step, backward_euler
 from fem_check.shell.kinematics.rest_state import grown_state, tensor_state
 from fem_check.shell.kinematics.supports import Supports
 from fem_check.shell.kinematics.surface import Cylinder, SpherePart, Trapezoid
-from fem_check.shell.scene.growth import bilayer, metric_factor
-from fem_check.shell.scene.material import Material
-from fem_check.shell.scene.scene import Scene, default_cells
+from fem_check.shell.material import Material
 from fem_check.shell.statics.newton import Minimiser
 from fem_check.shell.statics.potential import Load, Potential
 from fem_check.shell.statics.ramp import ramp
 from linear_theory import Sheet, SineWave
+from linear_theory.growth.growth import Growth
 from tests.shell_cases import at, koiter, shell
 
 PAPER = Material(0.03, 0.5)
@@ -102,7 +103,10 @@ CASES: dict[str, tuple[str, Callable[[], object]]] = {
     "young": ("young = -1: must be > 0", lambda: Material(0.1, 0.5, -1.0)),
     "poisson": ("poisson = 0.6", lambda: Material(0.1, 0.6)),
     "law": ("law = 'cubic'", lambda: metric_factor("cubic", 0.1, 0.0)),
-    "growth not finite": ("growth contains nan", lambda: grown_state(PLATE.interior, np.nan, 0.1)),
+    "growth not finite": (
+        "growth contains nan",
+        lambda: grown_state(PLATE.interior, np.nan, Growth(0.1)),
+    ),
     "growth that shrinks to nothing": (
         r"alpha \* growth = -1.2: must be > -1",
         lambda: metric_factor("linear", 1.2, -1.0),
@@ -119,10 +123,13 @@ CASES: dict[str, tuple[str, Callable[[], object]]] = {
         "bbar contains inf",
         lambda: tensor_state(PLATE.interior, [1, 1, 0], [np.inf, 0, 0]),
     ),
-    "measure": ("area = 'current'", lambda: grown_state(PLATE.interior, area="current")),
+    "measure": (
+        "area = 'current'",
+        lambda: grown_state(PLATE.interior, 0.0, Growth(0.0, energy_area="current")),
+    ),
     "curvature form": (
         "curvature = 'printed'",
-        lambda: grown_state(PLATE.interior, curvature="printed"),
+        lambda: grown_state(PLATE.interior, 0.0, Growth(0.0, curvature="printed")),
     ),
     "bilayer": ("thickness_ratio = 0", lambda: bilayer(0.1, 0.03, 0.0)),
     "weight": ("weight = 0: must be > 0", lambda: Gravity(0.0)),

@@ -9,9 +9,9 @@ from fem_check.shell.cycle.balance import STATIC_NOISE, CycleBalance
 from fem_check.shell.cycle.shapes import Shapes, _Solver, cycle_of_shapes
 from fem_check.shell.cycle.speed import cycle_speed
 from fem_check.shell.effects.koiter import Membrane
-from fem_check.shell.scene.material import Material
-from fem_check.shell.scene.scene import Scene
+from fem_check.shell.material import Material
 from linear_theory import Sheet, SineWave
+from linear_theory.scene.scene import Scene
 
 LIMIT = 1.5332
 """V/alpha^2 on these 4 x 8 elements, the same to four digits for alpha from 1e-3 to 1e-5."""

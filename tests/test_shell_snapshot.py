@@ -14,7 +14,6 @@ import pytest
 import skfem
 from numpy.typing import NDArray
 
-from fem_check.shell.scene.scene import Scene
 from fem_check.shell.statics.newton import Minimiser
 from fem_check.shell.stepping.paraview import write_paraview
 from fem_check.shell.stepping.power import Ledger
@@ -31,6 +30,7 @@ from fem_check.shell.stepping.snapshot import (
 from fem_check.shell.stepping.step_control import StepSize
 from fem_check.shell.stepping.trajectory import Trajectory
 from linear_theory import FieldWave
+from linear_theory.scene.scene import Scene
 from tests.processes import interruptible
 from tests.shell_scenes import lying, planar
 
@@ -267,8 +267,7 @@ def bump(height: float) -> Callable[[Array, Array], Array]:
 
 def on(ground: object) -> Scene:
     scene = lying(cells=(1, 2))
-    return replace(
-        scene,
+    return scene.but(
         effects=tuple(replace(e, height=ground) if hasattr(e, "height") else e for e in scene.effects),
     )
 
@@ -428,7 +427,7 @@ def test_other_versions_and_other_files_are_refused(tmp_path: Path, written: byt
         (planar(slip=2e-3), OPTIONS),
         (planar(cells=(2, 5)), OPTIONS),
         (planar(load="grown"), OPTIONS),
-        (replace(planar(), growth_law="linear"), OPTIONS),
+        (planar().but(growth_law="linear"), OPTIONS),
         (planar(), {**OPTIONS, "steps": 25}),
         (planar(), {**OPTIONS, "periods": 2}),
         (planar(), {**OPTIONS, "keep_every": 2}),

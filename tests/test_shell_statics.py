@@ -13,7 +13,7 @@ from fem_check.shell.kinematics import region
 from fem_check.shell.kinematics.discretisation import Discretisation
 from fem_check.shell.kinematics.rest_state import grown_state, tensor_state
 from fem_check.shell.kinematics.supports import Supports
-from fem_check.shell.scene.material import Material
+from fem_check.shell.material import Material
 from fem_check.shell.statics import newton
 from fem_check.shell.statics.equilibrium import ConvergenceError
 from fem_check.shell.statics.newton import Minimiser
@@ -21,6 +21,7 @@ from fem_check.shell.statics.orientation import Orientation
 from fem_check.shell.statics.potential import Load, Potential
 from fem_check.shell.statics.ramp import follow_mode, ramp
 from linear_theory import SineWave
+from linear_theory.growth.growth import Growth
 from tests.shell_cases import at, displacement, end_shear, koiter, shell
 
 Array = NDArray[np.float64]
@@ -35,7 +36,7 @@ def free_shell(alpha: float, n: int = 4) -> tuple[Minimiser, Callable[[float], P
     d = shell("bfs", (-0.25, 0.25, n), (-0.5, 0.5, 2 * n))
     c = wave(d, 0.25)
     return Minimiser(Supports(d).anchor()), lambda s: Potential(
-        d, koiter(PAPER), grown_state(d.interior, c, alpha * s)
+        d, koiter(PAPER), grown_state(d.interior, c, Growth(alpha * s))
     )
 
 
@@ -44,7 +45,7 @@ def planar(area: str = "grown") -> tuple[Minimiser, Callable[[float], Potential]
     d = Discretisation(mesh, skfem.ElementQuad2(), components=2)
     c = wave(d, 0.25)
     return Minimiser(Supports(d).anchor()), lambda s: Potential(
-        d, (Membrane(PAPER),), grown_state(d.interior, c, 0.25 * s, area=area)
+        d, (Membrane(PAPER),), grown_state(d.interior, c, Growth(0.25 * s, energy_area=area))
     )
 
 
@@ -174,7 +175,9 @@ def test_a_planar_scene_computes_no_second_derivatives(monkeypatch: pytest.Monke
     mesh = skfem.MeshQuad.init_tensor(np.linspace(-0.25, 0.25, 3), np.linspace(-0.5, 0.5, 5))
     d = Discretisation(mesh, skfem.ElementQuadBFS(), components=2)
     minimiser = Minimiser(Supports(d).anchor())
-    minimiser.minimise(Potential(d, (Membrane(PAPER),), grown_state(d.interior, 0.5, 0.1)), d.zeros())
+    minimiser.minimise(
+        Potential(d, (Membrane(PAPER),), grown_state(d.interior, 0.5, Growth(0.1))), d.zeros()
+    )
     assert orders
     assert max(orders) == 1
     assert not any(max(entries) > 2 for entries in d.interior._shapes)

@@ -18,14 +18,15 @@ from fem_check.shell.effects.loads import DeadLoad
 from fem_check.shell.kinematics import elements, region
 from fem_check.shell.kinematics.point_state import PointState
 from fem_check.shell.kinematics.rates import two_step
-from fem_check.shell.scene.material import Material
-from fem_check.shell.scene.scene import Scene
+from fem_check.shell.material import Material
+from fem_check.shell.model import ShellModel
 from fem_check.shell.statics.equilibrium import ConvergenceError
 from fem_check.shell.statics.newton import Minimiser
 from fem_check.shell.stepping.simulation import Progress, simulate
 from fem_check.shell.stepping.step_control import History, StepSize
 from fem_check.shell.stepping.trajectory import Trajectory
 from linear_theory import Sheet, SineWave, TravellingWave, ViscousRegimeWarning
+from linear_theory.scene.scene import Scene
 from tests.shell_scenes import MATERIAL, PAPER, STIFFNESS, WEIGHT, lying, planar
 
 ALPHA = 0.25
@@ -207,7 +208,7 @@ def test_the_ground_carries_the_weight_while_it_crawls(crawling: Trajectory) -> 
     scene, depth = crawling.scene, np.sqrt(WEIGHT / STIFFNESS)
     ground, gravity = scene.find(Ground), scene.find(Gravity)
     calm = replace(ground, damping=0.0)
-    points = scene.discretisation().interior
+    points = ShellModel(scene).discretisation.interior
     assert crawling.centre[2, 0] == pytest.approx(-depth, rel=1e-9)
     for t in (0.9, 1.3, 2.1):
         rest = scene.rest(t)
@@ -223,7 +224,7 @@ def test_the_ground_carries_the_weight_while_it_crawls(crawling: Trajectory) -> 
 def test_a_stiff_sheet_on_the_ground_agrees_with_its_cycle() -> None:
     """Friction 1e-3 of the stiffness: weight is what bends it, so mu is small and not the weight."""
     effects = [e for e in lying(slip=0.01).effects if not isinstance(e, Friction)]
-    scene = replace(lying(), effects=(*effects, Friction(1e-3, 0.01)))
+    scene = lying().but(effects=(*effects, Friction(1e-3, 0.01)))
     cycle = cycle_speed(scene, rtol=1e-2)
     speeds = [simulate(scene, steps=n, periods=1).speed.mean for n in (32, 64)]
     assert (4 * speeds[1] - speeds[0]) / 3 == pytest.approx(cycle.mean, rel=0.02)
@@ -232,7 +233,7 @@ def test_a_stiff_sheet_on_the_ground_agrees_with_its_cycle() -> None:
 def test_light_inertia_changes_little() -> None:
     """Mass times acceleration is 2 % of friction; the speed is that without it, and energy balances."""
     still = planar(0.1, slip=0.02, weight=WEIGHT)
-    heavy = replace(still, effects=(*still.effects, Inertia(1e-4, MATERIAL)))
+    heavy = still.but(effects=(*still.effects, Inertia(1e-4, MATERIAL)))
     expected, trajectory = (simulate(s, periods=1, steps=64) for s in (still, heavy))
     assert trajectory.speed.mean == pytest.approx(expected.speed.mean, rel=0.02)
     assert closure(trajectory) < 5e-3
@@ -288,7 +289,7 @@ def test_a_planar_scene_builds_nothing_of_a_shell(monkeypatch: pytest.MonkeyPatc
     trajectory = simulate(scene, periods=1, steps=8)
     assert scene.planar
     assert set(orders) == {1}
-    assert trajectory.states.shape[1] == 2 * scene.discretisation().scalars
+    assert trajectory.states.shape[1] == 2 * ShellModel(scene).discretisation.scalars
 
 
 def test_work_is_counted(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -320,11 +321,11 @@ def test_what_a_scene_names_decides_its_unknowns() -> None:
     assert flat.discretisation().components == 2
     assert isinstance(flat.discretisation().element, skfem.ElementQuadP)
     assert isinstance(bent.discretisation().element, skfem.ElementQuadBFS)
-    pushed = replace(flat, effects=(Membrane(MATERIAL), DeadLoad((0.0, 1.0))))
+    pushed = flat.but(effects=(Membrane(MATERIAL), DeadLoad((0.0, 1.0))))
     assert pushed.planar
-    assert not replace(flat, effects=(Membrane(MATERIAL), DeadLoad((0.0, 0.0, 1.0)))).planar
+    assert not flat.but(effects=(Membrane(MATERIAL), DeadLoad((0.0, 0.0, 1.0)))).planar
     triangles = skfem.MeshTri.init_tensor(np.linspace(-0.25, 0.25, 3), np.linspace(-0.5, 0.5, 5))
-    argyris = replace(bent, cells=None, mesh=triangles)
+    argyris = bent.but(cells=None, mesh=triangles)
     assert isinstance(argyris.discretisation().element, skfem.ElementTriArgyris)
 
 
@@ -396,12 +397,12 @@ def test_a_sheet_that_buckles_leaves_its_plane_and_says_so() -> None:
 )
 def test_bad_scenes(change: dict[str, object], message: str) -> None:
     with pytest.raises(ValueError, match=message):
-        replace(planar(), **change)
+        planar().but(**change)
 
 
 def test_bad_runs() -> None:
     with pytest.raises(ValueError, match=r"without Friction and Inertia.*cycle_speed"):
-        simulate(replace(planar(), effects=(Membrane(MATERIAL),)))
+        simulate(planar().but(effects=(Membrane(MATERIAL),)))
     for options, message in (
         ({"periods": 0}, "periods = 0"),
         ({"steps": 3}, "steps = 3"),
@@ -413,16 +414,14 @@ def test_bad_runs() -> None:
     ):
         with pytest.raises(ValueError, match=message):
             simulate(planar(), **options)
-    heavy = replace(planar(), effects=(*planar().effects, Inertia(1.0, MATERIAL)))
+    heavy = planar().but(effects=(*planar().effects, Inertia(1.0, MATERIAL)))
     with pytest.raises(ValueError, match=r"velocity has shape \(3,\)"):
         simulate(heavy, velocity=(0.0, 0.0, 1.0))
     with pytest.raises(TypeError, match="density"):
         Inertia(material=MATERIAL)
-    own = replace(
-        planar(), mesh=skfem.MeshQuad.init_tensor(np.linspace(-0.25, 0.25, 3), [-0.5, 0, 0.5])
-    )
+    own = planar().but(mesh=skfem.MeshQuad.init_tensor(np.linspace(-0.25, 0.25, 3), [-0.5, 0, 0.5]))
     with pytest.raises(ValueError, match="mesh_error = True"):
         simulate(own, periods=1, steps=8, mesh_error=True)
     with pytest.raises(ValueError, match="cells"):
-        replace(own, cells=(2, 2))
+        own.but(cells=(2, 2))
     assert Scene(Sheet(), SineWave(), 0.1, effects=(Membrane(MATERIAL),)).period == 1

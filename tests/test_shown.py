@@ -10,6 +10,7 @@ from functools import cache
 
 import numpy as np
 import pytest
+from fem_check.shell.scene.growth import Couplings
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -20,7 +21,6 @@ from fem_check.shell.cycle.shapes import cycle_of_shapes
 from fem_check.shell.cycle.speed import Cycle
 from fem_check.shell.effects.loads import EdgeMoment
 from fem_check.shell.kinematics.surface import AnnulusSector, Cylinder, Flat, SpherePart, Trapezoid
-from fem_check.shell.scene.growth import Couplings
 from fem_check.shell.statics.equilibrium import Equilibrium
 from fem_check.shell.stepping.run import Progress
 from linear_theory.common.shown import LINES, WIDTH, Shown, in_words, number, with_error

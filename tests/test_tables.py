@@ -97,7 +97,7 @@ def test_trajectory_over_time():
     t = float(motion.stored_times[5])
     places = labelled["position"].sel(stored_time=t)
     assert np.allclose(places, motion.positions(t), atol=1e-15)
-    assert np.array_equal(labelled["vertex_y"], motion.scene.discretisation().mesh.p[1])
+    assert np.array_equal(labelled["vertex_y"], motion.model.discretisation.mesh.p[1])
     assert labelled["position"].dims == ("stored_time", "component", "vertex")
 
 

@@ -15,10 +15,10 @@ from scipy.interpolate import RectBivariateSpline
 
 from fem_check.shell.effects.ground import Ground
 from fem_check.shell.effects.terrain import Terrain
-from fem_check.shell.scene.scene import Scene
 from fem_check.shell.stepping.simulation import simulate
 from linear_theory import Sheet
 from linear_theory.identity.content import content_key
+from linear_theory.scene.scene import Scene
 from tests.shell_scenes import lying
 
 pytestmark = pytest.mark.filterwarnings("ignore::linear_theory.ViscousRegimeWarning")
@@ -87,7 +87,7 @@ def test_differences_do_not_depend_on_the_unit_of_length(unit: float) -> None:
 def on(height: object, cells: tuple[int, int] = (1, 2)) -> Scene:
     scene = lying(cells=cells)
     effects = [replace(e, height=height) if isinstance(e, Ground) else e for e in scene.effects]
-    return replace(scene, effects=tuple(effects))
+    return scene.but(effects=tuple(effects))
 
 
 def test_a_bumpy_floor_in_three_spellings_is_one_floor() -> None:
@@ -226,7 +226,7 @@ def test_a_scene_checks_its_ground_once_per_sheet(monkeypatch: pytest.MonkeyPatc
 
     scene = on(height)
     count = len(calls)
-    again = replace(scene, alpha=0.01)
+    again = scene.but(alpha=0.01)
     assert len(calls) == count
     assert again.find(Ground).height is scene.find(Ground).height
     on(height)

@@ -14,6 +14,7 @@ from fem_check.answer.motion import heading, per_period, sideways_and_turning
 from fem_check.answer.rounding import measured, plain, rounded_up
 from fem_check.answer.units import Units
 from fem_check.answer.wave_words import arrows, wave_words
+from linear_theory.growth.laws import Exp
 
 if TYPE_CHECKING:
     from fem_check.predict.prediction import Prediction
@@ -50,7 +51,7 @@ def block(
     units: lengths L of the sheet and periods T of the wave unless given. hints: where to find more,
     after what is left out and after the cost.
     """
-    q = found.question
+    q = found.scene
     units = units or Units.of_sheet(q.sheet.length, q.wave.period)
     lines = [*_asked(found, units), *_answer(found, units), *_assumed(found, units, hints)]
     return "\n".join(_wrapped(label, text, width) for label, text in lines if text)
@@ -58,7 +59,7 @@ def block(
 
 def _asked(found: "Prediction", units: Units) -> Iterator[Line]:
     """The sheet, its wave and its growth."""
-    q = found.question
+    q = found.scene
     wave, sheet = arrows(q.wave, found.mean if abs(found.mean) > _error(found) else 0.0)
     sizes = (units.of_length(size) for size in (q.sheet.length, q.sheet.width, q.sheet.thickness))
     period = units.of_time(q.wave.period)
@@ -70,7 +71,7 @@ def _asked(found: "Prediction", units: Units) -> Iterator[Line]:
     if round(1e3 * most.trough):
         trough = f"{plain(100 * most.trough)} % in trough"
         growth = f"{growth.replace('the crest', 'crest')}, {trough}"
-    law = "" if q.growth_law == "exp" else f", law {q.growth_law!r}"
+    law = "" if q.growth.law == Exp() else f", law {q.growth.law.name!r}"
     yield sheet, f"{growth} (alpha = {plain(q.alpha, 4)}{law})"
 
 
@@ -84,9 +85,9 @@ def _answer(found: "Prediction", units: Units) -> Iterator[Line]:
     """Speed, direction, the other motions, and whether the tolerance is met."""
     error = _error(found)
     shown = measured(units.of_speed(found.mean), units.of_speed(error))
-    way = heading(found.question.wave, found.mean, error)
+    way = heading(found.scene.wave, found.mean, error)
     yield "speed", f"{shown.with_unit(units.speed)}, {way}; {per_period(found, units, error)}"
-    yield from sideways_and_turning(found.speed, found.question.wave, units)
+    yield from sideways_and_turning(found.speed, found.scene.wave, units)
     if found.speed.beyond_reach:
         yield "NO ANSWER", found.speed.reach
     elif not found.converged:
@@ -97,7 +98,7 @@ def _answer(found: "Prediction", units: Units) -> Iterator[Line]:
 def _missed(found: "Prediction") -> str:
     """That the tolerance is not met, and by how much; in per cent of the speed."""
     size = abs(found.mean) / 100
-    asked = f"the tolerance, {plain(found.goal.tolerance(found.mean) / size) if size else '0'} %"
+    asked = f"the tolerance, {plain(found.tolerance.allowed(found.mean) / size) if size else '0'} %"
     if math.isnan(found.error):
         return f"{asked}, is not known to be met: the distance to the nonlinear sheet is not known"
     return f"{asked}, is not met: the error is {rounded_up(found.error / size) if size else 'inf'} %"
@@ -134,12 +135,12 @@ def _assumed(found: "Prediction", units: Units, hints: tuple[str, str]) -> Itera
 
 def _friction(found: "Prediction", units: Units) -> str:
     """The regime and what it means."""
-    regime, slip = found.speed.regime, found.question.slip_speed
+    regime, law = found.speed.regime, found.scene.contact.friction
     sticks = "; part of the sheet rests at times" if found.speed.sticks else ""
     where = ""
-    if slip is not None and math.isfinite(found.speed.slip_ratio):
+    if law.regularised and math.isfinite(found.speed.slip_ratio):
         share = f"{plain(100 * found.speed.slip_ratio, 2)} % of the fastest slip"
-        where = f" (slip speed {plain(units.of_speed(slip))} {units.speed}, {share})"
+        where = f" (slip speed {plain(units.of_speed(law.width))} {units.speed}, {share})"
     means = {
         "dry": "any coefficient gives this speed while the sheet is stiff",
         "mixed": "between dry and viscous, so that the slip speed matters",

@@ -1,17 +1,15 @@
 """Growth as one measures it, a share of the length, and the coupling alpha of the theory."""
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from linear_theory.common import validation
 from linear_theory.deformation.field import Wave
-from linear_theory.line.growth import GROWTH_LAWS
+from linear_theory.growth.laws import GrowthLaw, growth_law
+from linear_theory.scene.scene import Scene
 from linear_theory.sheet.rectangle import Sheet
 from linear_theory.speed.reach import growths
-
-if TYPE_CHECKING:
-    from fem_check.predict.levels import Question
 
 POINTS = 33
 """Each way, at which growth of any shape is looked at."""
@@ -24,18 +22,18 @@ class Extremes(NamedTuple):
     trough: float
 
 
-def extremes(question: "Question") -> Extremes:
-    """Of the question's growth law, over the sheet and a period."""
-    c = question.alpha * _growth(question.wave, question.sheet)
-    stretch = GROWTH_LAWS[question.growth_law].stretch(np.array([c.max(), c.min()]))
+def extremes(scene: Scene) -> Extremes:
+    """Of a scene, over the sheet and a period."""
+    c = scene.alpha * _growth(scene.wave, scene.sheet)
+    stretch = scene.growth.law.stretch(np.array([c.max(), c.min()]))
     return Extremes(float(stretch[0] - 1), float(stretch[1] - 1))
 
 
-def alpha_of(crest: float, wave: Wave, sheet: Sheet, growth_law: str = "exp") -> float:
+def alpha_of(crest: float, wave: Wave, sheet: Sheet, law: GrowthLaw | str = "exp") -> float:
     """alpha > 0 with which lengths at the crest of the wave grow by the share `crest` > 0.
 
-    The stretch 1 + crest is exp(alpha c), 1 + alpha c or (1 + 2 alpha c)^(1/2) by the growth law, c at
-    its largest. Raises ValueError for other values and for a wave that is nowhere positive.
+    law: of growth, or its name; the stretch is 1 + crest where c is largest. Raises ValueError for
+    other values and for a wave that is nowhere positive.
 
     >>> import math
     >>> from fem_check.answer.growth import alpha_of
@@ -47,12 +45,7 @@ def alpha_of(crest: float, wave: Wave, sheet: Sheet, growth_law: str = "exp") ->
     largest = float(_growth(wave, sheet).max())
     if largest <= 0:
         raise ValueError(f"growth = {crest:g}: the wave has no crest, its largest c is {largest:g}")
-    strain = {
-        "exp": np.log1p(crest),
-        "linear": crest,
-        "metric": crest + crest**2 / 2,
-    }[validation.choice("growth_law", growth_law, tuple(GROWTH_LAWS))]
-    return float(strain / largest)
+    return growth_law(law).strain(crest) / largest
 
 
 def _growth(wave: Wave, sheet: Sheet) -> np.ndarray[tuple[int, ...], np.dtype[np.float64]]:

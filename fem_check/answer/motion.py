@@ -28,10 +28,10 @@ def heading(wave: Wave, mean: float, error: float) -> str:
 
 def per_period(found: "Prediction", units: Units, error: float) -> str:
     """The way of one period, in the unit of length, or as a share of the length L of the sheet."""
-    question = found.question
-    way, wrong = (size * question.wave.period for size in (found.mean, error))
-    if units == Units.of_sheet(question.sheet.length, question.wave.period):
-        share = (100 / question.sheet.length * size for size in (abs(way), wrong))
+    scene = found.scene
+    way, wrong = (size * scene.wave.period for size in (found.mean, error))
+    if units == Units.of_sheet(scene.sheet.length, scene.wave.period):
+        share = (100 / scene.sheet.length * size for size in (abs(way), wrong))
         return f"{measured(*share).value} % of L per period"
     shown = measured(units.of_length(abs(way)), units.of_length(wrong))
     return f"{shown.value} {units.length} per period"
@@ -39,9 +39,9 @@ def per_period(found: "Prediction", units: Units, error: float) -> str:
 
 def sideways_and_turning(speed: CrawlSpeed, wave: Wave, units: Units) -> Iterator[tuple[str, str]]:
     """Lines for a motion that is not mirror symmetric, none for others. Errors are of the numbers."""
-    if speed.rigid_mean is None or speed.rigid_error is None:
+    if speed.turning is None:
         return
-    (across, _, rate), (across_error, _, rate_error) = speed.rigid_mean, speed.rigid_error
+    (across, _, rate), (across_error, _, rate_error) = speed.turning.mean, speed.turning.error
     shown = measured(units.of_speed(across), units.of_speed(across_error))
     side = _side(across, across_error, "towards +x", "towards −x")
     yield "sideways", f"{shown.with_unit(units.speed)}{side} (numerical error)"

@@ -10,7 +10,8 @@ import numpy as np
 from fem_check.answer.growth import alpha_of
 from fem_check.answer.units import Units
 from fem_check.command.options import Options
-from fem_check.predict.levels import Question
+from linear_theory.friction.contact import Contact
+from linear_theory.scene.scene import Scene
 from linear_theory.sheet.rectangle import Sheet
 from linear_theory.wave.pulse import NARROWEST, pulse_wave
 from linear_theory.wave.travelling import SineWave, TravellingWave
@@ -57,7 +58,7 @@ class Asked(NamedTuple):
     units: None for plain numbers, which are told in units of the sheet.
     """
 
-    question: Question
+    scene: Scene
     rtol: float
     atol: float | None
     units: Units | None
@@ -74,18 +75,11 @@ def asked(options: Options) -> Asked:
     numbers = {name: _in(names, KINDS[name], one) for name, one in given.items()}
     sheet = _sheet(numbers, names is not None, options.poisson)
     wave = _wave(options, numbers.get("period", 1.0))
-    question = Question(
-        sheet,
-        wave,
-        _alpha(options, wave, sheet),
-        options.growth_law,
-        options.area,
-        options.load,
-        options.friction,
-        numbers.get("slip_speed"),
-    )
+    alpha, law = _alpha(options, wave, sheet), options.growth_law
+    contact = Contact.named(options.load, options.friction, numbers.get("slip_speed"))
+    scene = Scene(sheet, wave, alpha, growth_law=law, area=options.area, contact=contact)
     units = None if names is None else Units(f"{names[0]:~P}", f"{names[1]:~P}")
-    return Asked(question, share("rtol", options.rtol), numbers.get("atol"), units)
+    return Asked(scene, share("rtol", options.rtol), numbers.get("atol"), units)
 
 
 def quantity(name: str, text: str, kind: str) -> Quantity:

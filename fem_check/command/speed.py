@@ -46,21 +46,8 @@ def speed(options: Options) -> int:
 
 
 def _predicted(question: Asked, method: str, waiting: Waiting) -> Prediction:
-    q = question.question
-    return predict(
-        q.sheet,
-        q.wave,
-        q.alpha,
-        q.growth_law,
-        q.area,
-        q.load,
-        q.friction,
-        q.slip_speed,
-        question.rtol,
-        question.atol,
-        method,
-        progress=waiting.report,
-    )
+    rtol, atol = question.rtol, question.atol
+    return predict(question.scene, rtol=rtol, atol=atol, method=method, progress=waiting.report)
 
 
 def _told(found: Prediction, units: Units | None, options: Options) -> str:
@@ -86,7 +73,7 @@ def record(found: Prediction, units: Units | None) -> dict[str, Any]:
         "model_error": speed.model_error,
         "slip_ratio": speed.slip_ratio,
         "seconds": found.seconds,
-        "alpha": found.question.alpha,
+        "alpha": found.scene.alpha,
     }
     return {
         **{name: value if math.isfinite(value) else None for name, value in numbers.items()},

@@ -8,7 +8,6 @@ from numpy.typing import NDArray
 
 from fem_check.mesh import location as triangles
 from fem_check.output.moving import Course, Frame, direction, turned
-from fem_check.shell.effects.friction import Friction, load_bearer, tanh_ratio
 from fem_check.shell.effects.gravity import Gravity
 from fem_check.shell.effects.ground import Ground
 from fem_check.shell.kinematics.point_state import PointState
@@ -20,6 +19,9 @@ from linear_theory.speed.result import CrawlSpeed
 
 Array = NDArray[np.float64]
 Integers = NDArray[np.int64]
+
+TINY = 1e-300
+"""Replaces a speed of 0, at which there is no force."""
 
 AROUND = 1e-2
 """Half of the interval, in periods, over which velocities are differences of positions."""
@@ -33,6 +35,7 @@ class Simulated:
 
     def __init__(self, trajectory: Trajectory) -> None:
         self._trajectory, self._scene = trajectory, trajectory.scene
+        self._model = trajectory.model
         self.period, self.length = self._scene.period, self._scene.sheet.length
         self.components = self._scene.components
         self.most_periods: int | None = trajectory.periods
@@ -49,7 +52,7 @@ class Simulated:
 
     def covering(self) -> tuple[Array, Integers]:
         """See Moving."""
-        return triangles.covering(self._scene.discretisation().mesh)
+        return triangles.covering(self._model.discretisation.mesh)
 
     def course(self) -> Course:
         """V(t) of all counted periods; the mean is that of the last one."""
@@ -72,19 +75,18 @@ class Simulated:
 
     def friction(self, points: Array, phase: float) -> Array:
         """See Moving; 0 without friction."""
-        friction: Friction | None = self._scene.find(Friction)
         t, region = self._time(phase), self._region(points)
-        if friction is None:
+        if not any(effect.law for effect in self._model.effects):
             return np.zeros((2, region.size))
         before, after = self._within(t - AROUND * self.period), self._within(t + AROUND * self.period)
         moved = self._place(region, after)[:2] - self._place(region, before)[:2]
         velocity = moved / (after - before)
-        ratio = tanh_ratio(np.hypot(*velocity) / friction.slip_speed) / friction.slip_speed
+        ratio = self._scene.contact.friction.ratio(np.maximum(np.hypot(*velocity), TINY))
         return np.asarray(-self._load(region, t) * ratio * velocity)
 
     def ground(self, y: Array) -> Array:
         """See Moving."""
-        found: Ground | None = self._scene.find(Ground)
+        found: Ground | None = self._model.find(Ground)
         if found is None or found.height is None:
             return np.zeros_like(y)
         return np.asarray(found.height.values(0 * y, y))
@@ -96,14 +98,14 @@ class Simulated:
 
     def _load(self, region: Region, t: float) -> Array:
         """Pressure on the ground over the weight per area."""
-        bearer = load_bearer(self.components, self._scene.effects)
+        bearer = next(e for e in self._model.effects if e.pressed_by(self.components))
         u, rest = self._trajectory.shape(t, None), self._rest(region, t)
         area = PointState(region, u, (1, 2)).area
         state = PointState(region, u, (0,), rest, Step(area=area))
-        return np.asarray(bearer.normal_load(state) / self._scene.find(Gravity).weight)
+        return np.asarray(bearer.normal_load(state) / self._model.find(Gravity).weight)
 
     def _rest(self, region: Region, t: float) -> RestState:
-        return self._scene.rest(t, self._trajectory.amplitude(t), region)
+        return self._model.rest(t, self._trajectory.amplitude(t), region)
 
     def _time(self, phase: float) -> float:
         t = self._trajectory.start + phase * self.period
@@ -120,14 +122,14 @@ class Simulated:
         return float(min(max(t, first), last))
 
     def _region(self, points: Array) -> Region:
-        return self._scene.discretisation().points(points)
+        return self._model.discretisation.points(points)
 
     def _place(self, region: Region, t: float) -> Array:
         return np.asarray(region.position(self._trajectory.shape(t, None), (0,))[0])
 
     def _frame(self, region: Region, points: Array, t: float) -> Frame:
         run, place = self._trajectory, self._place(region, t)
-        growth = run.amplitude(t) * self._scene.alpha * self._scene.growth(t, *points)
+        growth = run.amplitude(t) * self._scene.alpha * self._model.growth(t, *points)
         centre = np.array([np.interp(t, run.times, values) for values in run.centre])
         heading = float(np.interp(t, run.path.times, run.path.heading))
         flat = np.zeros_like(place)
@@ -139,7 +141,7 @@ class Simulated:
     @cached_property
     def _middle(self) -> Array:
         """Centre of mass of the undeformed sheet, (2,)."""
-        region = self._scene.discretisation().interior
+        region = self._model.discretisation.interior
         return np.asarray(region.reference[0, :2] @ region.measure / region.measure.sum())
 
 

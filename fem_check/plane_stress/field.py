@@ -23,10 +23,11 @@ from fem_check.plane_stress.solver import ELEMENTS, PlaneStressSolver
 from linear_theory.common import validation
 from linear_theory.common.threads import one_blas_thread
 from linear_theory.deformation.field import LinearField, Wave
-from linear_theory.deformation.load_cases import SAMPLES, LoadCases, load_cases, mixed_norms, phases
+from linear_theory.deformation.load_cases import SAMPLES, LoadCases, load_cases, mixed_norms
 from linear_theory.motion.motion import CellGrid
 from linear_theory.scene import arguments
 from linear_theory.sheet.rectangle import Sheet
+from linear_theory.wave.phases import phases
 from linear_theory.wave.survey import WaveSurvey, waves_along
 
 Array = NDArray[np.float64]

@@ -8,19 +8,30 @@ from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
 from fem_check.answer.block import block
-from fem_check.predict.levels import LEVELS, TARGET_EFFECTS, Question, distance
-from fem_check.shell.scene.abilities import left_out
+from fem_check.predict.levels import LEVELS, TARGET_EFFECTS, distance
+from fem_check.shell.abilities import left_out, require
 from linear_theory.common import validation
 from linear_theory.common.drawable import Drawable
-from linear_theory.common.errors import BeyondReachWarning, NotConvergedError, ViscousRegimeWarning
+from linear_theory.common.errors import (
+    BeyondReachWarning,
+    NotConvergedError,
+    ViscousRegimeWarning,
+)
 from linear_theory.common.progress import Report, part_of, watched
 from linear_theory.common.shown import Shown, number
 from linear_theory.common.threads import one_blas_thread
-from linear_theory.deformation.field import Wave
-from linear_theory.friction.law import warn_if_viscous
+from linear_theory.common.tolerance import Tolerance
+from linear_theory.friction.laws import FrictionLaw
+from linear_theory.friction.load import Load
+from linear_theory.friction.regime import warn_if_viscous
+from linear_theory.growth.growth import Reference
+from linear_theory.growth.laws import GrowthLaw
+from linear_theory.scene.level import THEORY
+from linear_theory.scene.scene import Scene
 from linear_theory.sheet.rectangle import Sheet
 from linear_theory.speed.reach import warn_if_beyond
 from linear_theory.speed.result import CrawlSpeed, speed_in_words
+from linear_theory.wave.travelling import Wave
 
 METHODS = ("auto", *LEVELS)
 
@@ -36,8 +47,8 @@ class Prediction(Drawable, Shown):
     is unknown (never so for method = "auto"). level: a key of `levels.LEVELS`; reason: why this one and
     none of those before it, in words. converged: whether `error` meets the tolerance that was asked
     for. seconds: of all that was tried. left_out: what the target itself leaves out, in words: a flat
-    sheet of no thickness on which friction acts and nothing else. question, goal: what was asked, and
-    to which tolerance. passed: the levels that were not taken, and why. `str` tells all of it in a
+    sheet of no thickness on which friction acts and nothing else. scene, tolerance: what was asked, and
+    how exactly. passed: the levels that were not taken, and why. `str` tells all of it in a
     dozen lines (see `answer.block`), in lengths L of the sheet and periods T of the wave.
 
     >>> from fem_check import predict
@@ -55,8 +66,8 @@ class Prediction(Drawable, Shown):
     converged: bool
     seconds: float
     left_out: tuple[str, ...]
-    question: Question
-    goal: "Goal"
+    scene: Scene
+    tolerance: Tolerance
     passed: tuple["Passed", ...] = ()
 
     @property
@@ -86,18 +97,6 @@ class Prediction(Drawable, Shown):
         return {"mean": self.mean, "error": self.error, **super()._contents()}
 
 
-@dataclass(frozen=True)
-class Goal(Shown):
-    """Tolerances, relative and absolute, for the error of numbers and model together."""
-
-    rtol: float
-    atol: float
-
-    def tolerance(self, mean: float) -> float:
-        """Allowed error of that speed."""
-        return max(self.rtol * abs(mean), self.atol)
-
-
 class _Passed(NamedTuple):
     level: str
     why: str
@@ -109,13 +108,13 @@ class Passed(Shown, _Passed):
 
 
 def predict(
-    sheet: Sheet,
-    wave: Wave,
-    alpha: float,
-    growth_law: str = "exp",
-    area: str = "grown",
-    load: str = "current",
-    friction: str = "coulomb",
+    sheet: Sheet | Scene,
+    wave: Wave | None = None,
+    alpha: float | None = None,
+    growth_law: GrowthLaw | str | None = None,
+    area: Reference | str | None = None,
+    load: Load | str | None = None,
+    friction: FrictionLaw | str | None = None,
     slip_speed: float | None = None,
     rtol: float = 1e-2,
     atol: float | None = None,
@@ -126,7 +125,8 @@ def predict(
     """How fast the nonlinear sheet crawls, by the cheapest level that is known to be near enough.
 
     The target is a planar sheet that grows by growth_law, counts its energy per area, carries load and
-    is too stiff for friction to change its shape; arguments as in `crawl_speed`. method = "auto" takes
+    is too stiff for friction to change its shape; arguments as in `crawl_speed`, or a planar `Scene`.
+    method = "auto" takes
     of "strip", "first order", "second order" and "cycle" the first one whose error and model error
     together are below max(rtol |mean|, atol), atol = 1e-3 rtol alpha^2 L/T unless given; a level whose
     model error is unknown (see `model_error`) is never taken. Any of the names takes that level.
@@ -145,18 +145,20 @@ def predict(
     V = 0.0038 L/T by second order, converged True
     """
     start = time.perf_counter()
-    question = Question(sheet, wave, alpha, growth_law, area, load, friction, slip_speed)
-    rtol = validation.tolerance(rtol)
-    goal = Goal(rtol, validation.absolute_tolerance(atol, rtol, question.alpha, question.unit))
+    scene = Scene.stated(
+        sheet, wave, alpha, load, friction, slip_speed, growth_law=growth_law, area=area
+    )
+    require(THEORY, scene)
+    tolerance = Tolerance(rtol, atol).of_speed(scene.alpha, scene.unit)
     validation.choice("method", method, METHODS)
     with watched(progress, "predict"):
         if method == "auto":
-            found = _cheapest(question, goal)
+            found = _cheapest(scene, tolerance)
         else:
-            found = _answer(question, method, goal, "asked for")
+            found = _answer(scene, method, tolerance, "asked for")
             found = replace(found, reason=f"{found.reason}; {found.speed.reach}")
-    warn_if_viscous(found.speed, slip_speed)
-    warn_if_beyond(question.alpha, found.speed.beyond_reach)
+    warn_if_viscous(scene.contact.friction, found.speed.slip_ratio)
+    warn_if_beyond(scene.alpha, found.speed.beyond_reach)
     return replace(found, seconds=time.perf_counter() - start)
 
 
@@ -165,23 +167,23 @@ def total_error(speed: CrawlSpeed) -> float:
     return speed.error + speed.model_error
 
 
-def _cheapest(question: Question, goal: Goal) -> Prediction:
+def _cheapest(scene: Scene, tolerance: Tolerance) -> Prediction:
     """Try those levels in turn that could do, the target last."""
     passed: list[Passed] = []
     largest = math.inf
     for level in LEVELS:
         begin = time.perf_counter()
-        obstacle = _obstacle(question, level, goal.tolerance(largest))
+        obstacle = _obstacle(scene, level, tolerance.allowed(largest))
         if not obstacle:
             try:
-                found = _answer(question, level, goal, "")
+                found = _answer(scene, level, tolerance, "")
             except NotConvergedError as failure:
                 obstacle = str(failure)
             else:
                 if found.converged:
                     return _explained(found, f"{level} is near enough", passed)
                 largest = abs(found.mean) + found.error
-                obstacle = f"error {found.error:.1g} is above {goal.tolerance(found.mean):.1g}"
+                obstacle = f"error {found.error:.1g} is above {tolerance.allowed(found.mean):.1g}"
         passed.append(Passed(level, obstacle, time.perf_counter() - begin))
     return _explained(found, "the last level", passed)
 
@@ -192,24 +194,23 @@ def _explained(found: Prediction, reason: str, passed: list[Passed]) -> Predicti
     return replace(found, reason=reason + others, passed=tuple(passed))
 
 
-def _obstacle(question: Question, level: str, tolerance: float) -> str:
-    """Why a level cannot do, seen without solving it; empty if it may. tolerance: at the most."""
-    model = distance(level, question)
+def _obstacle(scene: Scene, level: str, allowed: float) -> str:
+    """Why a level cannot do, seen without solving it; empty if it may. allowed: error, at the most."""
+    model = distance(level, scene)
     if math.isnan(model):
         return "its model error is unknown here"
-    if model > tolerance:
-        return f"its model error {model:.1g} is above {tolerance:.1g}"
+    if model > allowed:
+        return f"its model error {model:.1g} is above {allowed:.1g}"
     return ""
 
 
 @one_blas_thread
-def _answer(question: Question, level: str, goal: Goal, reason: str) -> Prediction:
+def _answer(scene: Scene, level: str, tolerance: Tolerance, reason: str) -> Prediction:
     with warnings.catch_warnings():
         for kind in (ViscousRegimeWarning, BeyondReachWarning):  # `predict` says it, of the answer
             warnings.simplefilter("ignore", kind)
-        rtol = max(SHARE * goal.rtol, validation.SMALLEST_RTOL)
         with part_of(level):
-            speed = LEVELS[level](question, rtol, SHARE * goal.atol)
-    converged = not speed.beyond_reach and total_error(speed) <= goal.tolerance(speed.mean)
+            speed = LEVELS[level](scene, tolerance.share(SHARE))
+    converged = not speed.beyond_reach and total_error(speed) <= tolerance.allowed(speed.mean)
     omitted = left_out(TARGET_EFFECTS)
-    return Prediction(speed, level, reason, converged, speed.seconds, omitted, question, goal)
+    return Prediction(speed, level, reason, converged, speed.seconds, omitted, scene, tolerance)

@@ -19,7 +19,6 @@ the speed that it gives the ends of the sheet: tolerances have the same meaning 
 and time.
 """
 
-import math
 from collections.abc import Callable
 from functools import partial
 from typing import NamedTuple
@@ -29,7 +28,7 @@ from numpy.typing import NDArray
 
 from linear_theory.balance.newton import damped_newton, guarded_newton
 from linear_theory.common.units import power_of_two
-from linear_theory.friction.law import FrictionLaw
+from linear_theory.friction.laws import FrictionLaw
 from linear_theory.motion.cells import Integers, graded
 from linear_theory.motion.motion import Motion
 
@@ -176,8 +175,8 @@ class Balance:
         """Bounds of q, (times, 1): friction cannot balance where all of the sheet slips one way."""
         along = self._values[1].reshape(self._values.shape[1], -1)
         margin = 0.1 * np.ptp(along, axis=1) + self._scale  # the polynomials exceed these values
-        if self._slope:  # at which tanh(r/width) carries the weight down the slope
-            margin = margin + self._law.width * math.atanh(abs(self._slope))
+        if self._slope:  # at which friction carries the weight down the slope
+            margin = margin + self._law.speed_at(abs(self._slope))
         return (-along.max(1) - margin)[:, None], (-along.min(1) + margin)[:, None]
 
     def _leading(self, q: Array, times: Integers, halvings: int) -> tuple[Array, Array]:

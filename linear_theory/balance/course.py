@@ -105,8 +105,9 @@ class Course:
         return course, self.grid.with_steps(step)
 
     def _within_reach(self, tolerance: float) -> float:
-        """The least tolerance from this one on, doubled, for which the wave can be seen."""
-        while not (math.isinf(self._times(tolerance)) or self.crawl.reaches(self._times(tolerance))):
+        """The least tolerance from this one on, doubled, for which the wave can be seen, if for any."""
+        fewest = self._times(math.inf)
+        while fewest < (times := self._times(tolerance)) < math.inf and not self.crawl.reaches(times):
             tolerance *= 2
         return tolerance
 

@@ -10,10 +10,13 @@ from numpy.typing import NDArray
 
 from linear_theory.balance.balance import Balance, RigidMotion
 from linear_theory.balance.course import Course, Known
+from linear_theory.balance.load_check import check_load
 from linear_theory.balance.time_grid import TimeGrid, first_grid
 from linear_theory.common.progress import track
+from linear_theory.common.tolerance import Tolerance
 from linear_theory.deformation.field import LinearField
-from linear_theory.friction.law import FrictionLaw, check_load, load_rate
+from linear_theory.friction.contact import Contact
+from linear_theory.friction.load import Load
 from linear_theory.motion.motion import CellGrid, Motion
 from linear_theory.motion.rigid import RigidNorm
 from linear_theory.wave.survey import WaveSurvey
@@ -94,8 +97,7 @@ class Crawl:
 
     field: LinearField
     alpha: float
-    load: str
-    law: FrictionLaw
+    contact: Contact
     resolution: Resolution
 
     @property
@@ -179,7 +181,7 @@ class Crawl:
         from 0.1 L to 2 L were factors up to 0.05 (sines) and 0.004 (pulses) where 0.2 and 0.02 stand.
         """
         speed = self.field.error * abs(self.alpha) * motion.fastest
-        by_load = 0.0 if self.load == "material" else 0.4 * abs(self.alpha)
+        by_load = 0.0 if self.contact.load is Load.MATERIAL else 0.4 * abs(self.alpha)
         return speed * (by_load + (0.0 if self.starts_at_second_order else 0.02))
 
     def _motion(self, times: Array) -> Motion:
@@ -190,13 +192,13 @@ class Crawl:
 
     def _balance(self, times: Array) -> Balance:
         motion, r = self._motion(times), self.resolution
-        rate = load_rate(self.load, motion.dilation, motion.growth)
+        rate = self.contact.load.rate(motion.dilation, motion.growth)
         check_load(motion, rate, self.alpha)
-        law = self.law.scaled(abs(self.alpha))
+        law = self.contact.friction.scaled(abs(self.alpha))
         return Balance(motion, rate, self.alpha, law, r.halvings, r.tolerance)
 
 
-def average(crawl: Crawl, rtol: float, atol: float) -> Period:
+def average(crawl: Crawl, tolerance: Tolerance) -> Period:
     """Rigid motion through a period at as many times and as finely as the tolerance needs.
 
     What would be too much work is left out, which shows in the error. Raises ValueError for a wave that
@@ -205,9 +207,9 @@ def average(crawl: Crawl, rtol: float, atol: float) -> Period:
     crawl.survey.check()
     grid = _first_grid(crawl)
     crawl, motion, (quadrature_error, quadrature_errors) = _with_fine_cells(
-        crawl, grid.times, rtol, atol
+        crawl, grid.times, tolerance
     )
-    course = _with_enough_times(Course(crawl, grid, motion), rtol, atol)
+    course = _with_enough_times(Course(crawl, grid, motion), tolerance)
     grid, motion = course.grid, course.motion
     means, errors = course.means()
     field_error = crawl.norm.each(crawl.field_error(motion))
@@ -225,27 +227,27 @@ def average(crawl: Crawl, rtol: float, atol: float) -> Period:
     )
 
 
-def _with_enough_times(course: Course, rtol: float, atol: float) -> Course:
+def _with_enough_times(course: Course, tolerance: Tolerance) -> Course:
     """More times until they meet their share of the tolerance, or would be too much work."""
     crawl = course.crawl
     while True:
-        course, finer = course.improved(0.5 * crawl.norm.tolerance(course.mean, rtol, atol))
+        course, finer = course.improved(0.5 * crawl.norm.allowed(course.mean, tolerance))
         if finer is None or course.grid.times.size > _MOST_TIMES or not crawl.affords(finer.times):
             return course.checked()
         course = course.on(finer)
 
 
 def _with_fine_cells(
-    crawl: Crawl, times: Array, rtol: float, atol: float
+    crawl: Crawl, times: Array, tolerance: Tolerance
 ) -> tuple[Crawl, RigidMotion, tuple[Array, Array]]:
     """Refine the cells until they meet their share of the tolerance at the first times."""
     known = None
     for last in (False, False, True):
         motion = crawl.balance(times, known)
         errors = crawl.quadrature_errors(times, motion)
-        tolerance = 0.3 * crawl.norm.tolerance(crawl.counted(motion).mean(1), rtol, atol)
+        goal = 0.3 * crawl.norm.allowed(crawl.counted(motion).mean(1), tolerance)
         finer = replace(crawl, resolution=crawl.resolution.finer())
-        if last or crawl.norm.size(errors[0]) <= tolerance or not finer.affords(times):
+        if last or crawl.norm.size(errors[0]) <= goal or not finer.affords(times):
             break
         crawl, known = finer, Known(times, motion)
     return crawl, motion, errors

@@ -6,13 +6,13 @@ Waves that travel along y have few growths that serve all times (`Harmonics`); f
 the growths are c and dc/dt themselves at the times that are asked for (`Snapshots`).
 """
 
-import math
 from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from linear_theory.deformation.field import Wave
+from linear_theory.wave.phases import phases
 from linear_theory.wave.travelling import TravellingWave
 
 Array = NDArray[np.float64]
@@ -41,15 +41,6 @@ class LoadCases(Protocol):
 
     def at(self, t: Array) -> "LoadCases":
         """The cases that serve these times."""
-
-
-def phases(period: float, count: int) -> Array:
-    """Times in [0, period), ascending, (count,), at which errors are estimated: evenly, on no grid.
-
-    Multiples of the golden section: no harmonic has the same value at all of them, and a front that
-    travels lies on the lines of a mesh at no two.
-    """
-    return period * np.sort(np.arange(1, count + 1) * (math.sqrt(5) - 1) / 2 % 1)
 
 
 def load_cases(wave: Wave, length: float) -> LoadCases:

@@ -7,14 +7,21 @@ from numpy.typing import NDArray
 
 from linear_theory.common import validation
 from linear_theory.common.threads import one_blas_thread
+from linear_theory.common.tolerance import Tolerance
 from linear_theory.deformation.field import Wave
-from linear_theory.friction.law import FrictionLaw, warn_if_viscous
-from linear_theory.line.growth import Growth
+from linear_theory.friction.contact import Contact
+from linear_theory.friction.laws import FrictionLaw
+from linear_theory.friction.load import Load
+from linear_theory.friction.regime import warn_if_viscous
+from linear_theory.growth.laws import GrowthLaw
+from linear_theory.line.piece import Piece
 from linear_theory.line.result import Balance
 from linear_theory.line.samples import sampled_balance
 from linear_theory.line.travelling import travelling_balance
 from linear_theory.scene import arguments
-from linear_theory.speed.result import CrawlSpeed
+from linear_theory.scene.scene import Scene
+from linear_theory.sheet.rectangle import Sheet
+from linear_theory.speed.result import CrawlSpeed, Estimate
 from linear_theory.wave.given import FieldWave
 from linear_theory.wave.travelling import TravellingWave
 
@@ -24,12 +31,12 @@ Array = NDArray[np.float64]
 def line_balance(
     wave: Wave,
     alpha: float,
-    load: str = "current",
-    friction: str = "coulomb",
+    load: Load | str = "current",
+    friction: FrictionLaw | str = "coulomb",
     slip_speed: float | None = None,
     rtol: float = 1e-4,
     atol: float | None = None,
-    growth_law: str = "linear",
+    growth_law: GrowthLaw | str = "linear",
     body: str = "line",
     *,
     length: float | None = None,
@@ -76,19 +83,27 @@ def line_balance(
     V = 1.20 mm/s
     V = 1.20 mm/s
     """
-    start, wave = time.perf_counter(), arguments.wave(wave)
-    alpha, rtol = validation.real("alpha", alpha), validation.tolerance(rtol)
-    growth = Growth.of(growth_law, load, body)
-    law = FrictionLaw(friction, slip_speed)
-    length = _checked_length(length, wave)
-    atol = validation.absolute_tolerance(atol, rtol, alpha, length / wave.period)
-    with one_blas_thread:
-        answer = _in_lengths(wave, alpha, law.scaled(length), growth, rtol, atol / length, length)
-    found = CrawlSpeed(
-        mean=length * answer.mean,
-        error=length * answer.error,
+    wave = arguments.wave(wave)
+    sheet = Sheet(length=_checked_length(length, wave))
+    contact = Contact.named(load, friction, slip_speed)
+    scene = Scene(sheet, wave, alpha, growth_law=growth_law, contact=contact)
+    found = line_crawl(scene, Tolerance(rtol, atol), body)
+    warn_if_viscous(contact.friction, found.slip_ratio)
+    return found
+
+
+@one_blas_thread
+def line_crawl(scene: Scene, tolerance: Tolerance, body: str) -> CrawlSpeed:
+    """`line_balance` of a body as long as the sheet of a scene, without its warning."""
+    start, law, length = time.perf_counter(), scene.contact.friction, scene.sheet.length
+    piece = Piece.of(scene.growth.law, scene.contact.load, body)
+    tolerance = tolerance.of_speed(scene.alpha, scene.unit)
+    answer = _in_lengths(scene, piece, tolerance.scaled(length))
+    estimate = Estimate(length * answer.mean, length * answer.error)
+    return CrawlSpeed(
+        estimate=estimate,
         model_error=np.nan,
-        converged=length * answer.error <= max(rtol * length * abs(answer.mean), atol),
+        converged=estimate.error <= tolerance.allowed(estimate.value),
         times=answer.times,
         velocity=length * answer.velocity,
         slip_ratio=law.slip_ratio(length * answer.fastest),
@@ -96,10 +111,8 @@ def line_balance(
         second_order=length * answer.second,
         sticks=answer.sticks and answer.fastest > 0,
         seconds=time.perf_counter() - start,
-        model=_words(law, growth, body),
+        model=_words(law, piece, body),
     )
-    warn_if_viscous(found, slip_speed)
-    return found
 
 
 def _checked_length(length: float | None, wave: Wave) -> float:
@@ -114,19 +127,13 @@ def _checked_length(length: float | None, wave: Wave) -> float:
     )
 
 
-def _in_lengths(
-    wave: Wave,
-    alpha: float,
-    law: FrictionLaw,
-    growth: Growth,
-    rtol: float,
-    atol: float,
-    length: float,
-) -> Balance:
-    """The balance in units of the length of the body, those of law and atol."""
+def _in_lengths(scene: Scene, piece: Piece, tolerance: Tolerance) -> Balance:
+    """The balance in units of the length of the body, those of the tolerance."""
+    wave, length = scene.wave, scene.sheet.length
+    law = scene.contact.friction.scaled(length)
     if isinstance(wave, TravellingWave):
-        return travelling_balance(wave, alpha, law, growth)
-    return sampled_balance(_on_unit(wave, length), alpha, law, growth, rtol, atol)
+        return travelling_balance(wave, scene.alpha, law, piece)
+    return sampled_balance(_on_unit(wave, length), scene.alpha, law, piece, tolerance)
 
 
 def _on_unit(wave: Wave, length: float) -> FieldWave:
@@ -142,13 +149,10 @@ def _on_unit(wave: Wave, length: float) -> FieldWave:
     return FieldWave(value, wave.period, None if differenced else rate)
 
 
-def _words(law: FrictionLaw, growth: Growth, body: str) -> str:
-    friction = {"coulomb": "dry friction", "viscous": "viscous friction"}.get(
-        law.name, f"friction tanh(v/{law.width:g})"
-    )
+def _words(law: FrictionLaw, piece: Piece, body: str) -> str:
     shape = {"line": "body on a line", "strip": "narrow strip that grows both ways"}[body]
     load = {0: "weight conserved", 1: "load on the current length", 2: "load on the current area"}
     return (
-        f"{shape}, stretch {growth.law.words}, quasi-static, shape not affected by friction; "
-        f"{friction}, {load[growth.power]}"
+        f"{shape}, stretch {piece.law.words}, quasi-static, shape not affected by friction; "
+        f"{law.words}, {load[piece.power]}"
     )

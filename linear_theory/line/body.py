@@ -15,7 +15,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from linear_theory.line.growth import Growth
+from linear_theory.line.piece import Piece
 from linear_theory.line.profile import Profile
 from linear_theory.line.roots import EPS
 from linear_theory.wave.travelling import TravellingWave
@@ -34,19 +34,19 @@ class Body:
     """
 
     profile: Profile
-    growth: Growth
+    growth: Piece
     size: float
 
     @classmethod
-    def of(cls, wave: TravellingWave, alpha: float, growth: Growth) -> "Body":
+    def of(cls, wave: TravellingWave, alpha: float, growth: Piece) -> "Body":
         """Raises ValueError, naming the phase, where a strain is beyond the range of the law."""
         sign = -1.0 if alpha < 0 else 1.0  # (alpha, c) and (-alpha, -c) are the same growth
         profile, size = Profile.of(wave, sign), abs(alpha)
         strain = alpha * wave.mean + size * profile.values
-        worst = growth.misplaced(strain, NOISE * size * (profile.scale + abs(wave.mean)))
+        worst = growth.law.misplaced(strain, NOISE * size * (profile.scale + abs(wave.mean)))
         if worst is not None:
             place = f"the phase {profile.nodes[worst]:.4g} of the wave"
-            raise growth.refusal(alpha, float(strain[worst]), place)
+            raise growth.law.refusal(alpha, float(strain[worst]), place)
         growth = growth.about(alpha * wave.mean)
         stretch = growth.law.stretch
         return cls(profile.resolved(lambda g: stretch(growth.start + size * g)), growth, size)

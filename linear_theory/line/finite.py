@@ -33,7 +33,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from linear_theory.common import validation
-from linear_theory.line.growth import Growth
+from linear_theory.line.piece import Piece
 from linear_theory.line.roots import bracketed_newton
 
 Array = NDArray[np.float64]
@@ -81,7 +81,7 @@ def line_cycle_speed(
     strip: V = 0.10128 L/T
     """
     strength = validation.real_array("alpha", alpha)
-    growth = Growth.of(growth_law, load, body)
+    growth = Piece.of(growth_law, load, body)
     unit = validation.wave_count(count) * validation.positive("period", period)
     dry = validation.choice("friction", friction, FRICTIONS) == "coulomb"
     limit = min(-growth.law.lowest, growth.law.highest)
@@ -97,25 +97,25 @@ def line_cycle_speed(
     return np.asarray(np.concatenate([*blocks, size[:0]]).reshape(strength.shape) / unit)
 
 
-def _dry(alpha: Array, growth: Growth) -> Array:
+def _dry(alpha: Array, growth: Piece) -> Array:
     sine = np.sin(_median_angle(alpha, growth))
     return np.asarray(growth.rise(alpha * sine) - _mean_rise(alpha, growth))
 
 
-def _viscous(alpha: Array, growth: Growth) -> Array:
+def _viscous(alpha: Array, growth: Piece) -> Array:
     x, weights = _strains(alpha)
     gain, mean = growth.gain(x), _mean_rise(alpha, growth)
     moment = np.sum(weights * gain * (growth.rise(x) - mean[:, None]), axis=1)
     return np.asarray(moment / (1 + np.sum(weights * gain, axis=1)))
 
 
-def _mean_rise(alpha: Array, growth: Growth) -> Array:
+def _mean_rise(alpha: Array, growth: Piece) -> Array:
     """mean s - 1: the mean of the linear part is 0."""
     x, weights = _strains(alpha)
     return np.asarray(np.sum(weights * x**2 * growth.bend(x), axis=1))
 
 
-def _median_angle(alpha: Array, growth: Growth) -> Array:
+def _median_angle(alpha: Array, growth: Piece) -> Array:
     """theta: the weight between phases 0 and theta is half of the difference of those of both signs."""
     if growth.power == 0:
         return np.zeros(alpha.shape)

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 
 from linear_theory.common import validation
 from linear_theory.line.finite import FRICTIONS
-from linear_theory.line.growth import Growth
+from linear_theory.line.piece import Piece
 
 if TYPE_CHECKING:
     from sympy import Rational
@@ -47,30 +47,30 @@ def line_cycle_series(
     from sympy import Rational  # here: sympy takes longer to import than the rest of the package
 
     size = validation.integer("order", order, 0) + 1
-    growth = Growth.of(growth_law, load, body)
+    growth = Piece.of(growth_law, load, body)
     dry = validation.choice("friction", friction, FRICTIONS) == "coulomb"
     speed = _dry(size, growth) if dry else _viscous(size, growth)
     return tuple(Rational(c.numerator, c.denominator) for c in speed)
 
 
-def _dry(size: int, growth: Growth) -> Series:
+def _dry(size: int, growth: Piece) -> Series:
     stretch = _stretch(size, growth)
     at_rest = _composed([[s] for s in stretch], _shifted(_sine(_median_angle(size, growth))))
     return [a - b for a, b in zip(at_rest, _mean(stretch), strict=True)]
 
 
-def _viscous(size: int, growth: Growth) -> Series:
+def _viscous(size: int, growth: Piece) -> Series:
     stretch, weight = _stretch(size, growth), _weight(size, growth)
     mean = _quotient(_mean(_product(stretch, weight)), _mean(weight))
     return [a - b for a, b in zip(mean, _mean(stretch), strict=True)]
 
 
-def _stretch(size: int, growth: Growth) -> Series:
+def _stretch(size: int, growth: Piece) -> Series:
     """Coefficients of s by powers of the strain."""
     return [growth.law.coefficient(k) for k in range(size)]
 
 
-def _weight(size: int, growth: Growth) -> Series:
+def _weight(size: int, growth: Piece) -> Series:
     """Coefficients of w = s^p by powers of the strain."""
     weight = _constant(Fraction(1), size)
     for _ in range(growth.power):
@@ -83,7 +83,7 @@ def _mean(function: Series) -> Series:
     return [c * Fraction(comb(k, k // 2), 2**k) * (k % 2 == 0) for k, c in enumerate(function)]
 
 
-def _median_angle(size: int, growth: Growth) -> Series:
+def _median_angle(size: int, growth: Piece) -> Series:
     """theta(alpha)."""
     weight = _weight(size, growth)
     below = _integrals(weight)

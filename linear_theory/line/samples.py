@@ -24,9 +24,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linear_theory.common import validation
+from linear_theory.common.tolerance import Tolerance
 from linear_theory.deformation.field import Wave
-from linear_theory.friction.law import FrictionLaw
-from linear_theory.line.growth import Growth
+from linear_theory.friction.laws import FrictionLaw
+from linear_theory.line.piece import Piece
 from linear_theory.line.result import REST_PART, REST_SPEED, Balance
 from linear_theory.line.roots import EPS, bracketed_newton
 from linear_theory.line.tanh_level import NARROWEST
@@ -65,7 +66,7 @@ class Snapshot(NamedTuple):
 
 
 def sampled_balance(
-    wave: Wave, alpha: float, law: FrictionLaw, growth: Growth, rtol: float, atol: float
+    wave: Wave, alpha: float, law: FrictionLaw, growth: Piece, tolerance: Tolerance
 ) -> Balance:
     """Speed of a general wave on |y| <= 1/2, the length of the body being 1.
 
@@ -76,7 +77,7 @@ def sampled_balance(
     survey.check()
     sampled = partial(_snapshots, survey.fine_wave, alpha, law, growth)
     period = float(wave.period)
-    cells, times = _first_cells(survey, rtol), FEWEST
+    cells, times = _first_cells(survey, tolerance.rtol), FEWEST
     space = time = math.inf
     while True:
         instants: Array = period / times * np.arange(float(times))
@@ -86,7 +87,7 @@ def sampled_balance(
         last_space, space = space, CHANCE * abs(mean - float(coarse.velocity.mean()))
         last_time, time = time, CHANCE * abs(mean - float(fine.velocity[::2].mean()))
         in_space, in_time = max(space, last_space / 4), max(time, last_time / 4)
-        goal = max(rtol * abs(mean), atol)
+        goal = tolerance.allowed(mean)
         room = cells * times < MOST_SAMPLES
         more_cells = room and in_space > goal / 2 and cells < MOST_CELLS
         more_times = room and in_time > goal / 2 and times < MOST_TIMES
@@ -158,7 +159,7 @@ class _Checks(NamedTuple):
 
 
 def _snapshots(
-    wave: Wave, alpha: float, law: FrictionLaw, growth: Growth, times: Array, cells: int
+    wave: Wave, alpha: float, law: FrictionLaw, growth: Piece, times: Array, cells: int
 ) -> Snapshot:
     step = max(1, BLOCK // cells)
     parts = [
@@ -169,7 +170,7 @@ def _snapshots(
 
 
 def _snapshot(
-    wave: Wave, alpha: float, law: FrictionLaw, growth: Growth, times: Array, cells: int
+    wave: Wave, alpha: float, law: FrictionLaw, growth: Piece, times: Array, cells: int
 ) -> Snapshot:
     y = np.linspace(-0.5, 0.5, cells + 1)
     c, rate = (_on_grid(f(0.0, y, times), times, y) for f in (wave.value, wave.rate))
@@ -183,8 +184,8 @@ def _snapshot(
     else:
         velocity = -alpha * np.sum(weight * _middle(g), axis=1) / weight.sum(axis=1)
         first, second = np.zeros(times.size), _viscous_coefficient(c, rate, growth)
-        if law.slip_speed is not None:
-            velocity = _tanh_speed(alpha * g, weight, law.slip_speed, velocity)
+        if law.regularised:
+            velocity = _tanh_speed(alpha * g, weight, law.width, velocity)
     slip = velocity[:, None] + alpha * g
     tolerance = REST_SPEED * np.ptp(slip, axis=1, keepdims=True)
     rest = np.mean(_part_below(slip, tolerance) - _part_below(slip, -tolerance), axis=1)
@@ -195,12 +196,12 @@ def _on_grid(values: Array, times: Array, y: Array) -> Array:
     return np.broadcast_to(validation.real_array("wave", values), (times.size, y.size))
 
 
-def _check_strain(alpha: float, c: Array, times: Array, y: Array, growth: Growth) -> None:
-    worst = growth.misplaced(alpha * c)
+def _check_strain(alpha: float, c: Array, times: Array, y: Array, growth: Piece) -> None:
+    worst = growth.law.misplaced(alpha * c)
     if worst is not None:
         row, column = np.unravel_index(worst, c.shape)
         place = f"S = {y[column] + 0.5:.4g} length, t = {times[row, 0]:.4g}"
-        raise growth.refusal(alpha, float(alpha * c[row, column]), place)
+        raise growth.law.refusal(alpha, float(alpha * c[row, column]), place)
 
 
 def _less_mean(rate: Array) -> Array:
@@ -254,7 +255,7 @@ def _at_level(g: Array, level: Array) -> Array:
         return np.where(there, 1 / (high - low), 0) / low.shape[1]
 
 
-def _dry_coefficients(c: Array, rate: Array, growth: Growth) -> tuple[Array, Array]:
+def _dry_coefficients(c: Array, rate: Array, growth: Piece) -> tuple[Array, Array]:
     """Of V = V1 alpha + V2 alpha^2, as in the module's head, each (times,)."""
     g, mean_growth = _less_mean(rate), _middle(c)
     level, below = _weighted_median(g, np.full(mean_growth.shape, 1 / mean_growth.shape[1]))
@@ -276,7 +277,7 @@ def _mean_at(values: Array, g: Array, level: Array, density: Array) -> Array:
     return np.asarray(np.sum(share * here, axis=1) / share.sum(axis=1))
 
 
-def _viscous_coefficient(c: Array, rate: Array, growth: Growth) -> Array:
+def _viscous_coefficient(c: Array, rate: Array, growth: Piece) -> Array:
     """Of alpha^2: the mean of v weighted with 1 + p alpha c, whatever the stretch; (times,)."""
     return np.asarray(-growth.power * np.mean(_middle(c) * _middle(_less_mean(rate)), axis=1))
 

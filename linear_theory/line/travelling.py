@@ -25,9 +25,9 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from linear_theory.friction.law import FrictionLaw
+from linear_theory.friction.laws import FrictionLaw
 from linear_theory.line.body import Body
-from linear_theory.line.growth import Growth
+from linear_theory.line.piece import Piece
 from linear_theory.line.result import REST_PART, REST_SPEED, Balance, Level
 from linear_theory.line.roots import EPS, bracketed_newton
 from linear_theory.line.tanh_level import tanh_level
@@ -36,7 +36,7 @@ from linear_theory.wave.travelling import TravellingWave
 Array = NDArray[np.float64]
 
 
-def travelling_balance(wave: TravellingWave, alpha: float, law: FrictionLaw, growth: Growth) -> Balance:
+def travelling_balance(wave: TravellingWave, alpha: float, law: FrictionLaw, growth: Piece) -> Balance:
     """Speed of a travelling wave.
 
     Raises ValueError if a strain alpha c is beyond the range of the growth law at some phase.

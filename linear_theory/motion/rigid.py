@@ -15,6 +15,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from linear_theory.common.tolerance import Tolerance
+
 Array = NDArray[np.float64]
 
 
@@ -52,10 +54,10 @@ class RigidNorm:
         """V_x, V_y and Omega that have that size each, (3,); 0 where symmetry makes them 0."""
         return speed * np.array([0.0, 1.0, 0.0] if self.mirrored else [1.0, 1.0, 1 / self.gyration])
 
-    def tolerance(self, mean: ArrayLike, rtol: float, atol: float) -> float:
-        """That of a mean motion (3,)."""
-        return max(rtol * self.size(mean), atol)
+    def allowed(self, mean: ArrayLike, tolerance: Tolerance) -> float:
+        """The error that a mean motion (3,) may have."""
+        return tolerance.allowed(self.size(mean))
 
-    def meets(self, mean: ArrayLike, error: ArrayLike, rtol: float, atol: float) -> bool:
+    def meets(self, mean: ArrayLike, error: ArrayLike, tolerance: Tolerance) -> bool:
         """Whether errors (3,) of a mean motion (3,) are within the tolerance."""
-        return self.size(error) <= self.tolerance(mean, rtol, atol)
+        return self.size(error) <= self.allowed(mean, tolerance)

@@ -12,18 +12,19 @@ from numpy.typing import NDArray
 
 from linear_theory.common.shown import Shown
 from linear_theory.deformation.field import LinearField, Wave
-from linear_theory.friction.law import FrictionLaw, load_rate
+from linear_theory.friction.contact import Contact
+from linear_theory.friction.laws import FrictionLaw
 
 Array = NDArray[np.float64]
 Integers = NDArray[np.int64]
 
 
-class _Contact(NamedTuple):
+class _Touch(NamedTuple):
     velocity: Array
     load: Array
 
 
-class Contact(Shown, _Contact):
+class Touch(Shown, _Touch):
     """At one time, at n points: velocity (2, n) in the frame of the body, length per time, and load
     (n,) per area of the undeformed sheet, 1 without growth."""
 
@@ -61,7 +62,7 @@ class Deformation(Protocol):
     def growth(self, points: Array, times: Array) -> Array:
         """c at the points, (times, n)."""
 
-    def contact(self, points: Array, t: float) -> Contact:
+    def contact(self, points: Array, t: float) -> Touch:
         """What friction acts on, at one time."""
 
 
@@ -75,11 +76,11 @@ class LinearDeformation(Shown):
         self,
         find: Callable[[], LinearField],
         alpha: float,
-        load: str,
-        law: FrictionLaw,
+        contact: Contact,
         words: str = "shape of first order in alpha",
     ) -> None:
-        self._find, self.alpha, self._load, self.law, self.words = find, alpha, load, law, words
+        self._find, self.alpha, self.words = find, alpha, words
+        self._load, self.law = contact.load, contact.friction
 
     def _contents(self) -> Mapping[str, Any]:
         return {"words": self.words, "alpha": self.alpha, "load": self._load, "law": self.law}
@@ -118,9 +119,9 @@ class LinearDeformation(Shown):
         value = self.wave.value(points[0], points[1], np.reshape(times, (-1, 1)), self.length)
         return np.broadcast_to(value, (np.size(times), points.shape[1]))
 
-    def contact(self, points: Array, t: float) -> Contact:
+    def contact(self, points: Array, t: float) -> Touch:
         """See Deformation."""
         field, (x, y) = self.field, points
         dilation = field.strain(x, y, t)[:2].sum(0)
-        rate = load_rate(self._load, dilation, self.growth(points, np.array([t]))[0])
-        return Contact(self.alpha * field.velocity(x, y, t), 1 + self.alpha * rate)
+        rate = self._load.rate(dilation, self.growth(points, np.array([t]))[0])
+        return Touch(self.alpha * field.velocity(x, y, t), 1 + self.alpha * rate)

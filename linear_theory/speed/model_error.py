@@ -22,11 +22,8 @@ from numpy.typing import NDArray
 from linear_theory.common import validation
 from linear_theory.common.records import read_rows
 from linear_theory.common.shown import Shown
-from linear_theory.deformation.field import Wave
-from linear_theory.deformation.second.source import AREAS, GROWTH_LAWS
-from linear_theory.friction.law import LOADS
-from linear_theory.scene import arguments
-from linear_theory.sheet.rectangle import Sheet
+from linear_theory.friction.laws import Coulomb
+from linear_theory.scene.scene import Scene
 from linear_theory.wave.travelling import TravellingWave
 
 Array = NDArray[np.float64]
@@ -81,45 +78,32 @@ class _Grid:
     distances: Array
 
 
-def model_error(
-    level: str,
-    sheet: Sheet,
-    wave: Wave,
-    alpha: float,
-    growth_law: str = "exp",
-    area: str = "grown",
-    load: str = "current",
-    friction: str = "coulomb",
-) -> float:
+def model_error(level: str, scene: Scene) -> float:
     """Measured bound of |V - V_target| for a theory, absolute, in length/time.
 
-    level: "strip", "first order" or "second order"; the target's growth_law, area, load and friction as
-    in `crawl_speed`. The numerical error of V itself is not in it.
+    level: "strip", "first order" or "second order"; the target has the growth, load and friction of the
+    scene, which must be planar. The numerical error of V itself is not in it.
 
     0 without growth that changes. NaN where the distance is not known: any wave but a sine of 1 or 2
     waves on the sheet (the amplitude of a wave counts as a part of alpha); widths beyond 0.1 to 2 L,
     with two waves 1 L, Poisson ratios beyond 0 to 1/2, |alpha| beyond 0.4; friction other than dry; and
     where the level or the target has no speed. Between points of the table the bound is mostly 1.5 to 3
-    times the difference, and more where that changes its sign. Raises ValueError for names that do not
-    exist and FileNotFoundError where the table is missing.
+    times the difference, and more where that changes its sign. Raises ValueError for a level that does
+    not exist and FileNotFoundError where the table is missing.
     """
     validation.choice("level", level, LEVELS)
-    sheet, wave = arguments.sheet(sheet), arguments.wave(wave)
-    alpha = validation.real("alpha", alpha)
-    validation.choice("growth_law", growth_law, tuple(GROWTH_LAWS))
-    validation.choice("area", area, tuple(AREAS))
-    validation.choice("load", load, LOADS)
-    validation.choice("friction", friction, ("coulomb", "tanh", "viscous"))
-    if alpha == 0 or (isinstance(wave, TravellingWave) and not wave.moves):
+    wave, growth, contact = scene.wave, scene.growth, scene.contact
+    if growth.alpha == 0 or (isinstance(wave, TravellingWave) and not wave.moves):
         return 0.0  # the sheet is at rest in every theory
-    if friction != "coulomb" or not isinstance(wave, TravellingWave) or not is_sine(wave):
+    if contact.friction != Coulomb() or not isinstance(wave, TravellingWave) or not is_sine(wave):
         return math.nan
-    grid = table().get((growth_law, area, load, abs(wave.count)))
+    model = growth.law.name, str(growth.energy_area), str(contact.load), abs(wave.count)
+    grid = table().get(model)
     if grid is None:
         return math.nan
-    strength = abs(alpha) * float(np.hypot(wave.cosine[0], wave.sine[0]))
+    sheet, strength = scene.sheet, abs(growth.alpha) * float(np.hypot(wave.cosine[0], wave.sine[0]))
     bound = _bound(grid, level, (sheet.width / sheet.length, sheet.poisson, strength))
-    return bound * sheet.length / wave.period
+    return bound * scene.unit
 
 
 def is_sine(wave: TravellingWave) -> bool:

@@ -283,13 +283,11 @@ def _closed_velocities(grid: TimeGrid, speed: CrawlSpeed) -> tuple[Array, Array]
 
     The means are the speed's own: it knows better than the values, of which a part has exactly none.
     """
-    if speed.rigid is None:
+    if speed.turning is None:
         rigid = np.multiply.outer([0.0, 1.0, 0.0], speed.velocity)
         mean, error = np.array([0.0, speed.mean, 0.0]), np.array([0.0, speed.error, 0.0])
-    elif speed.rigid_mean is None or speed.rigid_error is None:
-        raise ValueError("speed.rigid: must come with rigid_mean and rigid_error")
     else:
-        rigid, mean, error = speed.rigid, speed.rigid_mean, speed.rigid_error
+        rigid, mean, error = speed.turning.velocity, speed.turning.mean, speed.turning.error
     rigid = np.concatenate([rigid, rigid[:, :1]], axis=1)
     return rigid + (mean - grid.means(rigid)[0])[:, None], error
 

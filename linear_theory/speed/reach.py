@@ -23,8 +23,8 @@ from numpy.typing import NDArray
 
 from linear_theory.common.errors import BeyondReachWarning
 from linear_theory.deformation.field import Wave
-from linear_theory.deformation.load_cases import phases
 from linear_theory.speed.result import CrawlSpeed
+from linear_theory.wave.phases import phases
 from linear_theory.wave.travelling import TravellingWave
 
 Array = NDArray[np.float64]

@@ -2,55 +2,61 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from linear_theory.common.drawable import Drawable
-from linear_theory.common.shown import with_error
+from linear_theory.common.shown import Shown, with_error
 from linear_theory.common.tables import SPEED, SPIN, TIME, Column, Tabular
+from linear_theory.friction.regime import Regime, regime_of
 
 if TYPE_CHECKING:
     from linear_theory.speed.drawn import Deformation
 
 Array = NDArray[np.float64]
 
-Regime = Literal["dry", "mixed", "viscous", "none"]
 
-DRY_RATIO = 0.05
-"""Slip ratio up to which tanh(v/v0) is dry friction. The speed of the paper's sheet has gone there 0.2
-to 1.2 % of the way from its dry to its viscous value under a sine wave (alpha from 0.02 to 0.3), 4 to
-9 % under a pulse of two harmonics, whose speed is of first order."""
-
-VISCOUS_RATIO = 1.0
-"""Slip ratio from which it is viscous: v0 is above all speeds at all times. The speed of the paper's
-sheet has gone there 90 % of the way under a sine wave, 94 to 96 % under the pulse."""
+class _Estimate(NamedTuple):
+    value: float
+    error: float
 
 
-def regime_of(slip_ratio: float) -> Regime:
-    """Regime of friction at a slip ratio (see `CrawlSpeed`); "none" for NaN, which is no friction."""
-    if np.isnan(slip_ratio):
-        return "none"
-    if slip_ratio <= DRY_RATIO:
-        return "dry"
-    return "viscous" if slip_ratio >= VISCOUS_RATIO else "mixed"
+class Estimate(Shown, _Estimate):
+    """A number and the estimate of its numerical error, absolute."""
+
+
+@dataclass(frozen=True, eq=False)
+class RigidSpeed(Shown):
+    """The rigid motion of a sheet that does not keep to a line.
+
+    velocity (3, T): V_x, V_y of the centre of mass of the undeformed area and the rate of rotation
+    Omega about it (anticlockwise) in the frame of the body (see `second_order`); mean, error (3,):
+    their means and the estimates of their numerical errors, absolute.
+    """
+
+    velocity: Array
+    mean: Array
+    error: Array
+
+    @property
+    def along(self) -> Estimate:
+        """The mean of V_y."""
+        return Estimate(float(self.mean[1]), float(self.error[1]))
 
 
 @dataclass(frozen=True)
 class CrawlSpeed(Drawable, Tabular):
     """Speed of a crawling sheet, in length/time; positive is towards +y, the way of the wave.
 
-    mean: V averaged over one period; error: estimate of its numerical error, absolute;
+    estimate: V averaged over one period, `mean`, and the estimate of its numerical error, `error`;
     model_error: distance to the nonlinear sheet, absolute, NaN where it is not known;
     converged: whether error met the tolerance that was asked for; where rigid_error is given, that; and
     the theory reaches so far.
     times (T,), velocity (T,): V_y(t) over one period.
-    rigid: (3, T), V_x, V_y of the centre of mass of the undeformed area and the rate of rotation Omega
-    about it (anticlockwise) in the frame of the body (see `second_order`), for motions that are not
-    mirror symmetric in x; None otherwise.
-    rigid_mean, rigid_error: (3,), their means and the estimates of their numerical errors, absolute;
-    V_y again has mean and error. None for mirror symmetric motions.
+    turning: the whole rigid motion, for motions that are not mirror symmetric in x; None otherwise. Its
+    arrays are also rigid (3, T), rigid_mean and rigid_error (3,).
     first_order, second_order: V_1 and V_2 of V = V_1 alpha + V_2 alpha**2 + ..., within this model;
     NaN where they were not computed.
     slip_ratio: slip speed of the friction law over the largest speed relative to the ground: dry
@@ -72,8 +78,7 @@ class CrawlSpeed(Drawable, Tabular):
     friction is dry; small strain (AirySeries), current load, coulomb friction
     """
 
-    mean: float
-    error: float
+    estimate: Estimate
     model_error: float
     converged: bool
     times: Array
@@ -84,15 +89,53 @@ class CrawlSpeed(Drawable, Tabular):
     first_order: float = np.nan
     second_order: float = np.nan
     sticks: bool = False
-    rigid: Array | None = None
-    rigid_mean: Array | None = None
-    rigid_error: Array | None = None
+    turning: RigidSpeed | None = None
     beyond_reach: str = ""
     deformation: "Deformation | None" = field(default=None, repr=False, compare=False)
 
     def __getstate__(self) -> dict[str, Any]:
         """Without the deformation: a speed that travels between processes is numbers only."""
         return self.__dict__ | {"deformation": None}
+
+    @classmethod
+    def steady(cls, speed: float, model: str, slip_ratio: float, seconds: float = 0.0) -> "CrawlSpeed":
+        """Of a sheet that does not grow: the same at all times, and exact."""
+        return cls(
+            Estimate(speed, 0.0),
+            0.0,
+            True,
+            np.zeros(1),
+            np.full(1, speed),
+            seconds,
+            model,
+            slip_ratio,
+            0.0,
+        )
+
+    @property
+    def mean(self) -> float:
+        """V averaged over one period, length per time."""
+        return self.estimate.value
+
+    @property
+    def error(self) -> float:
+        """Estimate of the numerical error of `mean`, absolute."""
+        return self.estimate.error
+
+    @property
+    def rigid(self) -> Array | None:
+        """V_x, V_y, Omega through the period, (3, T), where the motion is not mirror symmetric."""
+        return None if self.turning is None else self.turning.velocity
+
+    @property
+    def rigid_mean(self) -> Array | None:
+        """Their means, (3,)."""
+        return None if self.turning is None else self.turning.mean
+
+    @property
+    def rigid_error(self) -> Array | None:
+        """Estimates of the numerical errors of the means, (3,)."""
+        return None if self.turning is None else self.turning.error
 
     @property
     def regime(self) -> Regime:
@@ -109,6 +152,13 @@ class CrawlSpeed(Drawable, Tabular):
         if self.model_error == 0:
             return "no distance to the nonlinear sheet"
         return f"within {self.model_error:.1g} of the nonlinear sheet"
+
+    def _contents(self) -> Mapping[str, Any]:
+        """By the names that programs read, the groups spread out."""
+        parts = dict(super()._contents())
+        del parts["estimate"], parts["turning"]
+        rigid = {name: getattr(self, name) for name in ("rigid", "rigid_mean", "rigid_error")}
+        return {"mean": self.mean, "error": self.error, **parts, **rigid}
 
     def _title(self) -> str:
         return f"CrawlSpeed: {speed_in_words(self.mean, self.error, self.converged)}"

@@ -34,24 +34,22 @@ from linear_theory.balance.period import Crawl, Period, average, first_resolutio
 from linear_theory.common import validation
 from linear_theory.common.shown import Shown, with_error
 from linear_theory.common.threads import one_blas_thread
+from linear_theory.common.tolerance import Tolerance
 from linear_theory.deformation.field import Wave
-from linear_theory.deformation.second.field import (
-    AREAS,
-    GROWTH_LAWS,
-    SecondOrderField,
-    second_order_field,
-)
-from linear_theory.friction.law import LOADS, FrictionLaw
+from linear_theory.deformation.second.field import SecondOrderField, second_order_field
+from linear_theory.friction.contact import Contact
+from linear_theory.friction.laws import FrictionLaw
+from linear_theory.friction.load import Load
+from linear_theory.growth.growth import Reference
+from linear_theory.growth.laws import GrowthLaw
 from linear_theory.motion.rigid import RigidNorm
-from linear_theory.scene import arguments
+from linear_theory.scene.level import THEORY
+from linear_theory.scene.scene import Scene
 from linear_theory.sheet.rectangle import Sheet
 from linear_theory.speed.reach import growths, judged, too_large_growth, too_large_term
-from linear_theory.speed.result import CrawlSpeed
+from linear_theory.speed.result import CrawlSpeed, RigidSpeed
 
 Array = NDArray[np.float64]
-
-ORDERS = (1, 2)
-"""Of the theories that `crawl_speed` offers."""
 
 TINY_ALPHA = 1e-9
 """At which the balance is solved: what is neglected is of this relative size."""
@@ -113,23 +111,6 @@ class SecondOrder(Shown, _Orders):
         return np.asarray(abs(alpha) * self.rigid_first_error + alpha**2 * self.rigid_second_error)
 
 
-class Model(NamedTuple):
-    """Growth, elasticity, load and friction; law: for speeds per unit |alpha|."""
-
-    growth_law: str
-    area: str
-    load: str
-    law: FrictionLaw
-
-    @property
-    def words(self) -> str:
-        """What the coefficients assume."""
-        return (
-            f"second order in alpha, growth law {self.growth_law}, energy per {self.area} area, "
-            f"{self.load} load, {self.law.name} friction"
-        )
-
-
 @dataclass(frozen=True)
 class _Coefficients(Crawl):
     """The balance of which q_1 alone counts."""
@@ -148,12 +129,12 @@ class _Coefficients(Crawl):
 
 @one_blas_thread
 def second_order(
-    sheet: Sheet,
-    wave: Wave,
-    growth_law: str = "exp",
-    area: str = "grown",
-    load: str = "current",
-    friction: str = "coulomb",
+    sheet: Sheet | Scene,
+    wave: Wave | None = None,
+    growth_law: GrowthLaw | str | None = None,
+    area: Reference | str | None = None,
+    load: Load | str | None = None,
+    friction: FrictionLaw | str | None = None,
     slip_speed: float | None = None,
     rtol: float = 1e-3,
 ) -> SecondOrder:
@@ -162,15 +143,15 @@ def second_order(
     They are those of the planar Koiter membrane (eq. 1a), not of a linear theory: for a sine wave,
     first = 0 and second is the limit of V/alpha^2. How far in alpha two orders reach they do not say.
 
-    wave: a TravellingWave or a FieldWave; growth_law: of lengths, "exp" exp(alpha c), "linear"
-    1 + alpha c or "metric" (1 + 2 alpha c)^(1/2); area: in which energy is counted, "grown" or
-    "undeformed"; load: "current", "grown" or "material" (see `friction.load_rate`); friction:
-    "coulomb", "viscous", or "tanh" with slip_speed.
-    slip_speed: length per time *and unit |alpha|*, since what stays fixed as alpha -> 0 is its ratio to
-    the speeds. `crawl_speed(order=2, alpha=a, slip_speed=s)` takes a speed and looks s/|a| up here.
-    rtol: of `second`, whose error is to be below max(rtol |second|, 0.01 rtol L/T); where the motion is
-    not mirror symmetric, of the size of rigid_second (see `rigid.RigidNorm`). A miss shows in the
-    errors. All else comes with the same cells and times.
+    sheet, wave: any wave; or a planar `Scene`, whose alpha does not count. growth_law: of lengths,
+    "exp" exp(alpha c) unless given, "linear" 1 + alpha c or "metric" (1 + 2 alpha c)^(1/2); area: in
+    which energy is counted, "grown" unless given, or "undeformed"; load: "current" unless given,
+    "grown" or "material" (see `Load`); friction: "coulomb" unless given, "viscous", or "tanh" with
+    slip_speed. slip_speed: length per time *and unit |alpha|*, since what stays fixed as alpha -> 0 is
+    its ratio to the speeds. `crawl_speed(order=2, alpha=a, slip_speed=s)` takes a speed and looks s/|a|
+    up here. rtol: of `second`, whose error is to be below max(rtol |second|, 0.01 rtol L/T); where the
+    motion is not mirror symmetric, of the size of rigid_second (see `rigid.RigidNorm`). A miss shows in
+    the errors. All else comes with the same cells and times.
 
     Raises ValueError for bad input.
 
@@ -181,19 +162,15 @@ def second_order(
     exp: V = 1.5 alpha^2 L/T True
     metric: V = 2.1 alpha^2 L/T True
     """
-    start, rtol = time.perf_counter(), validation.tolerance(rtol)
-    sheet, wave = arguments.sheet(sheet), arguments.wave(wave)
-    model = checked_model(growth_law, area, load, FrictionLaw(friction, slip_speed))
-    field = second_order_field(sheet, wave, growth_law, area, field_tolerance(rtol))
-    return coefficients(field, leading_period(field, load, model.law, rtol), model, start)
-
-
-def checked_model(growth_law: str, area: str, load: str, law: FrictionLaw) -> Model:
-    """Raise ValueError for names that do not exist."""
-    validation.choice("growth_law", growth_law, GROWTH_LAWS)
-    validation.choice("area", area, AREAS)
-    validation.choice("load", load, LOADS)
-    return Model(growth_law, area, load, law)
+    start = time.perf_counter()
+    alpha = None if isinstance(sheet, Scene) else 0.0
+    scene = Scene.stated(
+        sheet, wave, alpha, load, friction, slip_speed, growth_law=growth_law, area=area
+    )
+    THEORY.require(scene)
+    rtol = validation.tolerance(rtol)
+    field = second_order_field(scene.sheet, scene.wave, scene.growth, field_tolerance(rtol))
+    return coefficients(field, leading_period(field, scene.contact, rtol), scene.contact, start)
 
 
 def field_tolerance(rtol: float) -> float:
@@ -201,20 +178,23 @@ def field_tolerance(rtol: float) -> float:
     return max(FIELD_SHARE * rtol, validation.SMALLEST_RTOL)
 
 
-def leading_period(field: SecondOrderField, load: str, law: FrictionLaw, rtol: float) -> Period:
+def leading_period(field: SecondOrderField, contact: Contact, rtol: float) -> Period:
     """A period of motion at TINY_ALPHA, whose mean and error are those of second order alone.
 
-    law: for speeds per unit alpha.
+    contact: with a law of friction for speeds per unit alpha.
     """
     unit = field.sheet.length / field.wave.period
-    atol = 1e-2 * rtol * TINY_ALPHA**2 * unit
+    tolerance = Tolerance(rtol, 1e-2 * rtol * TINY_ALPHA**2 * unit)
     resolution = first_resolution(rtol)
     resolution = replace(resolution, halvings=resolution.halvings + MORE_HALVINGS)
-    crawl = _Coefficients(field, TINY_ALPHA, load, law.scaled(1 / TINY_ALPHA), resolution)
-    return average(crawl, rtol, atol)
+    law = contact.friction.scaled(1 / TINY_ALPHA)
+    crawl = _Coefficients(field, TINY_ALPHA, replace(contact, friction=law), resolution)
+    return average(crawl, tolerance)
 
 
-def coefficients(field: SecondOrderField, period: Period, model: Model, start: float) -> SecondOrder:
+def coefficients(
+    field: SecondOrderField, period: Period, contact: Contact, start: float
+) -> SecondOrder:
     """Means of q_0 and q_1 and their errors; start: of the time that is counted."""
     first, second = period.means
     first_error, second_error = period.mean_errors + field_errors(field, period)
@@ -226,7 +206,7 @@ def coefficients(field: SecondOrderField, period: Period, model: Model, start: f
         first_error=float(first_error[1]),
         second_error=float(second_error[1]),
         seconds=time.perf_counter() - start,
-        model=model.words,
+        model=f"second order in alpha, {field.growth.model}, {contact.model}",
         rigid_first=first,
         rigid_second=second,
         rigid_first_error=first_error,
@@ -255,47 +235,34 @@ def _second_field_error(field: SecondOrderField, fastest: float) -> float:
 
 
 @one_blas_thread
-def second_order_speed(
-    sheet: Sheet,
-    wave: Wave,
-    alpha: float,
-    growth_law: str,
-    area: str,
-    load: str,
-    friction: str,
-    slip_speed: float | None,
-    rtol: float,
-    atol: float | None,
-) -> CrawlSpeed:
-    """V_1 alpha + V_2 alpha^2; arguments, result and errors raised are those of `crawl_speed`."""
-    start, alpha = time.perf_counter(), validation.real("alpha", alpha)
-    rtol, law = validation.tolerance(rtol), FrictionLaw(friction, slip_speed)
-    model = checked_model(growth_law, area, load, law.scaled(abs(alpha) or 1.0))
-    field = second_order_field(sheet, wave, growth_law, area, field_tolerance(rtol))
-    unit = sheet.length / wave.period
-    atol = validation.absolute_tolerance(atol, rtol, alpha, unit)
-    check_growth(growth_law, alpha, wave, sheet)
-    period = leading_period(field, load, model.law, rtol)
-    both = coefficients(field, period, model, start)
+def second_order_speed(scene: Scene, tolerance: Tolerance) -> CrawlSpeed:
+    """V_1 alpha + V_2 alpha^2 of a planar scene; results and errors are those of `crawl_speed`."""
+    start, alpha, contact = time.perf_counter(), scene.alpha, scene.contact
+    tolerance, law = tolerance.of_speed(alpha, scene.unit), contact.friction
+    per_alpha = replace(contact, friction=law.scaled(abs(alpha) or 1.0))
+    rtol = tolerance.rtol
+    field = second_order_field(scene.sheet, scene.wave, scene.growth, field_tolerance(rtol))
+    scene.growth.law.check(alpha, growths(scene.wave, *_points(scene.sheet), scene.sheet.length))
+    period = leading_period(field, per_alpha, rtol)
+    both = coefficients(field, period, per_alpha, start)
     norm = RigidNorm(field.gyration, field.mirrored)
     fastest = abs(alpha) * period.fastest / TINY_ALPHA
     found = replace(
         speed_at(alpha, both, period, field.mirrored),
-        converged=norm.meets(both.rigid_mean(alpha), both.rigid_error(alpha), rtol, atol),
+        converged=norm.meets(both.rigid_mean(alpha), both.rigid_error(alpha), tolerance),
         slip_ratio=law.slip_ratio(fastest),
         seconds=time.perf_counter() - start,
     )
-    beyond = too_large_growth(wave, alpha, *_points(sheet), sheet.length)
+    beyond = too_large_growth(scene.wave, alpha, *_points(scene.sheet), scene.sheet.length)
     return judged(found, beyond or too_large_term(alpha**2 * both.second, fastest))
 
 
 def speed_at(alpha: float, found: SecondOrder, period: Period, mirrored: bool) -> CrawlSpeed:
     """What coefficients say at one alpha, without any judgement of it."""
     rigid = alpha * period.orders[0] + alpha**2 * period.orders[1]
-    mean, error = found.rigid_mean(alpha), found.rigid_error(alpha)
+    turning = RigidSpeed(rigid, found.rigid_mean(alpha), found.rigid_error(alpha))
     return CrawlSpeed(
-        mean=float(mean[1]),
-        error=float(error[1]),
+        estimate=turning.along,
         model_error=math.nan,
         converged=False,
         times=period.times,
@@ -306,34 +273,11 @@ def speed_at(alpha: float, found: SecondOrder, period: Period, mirrored: bool) -
         first_order=found.first,
         second_order=found.second,
         sticks=period.sticks,
-        rigid=None if mirrored else rigid,
-        rigid_mean=None if mirrored else mean,
-        rigid_error=None if mirrored else error,
+        turning=None if mirrored else turning,
     )
-
-
-def check_growth(growth_law: str, alpha: float, wave: Wave, sheet: Sheet) -> None:
-    """Raise ValueError where lengths would vanish: 1 + alpha c or 1 + 2 alpha c not positive."""
-    if growth_law == "exp":
-        return
-    factor = 1.0 if growth_law == "linear" else 2.0
-    lowest = float((alpha * growths(wave, *_points(sheet), sheet.length)).min())
-    if 1 + factor * lowest <= 0:
-        raise ValueError(
-            f"alpha = {alpha:g}: alpha c reaches {lowest:.3g}; must be > {-1 / factor:g} for "
-            f"growth_law {growth_law!r}"
-        )
 
 
 def _points(sheet: Sheet) -> tuple[Array, Array]:
     """x and y of a grid over the sheet, edges included, (n,) each."""
     x, y = (s * np.linspace(-0.5, 0.5, POINTS) for s in (sheet.width, sheet.length))
     return np.repeat(x, POINTS), np.tile(y, POINTS)
-
-
-def check_model(order: int, growth_law: str, area: str) -> None:
-    """Raise ValueError for an order or for names that do not exist."""
-    if validation.integer("order", order) not in ORDERS:
-        raise ValueError(f"order = {order}: must be one of {', '.join(map(str, ORDERS))}")
-    validation.choice("growth_law", growth_law, GROWTH_LAWS)
-    validation.choice("area", area, AREAS)

@@ -92,10 +92,10 @@ def slip(speed: float) -> Outcome:
 def joining(speed: float) -> Outcome:
     """tanh friction between its limits, against the literal balance of one time, eq. 11 with eq. 3."""
     from linear_theory.balance.period import Crawl, first_resolution
-    from linear_theory.friction.law import FrictionLaw
+    from linear_theory.friction.laws import Tanh
 
     field, alpha, t = airy_series(PAPER, SINE, rtol=1e-8), 0.25, 0.06
-    law = FrictionLaw("tanh", speed)
+    law = Tanh(speed)
     motion = Crawl(field, alpha, "current", law, first_resolution(1e-6)).balance(np.array([t]))
     found = alpha * (motion.leading + alpha * motion.remainder)[0, 1]
     exact = reference_balance.speed_at(field, alpha, t, force=lambda r: np.tanh(r / speed) / r)

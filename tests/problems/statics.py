@@ -12,13 +12,14 @@ from fem_check.shell.effects.loads import DeadLoad
 from fem_check.shell.kinematics.discretisation import Discretisation
 from fem_check.shell.kinematics.rest_state import grown_state, tensor_state
 from fem_check.shell.kinematics.supports import Supports
-from fem_check.shell.scene.material import Material
+from fem_check.shell.material import Material
 from fem_check.shell.statics.equilibrium import ConvergenceError, Equilibrium
 from fem_check.shell.statics.newton import Minimiser
 from fem_check.shell.statics.orientation import Orientation
 from fem_check.shell.statics.potential import Load, Potential
 from fem_check.shell.statics.ramp import follow_mode, ramp
 from linear_theory import SineWave
+from linear_theory.growth.growth import Growth
 from tests.problems.problem import Outcome, Problem, case, family, stated
 from tests.shell_cases import (
     ELEMENTS,
@@ -205,7 +206,7 @@ def planar(alpha: float, area: str) -> tuple[Discretisation, Minimiser, object]:
         lambda s: Potential(
             sheet,
             (Membrane(Material(0.03, 0.5)),),
-            grown_state(sheet.interior, c, alpha * s, area=area),
+            grown_state(sheet.interior, c, Growth(alpha * s, energy_area=area)),
         ),
     )
 
@@ -235,7 +236,7 @@ def uniform_growth(factor: float, components: int) -> Outcome:
     minimiser = Minimiser(Supports(sheet).anchor())
     grown = ramp(
         minimiser,
-        lambda s: Potential(sheet, effects, grown_state(sheet.interior, 1.0, s * alpha)),
+        lambda s: Potential(sheet, effects, grown_state(sheet.interior, 1.0, Growth(s * alpha))),
         sheet.zeros(),
         first=0.25,
     )

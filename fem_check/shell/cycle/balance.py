@@ -13,7 +13,6 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from fem_check.shell.cycle.contact import Contact
 from fem_check.shell.cycle.frame import gyration
 from fem_check.shell.cycle.motion import CycleMotion, is_mirrored
 from fem_check.shell.cycle.shapes import Shapes
@@ -21,6 +20,8 @@ from fem_check.shell.kinematics.places import ROUNDOFF, distinct
 from linear_theory.balance.balance import Balance, RigidMotion
 from linear_theory.balance.time_grid import TimeGrid, first_grid
 from linear_theory.common.progress import track
+from linear_theory.common.tolerance import Tolerance
+from linear_theory.friction.contact import Contact
 from linear_theory.motion.rigid import RigidNorm
 from linear_theory.wave.survey import PER_HARMONIC
 from linear_theory.wave.travelling import TravellingWave
@@ -117,14 +118,14 @@ class CycleBalance:
         scene = self.shapes.scene
         return scene.speed_per_rate(self.contact.slope != 0 or not scene.survey.changes_sign)
 
-    def average(self, rtol: float, atol: float) -> Period:
+    def average(self, tolerance: Tolerance) -> Period:
         """Mean motion over a period at as many times as the tolerance needs and the noise allows."""
         grid, most = self._first_grid(), TIMES_PER_PHASE * len(self.shapes.states)
         found = self.balance(grid.times)
         while True:
             values = _paired(found.leading)
             mean, time_error = grid.means(values)
-            goal = max(TIME_SHARE * self.norm.tolerance(mean, rtol, atol), self.noise)
+            goal = max(TIME_SHARE * self.norm.allowed(mean, tolerance), self.noise)
             speeds = self.norm.speeds(values)
             finer = self._finer(grid, speeds, goal)
             if finer is None or grid.times.size > most:
@@ -217,7 +218,7 @@ class CycleBalance:
         return CycleMotion(self.shapes, self.contact.load, self.order, self.mirrored)
 
     def _balance(self, times: Array) -> Balance:
-        motion, law, slope = self._motion.at(times), self.contact.law, self.contact.slope
+        motion, law, slope = self._motion.at(times), self.contact.friction, self.contact.slope
         return Balance(motion, motion.dilation, 1.0, law, self.halvings, self.tolerance, slope)
 
 

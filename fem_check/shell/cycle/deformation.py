@@ -9,15 +9,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fem_check.mesh import location as triangles
-from fem_check.shell.cycle import contact
 from fem_check.shell.cycle.motion import CycleMotion
 from fem_check.shell.cycle.shapes import Shapes, time_factors
 from fem_check.shell.effects.gravity import Gravity
 from fem_check.shell.kinematics.region import Region
 from linear_theory.common.shown import Shown
 from linear_theory.deformation.field import Wave
+from linear_theory.friction.contact import Contact
+from linear_theory.friction.load import Load
 from linear_theory.motion.rigid import centre_and_gyration
-from linear_theory.speed.drawn import Contact
+from linear_theory.speed.drawn import Touch
 
 Array = NDArray[np.float64]
 Integers = NDArray[np.int64]
@@ -26,8 +27,8 @@ Integers = NDArray[np.int64]
 class CycleDeformation(Shown):
     """See `linear_theory.speed.drawn.Deformation`; the shapes are those that gave the speed."""
 
-    def __init__(self, shapes: Shapes, on_ground: contact.Contact) -> None:
-        self.shapes, self._load, self.law = shapes, on_ground.load, on_ground.law
+    def __init__(self, shapes: Shapes, contact: Contact) -> None:
+        self.shapes, self._load, self.law = shapes, contact.load, contact.friction
         self.alpha = shapes.scene.alpha
         where = "in the plane" if shapes.scene.planar else "in space"
         self.words = f"shape of the nonlinear sheet {where}"
@@ -61,15 +62,15 @@ class CycleDeformation(Shown):
 
     def growth(self, points: Array, times: Array) -> Array:
         """See Deformation."""
-        return np.stack([self.shapes.scene.growth(float(t), *points) for t in times])
+        return np.stack([self.shapes.model.growth(float(t), *points) for t in times])
 
-    def contact(self, points: Array, t: float) -> Contact:
+    def contact(self, points: Array, t: float) -> Touch:
         """See Deformation."""
         found = self._motion(points).at(np.array([t]))
         weight = 1.0
-        if self._load == contact.ON_GROUND:  # the reaction is a pressure
-            weight = self.shapes.scene.find(Gravity).weight
-        return Contact(found.velocity[:, 0, :, 0, 0], found.area[0, :, 0, 0] / weight)
+        if self._load is Load.GROUND:  # the reaction is a pressure
+            weight = self.shapes.model.find(Gravity).weight
+        return Touch(found.velocity[:, 0, :, 0, 0], found.area[0, :, 0, 0] / weight)
 
     def _motion(self, points: Array) -> "_AtPoints":
         return _AtPoints(self.shapes, self._load, 1, mirrored=False, points=points)

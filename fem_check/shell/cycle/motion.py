@@ -15,8 +15,8 @@ from fem_check.shell.effects.ground import Ground
 from fem_check.shell.kinematics.discretisation import Discretisation
 from fem_check.shell.kinematics.places import ROUNDOFF
 from fem_check.shell.kinematics.region import Region
-from fem_check.shell.scene.growth import metric_factor
 from linear_theory.common.errors import SheetcrawlError
+from linear_theory.friction.load import Load
 from linear_theory.motion.motion import Motion
 from linear_theory.wave.travelling import TravellingWave
 
@@ -46,12 +46,12 @@ def is_mirrored(shapes: Shapes, axis: int = 0) -> bool:
 class CycleMotion:
     """Velocities and loads of shapes on the cells of their mesh.
 
-    load: see `contact.Contact`; order: Gauss points per cell and direction; mirrored: whether the
+    load: see `Contact`; order: Gauss points per cell and direction; mirrored: whether the
     motion is mirror symmetric. A rectangle is one cell, a triangle three.
     """
 
     shapes: Shapes
-    load: str
+    load: Load
     order: int
     mirrored: bool
 
@@ -123,25 +123,24 @@ class CycleMotion:
     def _load(self, times: Array, values: Array, position: Array) -> Array:
         """Load of unit weight per area, times the Jacobian of the cells, (T, points)."""
         region = self.region
-        if self.load == "material":
+        if self.load is Load.MATERIAL:
             return np.broadcast_to(region.measure, (times.size, region.size))
-        if self.load == "current":
+        if self.load is Load.CURRENT:
             first, second = np.tensordot(values, self._jets[:, 1:], 1).swapaxes(0, 1)
             return np.asarray(region.weights.ravel() * _area(first, second))
-        if self.load == "grown":
+        if self.load is Load.GROWN:
             return self._grown_area(times)
         return self._reaction(times, position)
 
     def _grown_area(self, times: Array) -> Array:
-        scene = self.shapes.scene
-        x, y = self.region.reference[0, :2]
-        growth = np.stack([scene.growth(float(t), x, y) for t in times])
-        return metric_factor(scene.growth_law, scene.alpha, growth) * self.region.measure
+        model, (x, y) = self.shapes.model, self.region.reference[0, :2]
+        growth = np.stack([model.growth(float(t), x, y) for t in times])
+        return model.scene.growth.metric(growth) * self.region.measure
 
     def _reaction(self, times: Array, position: Array) -> Array:
         """Static pressure of the ground times the area in which it is counted."""
-        ground = self.shapes.scene.find(Ground)
-        area = self._grown_area(times) if ground.area == "grown" else self.region.measure
+        ground = self.shapes.model.find(Ground)
+        area = self._grown_area(times) if ground.load is Load.GROWN else self.region.measure
         return np.asarray(ground.stiffness * np.minimum(position[2], 0) ** 2 * area)
 
 

@@ -17,7 +17,7 @@ from fem_check.shell.effects.ground import Ground
 from fem_check.shell.effects.koiter import Membrane
 from fem_check.shell.kinematics.discretisation import Discretisation
 from fem_check.shell.kinematics.supports import Supports
-from fem_check.shell.scene.scene import Scene
+from fem_check.shell.model import ShellModel
 from fem_check.shell.statics.ellipticity import Ellipticity
 from fem_check.shell.statics.equilibrium import ConvergenceError, Equilibrium, UnstableError
 from fem_check.shell.statics.newton import Minimiser
@@ -27,6 +27,7 @@ from linear_theory.common import validation
 from linear_theory.common.progress import track
 from linear_theory.common.shown import Shown
 from linear_theory.common.threads import one_blas_thread
+from linear_theory.scene.scene import Scene
 
 Array = NDArray[np.float64]
 
@@ -52,20 +53,29 @@ class NotPeriodicError(ConvergenceError):
 
 @dataclass(frozen=True, eq=False)
 class Shapes(Shown):
-    """Static shapes of a scene at equidistant phases t = 0, T/N, ... of one period T.
+    """Static shapes of a model at equidistant phases t = 0, T/N, ... of one period T.
 
-    states: (N, size), displacement unknowns of `discretisation`; iterations: of Newton's method, all
+    states: (N, size), displacement unknowns of its discretisation; iterations: of Newton's method, all
     together; buckled: phases (of N) at which a buckled state was met and left; seconds: time spent;
     reserve: least one of stability against short waves, see `ellipticity.Reserve`, inf in space.
     """
 
-    scene: Scene
-    discretisation: Discretisation
+    model: ShellModel
     states: Array
     iterations: int
     buckled: int
     seconds: float
     reserve: float = np.inf
+
+    @property
+    def scene(self) -> Scene:
+        """What the model was made of."""
+        return self.model.scene
+
+    @property
+    def discretisation(self) -> Discretisation:
+        """Of the model."""
+        return self.model.discretisation
 
     @property
     def times(self) -> Array:
@@ -115,11 +125,12 @@ def time_factors(times: ArrayLike, period: float, highest: int) -> tuple[Array, 
 
 
 @one_blas_thread
-def cycle_of_shapes(scene: Scene, count: int = 16, known: Shapes | None = None) -> Shapes:
+def cycle_of_shapes(scene: Scene | ShellModel, count: int = 16, known: Shapes | None = None) -> Shapes:
     """Static shapes at `count` equidistant phases of one period, growth ramped up at the first.
 
-    count: even, >= 4. known: shapes at half as many phases, which are kept and interpolated for the
-    starts of the new ones. Friction and inertia do not act on a static shape and are left out.
+    scene: or the model of one, which is then used again. count: even, >= 4. known: shapes at half as
+    many phases, which are kept and interpolated for the starts of the new ones. Friction and inertia do
+    not act on a static shape and are left out.
 
     Raises ValueError for an odd count, ConvergenceError (with its last state) where a shape is not
     found, NotPeriodicError where shapes of a sheet that buckles do not repeat, UnstableError where a
@@ -128,7 +139,7 @@ def cycle_of_shapes(scene: Scene, count: int = 16, known: Shapes | None = None) 
     if validation.integer("count", count, 4) % 2:
         raise ValueError(f"count = {count}: must be even")
     start = time.perf_counter()
-    solver = _Solver(scene)
+    solver = _Solver(scene if isinstance(scene, ShellModel) else ShellModel(scene))
     if known is None:
         found = _closed(solver, count) if solver.may_buckle else solver.period(count, solver.first())
     else:
@@ -165,16 +176,16 @@ def _closed(solver: "_Solver", count: int) -> Shapes:
 
 
 class _Solver:
-    """Minimisations of one scene at any time, and a count of what they took."""
+    """Minimisations of one model at any time, and a count of what they took."""
 
-    def __init__(self, scene: Scene) -> None:
-        self.scene, self.discretisation = scene, scene.discretisation()
-        self.may_buckle = not scene.planar
-        self.effects = static_effects(scene)
-        motions = "xyz" if scene.find(Ground) is None else "xy"
+    def __init__(self, model: ShellModel) -> None:
+        self.model, self.scene, self.discretisation = model, model.scene, model.discretisation
+        self.may_buckle = not model.planar
+        self.effects = working_effects(model)
+        motions = "xyz" if model.find(Ground) is None else "xy"
         supports = Supports(self.discretisation).anchor(motions=motions)
         self.minimiser = Minimiser(supports, TOLERANCE, check_stability=self.may_buckle)
-        self.ellipticity = None if self.may_buckle else _ellipticity(scene)
+        self.ellipticity = None if self.may_buckle else _ellipticity(model)
         self.iterations = self.buckled = 0
         self.reserve = np.inf
 
@@ -182,10 +193,10 @@ class _Solver:
         """The shape at t = 0, growth ramped up from the undeformed sheet at its static depth."""
 
         def problem(share: float) -> Potential:
-            return Potential(self.discretisation, self.effects, self.scene.rest(0.0, share))
+            return Potential(self.discretisation, self.effects, self.model.rest(0.0, share))
 
         push = PUSH * self.scene.sheet.length if self.may_buckle else 0.0
-        start = static_depth(self.scene)
+        start = static_depth(self.model)
         return self._count(
             ramp(self.minimiser, problem, start, follow=push, report=self._require_at_start)
         ).state
@@ -203,11 +214,11 @@ class _Solver:
         if known is not None:
             iterations, buckled = iterations + known.iterations, buckled + known.buckled
             reserve = min(reserve, known.reserve)
-        return Shapes(self.scene, self.discretisation, states, iterations, buckled, 0.0, reserve)
+        return Shapes(self.model, states, iterations, buckled, 0.0, reserve)
 
     def shape(self, t: float, guess: Array, before: Array) -> Equilibrium:
         """The shape at time t next to a guess, or to the one before where the guess does not serve."""
-        potential = Potential(self.discretisation, self.effects, self.scene.rest(t))
+        potential = Potential(self.discretisation, self.effects, self.model.rest(t))
         try:
             result = self._left(potential, self._next(potential, guess, before))
         except ConvergenceError as error:
@@ -236,7 +247,7 @@ class _Solver:
         """Raise UnstableError where a planar shape at time t is beyond the stability of its energy."""
         if self.ellipticity is None:
             return
-        reserve = self.ellipticity.reserve(state, lambda r: self.scene.rest(t, share, r))
+        reserve = self.ellipticity.reserve(state, lambda r: self.model.rest(t, share, r))
         self.reserve = min(self.reserve, reserve.value)
         if reserve.value > 0:
             return
@@ -250,21 +261,21 @@ class _Solver:
         return result
 
 
-def _ellipticity(scene: Scene) -> Ellipticity:
-    return Ellipticity(scene.discretisation(), scene.find(Membrane).material.poisson)
+def _ellipticity(model: ShellModel) -> Ellipticity:
+    return Ellipticity(model.discretisation, model.find(Membrane).material.poisson)
 
 
-def static_effects(scene: Scene) -> tuple[Effect, ...]:
-    """Effects that shape the sheet; in the plane weight does no work and is left out too."""
-    effects = scene.static_effects
-    return tuple(e for e in effects if not (scene.planar and isinstance(e, Gravity)))
+def working_effects(model: ShellModel) -> tuple[Effect, ...]:
+    """Effects that shape the sheet; in the plane weight, the load of friction, does not."""
+    effects = model.static_effects
+    return tuple(e for e in effects if not (model.planar and e.pressed_by(2)))
 
 
-def static_depth(scene: Scene) -> Array:
+def static_depth(model: ShellModel) -> Array:
     """The undeformed sheet, lowered on a flat ground to where that carries the weight, (size,)."""
-    ground, gravity = scene.find(Ground), scene.find(Gravity)
+    ground, gravity = model.find(Ground), model.find(Gravity)
     if ground is None:
-        return scene.discretisation().zeros()
+        return model.discretisation.zeros()
     depth = np.sqrt(gravity.weight / ground.stiffness)
 
     def jets(x: Array, y: Array) -> Array:
@@ -272,7 +283,7 @@ def static_depth(scene: Scene) -> Array:
         out[0, 2] = -depth
         return out
 
-    return scene.discretisation().interpolate(jets)
+    return model.discretisation.interpolate(jets)
 
 
 def extrapolated(states: list[Array]) -> Array:

@@ -16,22 +16,24 @@ import numpy as np
 import skfem
 from numpy.typing import NDArray
 
+from fem_check.shell.abilities import CYCLE, require
 from fem_check.shell.cycle.balance import CycleBalance, Period
-from fem_check.shell.cycle.contact import Contact
+from fem_check.shell.cycle.contact import creep, held_contact
 from fem_check.shell.cycle.deformation import CycleDeformation
 from fem_check.shell.cycle.motion import UnresolvedError, is_mirrored
-from fem_check.shell.cycle.shapes import Shapes, cycle_of_shapes, static_effects
-from fem_check.shell.effects.friction import Friction
-from fem_check.shell.effects.koiter import Membrane
+from fem_check.shell.cycle.shapes import Shapes, cycle_of_shapes
+from fem_check.shell.effects.friction import friction_over_growth
 from fem_check.shell.kinematics.places import distinct
-from fem_check.shell.scene.abilities import CYCLE, friction_over_growth
-from fem_check.shell.scene.scene import Scene
+from fem_check.shell.model import ShellModel
 from linear_theory.common import validation
 from linear_theory.common.progress import Report, watched
 from linear_theory.common.shown import Shown
 from linear_theory.common.threads import one_blas_thread
-from linear_theory.friction.law import warn_if_viscous
-from linear_theory.speed.result import CrawlSpeed
+from linear_theory.common.tolerance import Tolerance
+from linear_theory.friction.contact import Contact
+from linear_theory.friction.regime import warn_if_viscous
+from linear_theory.scene.scene import Scene
+from linear_theory.speed.result import CrawlSpeed, Estimate, RigidSpeed
 from linear_theory.wave.travelling import TravellingWave
 
 Array = NDArray[np.float64]
@@ -93,72 +95,65 @@ def cycle_speed(
     >>> print(f"V = {speed.mean:.3f} L/T, converged {speed.converged}")
     V = 0.091 L/T, converged True
     """
+    hint = "its arguments are sheet, wave, alpha and effects"
+    scene = validation.instance("scene", scene, Scene, hint).resting(load, friction, slip_speed)
     with watched(progress, "cycle_speed"):
-        found = Cycle(scene).speed(load, friction, slip_speed, rtol, atol)
-    warn_if_viscous(found, Contact.of(scene, load, friction, slip_speed).law.slip_speed)
+        found = Cycle(scene).speed(Tolerance(rtol, atol))
+    warn_if_viscous(scene.contact.friction, found.slip_ratio)
     return found
 
 
 class Cycle(Shown):
     """A cycle of static shapes, which does not depend on what rests on the sheet nor on friction.
 
-    Found when first needed and kept: speeds under several loads and laws of friction share it. Raises
-    ValueError for a scene that names what it cannot represent.
+    Found when first needed and kept: speeds under several contacts share it. Raises ValueError for a
+    scene that names what it cannot represent.
     """
 
     def __init__(self, scene: Scene) -> None:
-        hint = "its arguments are sheet, wave, alpha and effects"
-        self.scene = validation.instance("scene", scene, Scene, hint)
-        CYCLE.require(self.scene)
-        self._shapes = KeptShapes(scene)
+        require(CYCLE, scene)
+        self.scene = scene
+        self._shapes = KeptShapes(ShellModel(scene))
 
     def _contents(self) -> Mapping[str, Any]:
         return {"scene": self.scene}
 
     @one_blas_thread
-    def speed(
-        self,
-        load: str | None = None,
-        friction: str | None = None,
-        slip_speed: float | None = None,
-        rtol: float = 1e-3,
-        atol: float | None = None,
-    ) -> CrawlSpeed:
-        """As `cycle_speed`, but for the warning; `seconds` counts the shapes where they are found."""
-        start, scene = time.perf_counter(), self.scene
-        rtol, contact = validation.tolerance(rtol), Contact.of(scene, load, friction, slip_speed)
+    def speed(self, tolerance: Tolerance, contact: Contact | None = None) -> CrawlSpeed:
+        """As `cycle_speed`, but for the warning; `seconds` counts the shapes where they are found.
+
+        contact: another one than that of the scene.
+        """
+        start = time.perf_counter()
+        scene = self.scene if contact is None else self.scene.but(contact=contact)
+        contact, tolerance = held_contact(scene), tolerance.of_speed(scene.alpha, scene.unit)
         scene.survey.check_period()
-        unit = scene.sheet.length / scene.period
-        atol = validation.absolute_tolerance(atol, rtol, scene.alpha, unit)
         if scene.alpha == 0 and (scene.planar or scene.curvature_coupling == 0):
             return _without_growth(scene, contact)
-        balance, period, phase_error = _with_enough_phases(self._shapes, contact, rtol, atol)
+        balance, period, phase_error = _with_enough_phases(self._shapes, contact, tolerance)
         error = period.error + phase_error + self._mesh_error(balance, period)
         times, rigid = balance.whole_period(period)
         fastest = period.fastest if period.fastest > balance.noise else 0.0
         return CrawlSpeed(
-            mean=float(period.mean[1]),
-            error=float(error[1]),
+            estimate=Estimate(float(period.mean[1]), float(error[1])),
             model_error=0.0 if _is_target(scene) else math.nan,
-            converged=self._stable(balance) and balance.norm.meets(period.mean, error, rtol, atol),
+            converged=self._stable(balance) and balance.norm.meets(period.mean, error, tolerance),
             times=times,
             velocity=rigid[1],
             seconds=time.perf_counter() - start,
             model=_words(scene, contact),
-            slip_ratio=contact.law.slip_ratio(fastest),
+            slip_ratio=contact.friction.slip_ratio(fastest),
             first_order=0.0 if _starts_at_second_order(scene, contact) else math.nan,
             sticks=period.sticks,
-            rigid=None if balance.mirrored else rigid,
-            rigid_mean=None if balance.mirrored else period.mean,
-            rigid_error=None if balance.mirrored else error,
+            turning=None if balance.mirrored else RigidSpeed(rigid, period.mean, error),
             deformation=CycleDeformation(balance.shapes, contact),
         )
 
     @cached_property
     def _compared(self) -> tuple["KeptShapes", float]:
         """Shapes on the other mesh, and how far apart they are at least, in errors."""
-        mesh, gain = other_mesh(self.scene.discretisation().mesh)
-        return KeptShapes(replace(self.scene, cells=None, mesh=mesh)), gain
+        mesh, gain = other_mesh(self._shapes.model.discretisation.mesh)
+        return KeptShapes(ShellModel(self.scene.but(cells=None, mesh=mesh))), gain
 
     def _mesh_error(self, balance: CycleBalance, period: Period) -> Array:
         """What the mesh does to the mean motion, from the speed on another mesh at the same times."""
@@ -176,21 +171,21 @@ class Cycle(Shown):
 
 
 class KeptShapes:
-    """Shapes of a scene at FIRST_PHASES, or that times a power of two, each found once."""
+    """Shapes of a model at FIRST_PHASES, or that times a power of two, each found once."""
 
-    def __init__(self, scene: Scene) -> None:
-        self._scene = scene
+    def __init__(self, model: ShellModel) -> None:
+        self.model = model
         self._found: dict[int, Shapes] = {}
 
     def at(self, count: int) -> Shapes:
         """At `count` phases, from those at half as many where they are known."""
         if count not in self._found:
-            self._found[count] = cycle_of_shapes(self._scene, count, self._found.get(count // 2))
+            self._found[count] = cycle_of_shapes(self.model, count, self._found.get(count // 2))
         return self._found[count]
 
 
 def _with_enough_phases(
-    kept: KeptShapes, contact: Contact, rtol: float, atol: float
+    kept: KeptShapes, contact: Contact, tolerance: Tolerance
 ) -> tuple[CycleBalance, Period, Array]:
     """Double the phases until the interpolation between them takes its share of the tolerance.
 
@@ -200,15 +195,15 @@ def _with_enough_phases(
     count = FIRST_PHASES
     while True:
         last = count >= MOST_PHASES
-        balance = CycleBalance.of(kept.at(count), contact, rtol)
+        balance = CycleBalance.of(kept.at(count), contact, tolerance.rtol)
         try:
-            period = balance.average(rtol, atol)
+            period = balance.average(tolerance)
             error = _phase_error(balance, period) + balance.norm.each(_hidden(balance, count))
         except UnresolvedError:
             if last:
                 raise
         else:
-            goal = max(PHASE_SHARE * balance.norm.tolerance(period.mean, rtol, atol), balance.noise)
+            goal = max(PHASE_SHARE * balance.norm.allowed(period.mean, tolerance), balance.noise)
             if last or balance.norm.size(error) <= goal or _hidden(balance, MOST_PHASES) > goal:
                 return balance, period, error
         count *= 2
@@ -269,15 +264,14 @@ def other_mesh(mesh: Any) -> tuple[Any, float]:
 
 def _without_growth(scene: Scene, contact: Contact) -> CrawlSpeed:
     """No growth, no motion; but under tanh friction a sheet creeps down a slope."""
-    words, creep = _words(scene, contact), contact.creep
-    ratio, velocity = contact.law.slip_ratio(abs(creep)), np.full(1, creep)
-    return CrawlSpeed(creep, 0.0, 0.0, True, np.zeros(1), velocity, 0.0, words, ratio, 0.0)
+    words, slide = _words(scene, contact), creep(contact)
+    return CrawlSpeed.steady(slide, words, contact.friction.slip_ratio(abs(slide)))
 
 
 def _is_target(scene: Scene) -> bool:
     """Whether the scene is the nonlinear sheet that nothing but growth deforms."""
-    alone = all(isinstance(effect, Membrane) for effect in static_effects(scene))
-    return scene.planar and alone and scene.find(Friction) is None
+    deforming = [e for e in scene.effects if not (e.stretches or e.pressed_by(2) or e.moves)]
+    return scene.planar and not deforming and not any(e.law for e in scene.effects)
 
 
 def _starts_at_second_order(scene: Scene, contact: Contact) -> bool:
@@ -293,7 +287,6 @@ def _words(scene: Scene, contact: Contact) -> str:
     weak = friction_over_growth(scene)
     ratio = f" (its strain is {weak:.1g} of that by growth)" if 0 < weak < math.inf else ""
     return (
-        f"nonlinear sheet {where}{slope}, growth law {scene.growth_law}, energy per {scene.area} area, "
-        f"static shapes not affected by friction{ratio}; "
-        f"{contact.load} load, {contact.law.name} friction"
+        f"nonlinear sheet {where}{slope}, {scene.growth.model}, "
+        f"static shapes not affected by friction{ratio}; {contact.model}"
     )

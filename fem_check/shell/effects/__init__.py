@@ -1,1 +1,23 @@
 """What acts on a sheet, one file per effect; a scene names those that it calls for."""
+
+from fem_check.shell.effects.effect import Effect
+from fem_check.shell.effects.friction import Friction
+from fem_check.shell.effects.gravity import Gravity
+from fem_check.shell.effects.ground import Ground
+from fem_check.shell.effects.inertia import Inertia
+from fem_check.shell.effects.koiter import Bending, Membrane
+from fem_check.shell.effects.loads import DeadLoad, EdgeMoment
+from fem_check.shell.material import Material
+
+__all__ = [
+    "Bending",
+    "DeadLoad",
+    "EdgeMoment",
+    "Effect",
+    "Friction",
+    "Gravity",
+    "Ground",
+    "Inertia",
+    "Material",
+    "Membrane",
+]

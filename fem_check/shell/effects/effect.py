@@ -3,13 +3,14 @@
 An effect is a potential that is a sum over points of a density of the position and its derivatives.
 It states which derivatives (`entries`) it reads and gives, at every point, its value, its gradient and
 its Hessian with respect to them. Sums over elements and unknowns are made once for all effects.
+Nobody else asks of which class an effect is: effects are an open set.
 
 The Hessian is symmetric in (entry, component); stored are the blocks of the component pairs c <= d,
 in the order of `PAIRS`: block [k, l, (c, d)] belongs to component c of entry k and d of entry l.
 """
 
-from collections.abc import Sequence
-from typing import Protocol
+from abc import ABC, abstractmethod
+from typing import ClassVar, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,6 +18,10 @@ from numpy.typing import NDArray
 from fem_check.shell.kinematics.point_state import PointState
 from fem_check.shell.kinematics.rates import Step
 from fem_check.shell.kinematics.region import Entries
+from linear_theory.friction.laws import FrictionLaw
+from linear_theory.friction.load import Load
+from linear_theory.scene.scene import Scene
+from linear_theory.sheet.rectangle import Sheet
 
 Array = NDArray[np.float64]
 
@@ -27,35 +32,86 @@ _FIRST = {k: np.array(v[0]) for k, v in PAIRS.items()}
 _SECOND = {k: np.array(v[1]) for k, v in PAIRS.items()}
 
 
-class Effect(Protocol):
-    """A potential given point by point. Energies are in force times length."""
+class Effect(ABC):
+    """A potential given point by point, and what it asks of the scene that names it.
 
-    @property
-    def entries(self) -> Entries:
-        """Which of x, x_1, x_2, x_11, x_22, x_12 (0 ... 5) it reads."""
+    Energies are in force times length. A new effect is a frozen dataclass that inherits from this class
+    and from `Value`: scene, potential, power balance, cycle and stepper ask it what they need to know.
 
-    @property
-    def reads_rest(self) -> bool:
-        """Whether it needs a rest state."""
+    entries: which of x, x_1, x_2, x_11, x_22, x_12 (0 ... 5) it reads. reads_rest: whether it needs a
+    rest state. needs_space: whether it has no meaning with two components. is_static: whether it has a
+    meaning without a velocity. moves: whether it makes a scene a motion in time. stretches, bends:
+    whether it gives the sheet a shape, with a rest curvature. damps: whether part of its force
+    dissipates. load: the area in which its force is counted, where it is one of them. incline: of the
+    ground, radians. law, mu: of friction. areal_mass: mass per undeformed area. stored_as: the entry of
+    the power balance (see `power.Works`) that its energy belongs to; None if it stores none.
+    """
 
+    entries: ClassVar[Entries]
+    reads_rest: ClassVar[bool] = False
+    needs_space: ClassVar[bool] = False
+    is_static: ClassVar[bool] = True
+    moves: ClassVar[bool] = False
+    stretches: ClassVar[bool] = False
+    bends: ClassVar[bool] = False
+    damps: ClassVar[bool] = False
+    load: Load | None = None
+    incline: float = 0.0
+    law: FrictionLaw | None = None
+    mu: float | None = None
+    areal_mass: float = 0.0
+    stored_as: ClassVar[str | None] = "weight"
+
+    @abstractmethod
     def energy(self, state: PointState) -> Array:
         """Energy of each point, (points,)."""
 
+    @abstractmethod
     def gradient(self, state: PointState) -> Array:
         """Derivative by the entries, (entries, components, points)."""
 
+    @abstractmethod
     def hessian(self, state: PointState) -> Array | None:
         """Second derivative, (entries, entries, component pairs, points); None if it vanishes."""
 
-    def check(self, components: int, effects: "Sequence[Effect]", step: Step | None) -> None:
+    def under(self, sheet: Sheet) -> Self:
+        """The effect as it acts on that sheet."""
+        return self
+
+    def idle(self, components: int) -> bool:
+        """Whether it does no work in a scene of so many components."""
+        return False
+
+    def pressed_by(self, components: int) -> Load | None:
+        """The load with which it presses the sheet on the ground; None if it does not."""
+        return None
+
+    def normal_load(self, state: PointState) -> Array:
+        """Force across the ground on each point, (points,), of an effect that presses."""
+        raise NotImplementedError
+
+    @property
+    def load_follows_shape(self) -> bool:
+        """Whether `normal_load` depends on where the sheet is."""
+        return self.pressed_by(3) is Load.GROUND
+
+    def ground_normal(self, state: PointState) -> Array | None:
+        """Unit normal of the ground under each point, (3, points); None where it is e_z."""
+        return None
+
+    def check_scene(self, scene: Scene) -> None:  # noqa: B027 - most need nothing
         """Raise ValueError where the scene lacks what the effect needs or contradicts it."""
 
+    def check(self, components: int, step: Step | None) -> None:  # noqa: B027
+        """Raise ValueError where a potential lacks what the effect needs."""
 
-class NoConditions:
-    """For effects that every scene of any number of components can have."""
+    def beyond_theory(self, scene: Scene) -> str:
+        """What of it the theories of a flat rectangle cannot represent, in words; empty if all."""
+        return type(self).__name__
 
-    def check(self, components: int, effects: "Sequence[Effect]", step: Step | None) -> None:
-        """Nothing to complain of."""
+    def beyond_cycle(self, scene: Scene) -> str:
+        """What of it, in a scene, a cycle of static shapes cannot represent, in words; empty if all."""
+        return "" if self.is_static else type(self).__name__
 
 
 def outer(u: Array, v: Array) -> Array:

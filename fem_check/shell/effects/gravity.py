@@ -1,6 +1,5 @@
 """Weight."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -8,52 +7,58 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fem_check.shell.effects.effect import Effect
-from fem_check.shell.kinematics.point_state import AREAS, PointState
+from fem_check.shell.kinematics.point_state import PointState
 from fem_check.shell.kinematics.rates import Step
 from fem_check.shell.kinematics.region import Entries
 from linear_theory.common import validation
 from linear_theory.common.shown import Value
+from linear_theory.friction.load import Load
+from linear_theory.scene.scene import Scene
 
 Array = NDArray[np.float64]
 
 
-def check_area(area: str, step: Step | None) -> None:
+def check_area(load: Load, step: Step | None) -> None:
     """Raise ValueError where loads per current area are asked for and no area is held fixed."""
-    if area == "current" and (step is None or step.area is None):
-        raise ValueError("area = 'current': must come with a step that holds the current area")
+    if load is Load.CURRENT and (step is None or step.area is None):
+        raise ValueError("load = 'current': must come with a step that holds the current area")
 
 
 @dataclass(frozen=True)
-class Gravity(Value):
+class Gravity(Value, Effect):
     """The force -weight e_z per area, on level ground or on an incline.
 
-    weight: the rho g of the paper (2.5e-4 E), a force per area > 0. area: "grown", "current" or
-    "material", see `AREAS`. incline: angle in radians by which the ground rises towards +y; the axes
-    stay those of the ground, and the weight points along (0, -sin, -cos). In a planar scene on level
-    ground it does no work and is only the load that friction is proportional to. Raises ValueError
-    for a weight <= 0 and for an incline that is not within a right angle.
+    weight: the rho g of the paper (2.5e-4 E), a force per area > 0. load: the area by which
+    it is counted, a `Load` or its name: "grown", "current" or "material". incline: angle in radians by
+    which the ground rises towards +y; the axes stay those of the ground, and the weight points along
+    (0, -sin, -cos). In a planar scene on level ground it does no work and is only the load that
+    friction is proportional to. Raises ValueError for a weight <= 0 and for an incline that is not
+    within a right angle.
     """
 
     weight: float
-    area: str = "grown"
+    load: Load = Load.GROWN
     incline: float = 0.0
     entries: ClassVar[Entries] = (0,)
 
     def __post_init__(self) -> None:
         validation.positive("weight", self.weight)
-        validation.choice("area", self.area, AREAS)
+        object.__setattr__(self, "load", Load.named(self.load))
         if abs(validation.real("incline", self.incline)) >= np.pi / 2:
             raise ValueError(f"incline = {self.incline:g}: must be in (-pi/2, pi/2)")
 
     @property
-    def reads_rest(self) -> bool:
+    def reads_rest(self) -> bool:  # type: ignore[override]
         """Only the grown area belongs to a rest state."""
-        return self.area == "grown"
+        return self.load is Load.GROWN
 
-    @property
-    def works_in_plane(self) -> bool:
-        """Whether a motion along the ground gains or costs energy."""
-        return self.incline != 0
+    def idle(self, components: int) -> bool:
+        """Weight does no work in the plane, on level ground."""
+        return components == 2 and self.incline == 0
+
+    def pressed_by(self, components: int) -> Load | None:
+        """Its weight, in the plane; in space the ground presses."""
+        return self.load if components == 2 else None
 
     def normal_load(self, state: PointState) -> Array:
         """Weight of each point across the ground, (points,): its load in a planar scene."""
@@ -69,7 +74,7 @@ class Gravity(Value):
         return np.multiply.outer(self._up(state.components), self._weight(state))[None]
 
     def _weight(self, state: PointState) -> Array:
-        return np.asarray(self.weight * state.area_of(self.area))
+        return np.asarray(self.weight * state.area_of(self.load))
 
     def _up(self, components: int) -> Array:
         return np.array([0.0, np.sin(self.incline), np.cos(self.incline)])[:components]
@@ -77,6 +82,26 @@ class Gravity(Value):
     def hessian(self, state: PointState) -> None:
         """Vanishes."""
 
-    def check(self, components: int, effects: Sequence[Effect], step: Step | None) -> None:
+    def check_scene(self, scene: Scene) -> None:
+        """Raise ValueError in space where no ground holds the sheet."""
+        if scene.components == 3 and not any(e.pressed_by(3) for e in scene.effects):
+            names = ", ".join(type(e).__name__ for e in scene.effects)
+            raise ValueError(f"effects = {names}: Gravity must come with Ground, else the sheet falls")
+
+    def check(self, components: int, step: Step | None) -> None:
         """See Effect."""
-        check_area(self.area, step)
+        check_area(self.load, step)
+
+    def beyond_theory(self, scene: Scene) -> str:
+        """Nothing, in the plane: it is the load of friction."""
+        return "" if scene.planar else type(self).__name__
+
+    def beyond_cycle(self, scene: Scene) -> str:
+        """An incline in space, or one on which nothing holds the sheet; current areas in space."""
+        if self.incline and not scene.planar:
+            return f"Gravity(incline = {self.incline:g}) of a sheet in space"
+        if self.incline and not any(effect.law for effect in scene.effects):
+            return f"Gravity(incline = {self.incline:g}) without Friction, which holds the sheet"
+        if self.load is Load.CURRENT and not scene.planar:
+            return "Gravity(load = 'current') of a sheet in space"
+        return ""

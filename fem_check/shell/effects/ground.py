@@ -1,6 +1,5 @@
 """The ground: a repulsion that grows with the square of the penetration, and contact damping."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any, ClassVar
 
@@ -8,13 +7,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fem_check.shell.effects.effect import Effect, outer
-from fem_check.shell.effects.gravity import check_area
+from fem_check.shell.effects.gravity import Gravity, check_area
 from fem_check.shell.effects.terrain import Terrain
-from fem_check.shell.kinematics.point_state import AREAS, PointState
+from fem_check.shell.kinematics.point_state import PointState
 from fem_check.shell.kinematics.rates import Step
 from fem_check.shell.kinematics.region import Entries
 from linear_theory.common import validation
 from linear_theory.common.shown import Value
+from linear_theory.friction.load import Load
+from linear_theory.scene.scene import Scene
 from linear_theory.sheet.rectangle import Sheet
 
 Array = NDArray[np.float64]
@@ -23,30 +24,33 @@ FORMS = ("clipped", "printed")
 
 
 @dataclass(frozen=True)
-class Ground(Value):
+class Ground(Value, Effect):
     """Pressure k g^2 - beta v on the gap g = z - f(x, y) where g <= 0 (eq. 2), as a potential.
 
     The pressure acts along the gradient of the gap, (-f_x, -f_y, 1). stiffness: k > 0, force per
     length^4. damping: beta >= 0, force times time per length^3; v is the rate of the gap. form:
     "clipped", the pressure is never negative; "printed": as eq. 2 stands, damping pulls at a sheet
-    that leaves. area: what the pressure is counted in, see `AREAS`. height: None is the plane z = 0;
-    else a function z = f(x, y), one that returns f with its derivatives, a sympy expression in x and y,
-    or a `Terrain` of one of these, which it becomes.
+    that leaves. load: the area in which the
+    pressure is counted, a `Load` or its name: "grown", "current" or "material". height: None is the
+    plane z = 0; else a function z = f(x, y), one that returns f with its derivatives, a sympy
+    expression in x and y, or a `Terrain` of one of these, which it becomes.
     Raises ValueError for a stiffness <= 0, a damping < 0, other names and as `Terrain` does.
     """
 
     stiffness: float
     damping: float = 0.0
-    area: str = "grown"
+    load: Load = Load.GROWN
     height: Any = None
     form: str = "clipped"
     entries: ClassVar[Entries] = (0,)
+    needs_space: ClassVar[bool] = True
+    stored_as: ClassVar[str] = "ground"
 
     def __post_init__(self) -> None:
         validation.positive("stiffness", self.stiffness)
         if validation.real("damping", self.damping) < 0:
             raise ValueError(f"damping = {self.damping:g}: must be >= 0")
-        validation.choice("area", self.area, AREAS)
+        object.__setattr__(self, "load", Load.named(self.load))
         validation.choice("form", self.form, FORMS)
         if self.height is not None and not isinstance(self.height, Terrain):
             object.__setattr__(self, "height", Terrain(self.height))
@@ -56,9 +60,18 @@ class Ground(Value):
         return self if self.height is None else replace(self, height=self.height.under(sheet))
 
     @property
-    def reads_rest(self) -> bool:
+    def reads_rest(self) -> bool:  # type: ignore[override]
         """Only the grown area belongs to a rest state."""
-        return self.area == "grown"
+        return self.load is Load.GROWN
+
+    @property
+    def damps(self) -> bool:  # type: ignore[override]
+        """Whether there is contact damping."""
+        return self.damping != 0
+
+    def pressed_by(self, components: int) -> Load | None:
+        """Its reaction."""
+        return Load.GROUND
 
     def gap(self, position: Array) -> Array:
         """z - f(x, y), (points,), at positions (3, points)."""
@@ -75,10 +88,17 @@ class Ground(Value):
 
     def normal_load(self, state: PointState) -> Array:
         """Force of the ground on each point, pressure times area, (points,)."""
-        load = self.pressure(state) * state.area_of(self.area)
+        load = self.pressure(state) * state.area_of(self.load)
         return np.asarray(
             load if self.height is None else load * np.sqrt((self.gap_slope(state) ** 2).sum(0))
         )
+
+    def ground_normal(self, state: PointState) -> Array | None:
+        """See Effect."""
+        if self.height is None:
+            return None
+        slope = self.gap_slope(state)
+        return np.asarray(slope / np.sqrt((slope**2).sum(0)))
 
     def energy(self, state: PointState) -> Array:
         """See Effect. The integral of the pressure from the gap to 0 (a dissipation where damped)."""
@@ -91,18 +111,18 @@ class Ground(Value):
             start = (drag - np.sqrt(drag**2 - 4 * self.stiffness * drag * deep)) / (2 * self.stiffness)
             gap = np.minimum(gap, start)
         work = self._antiderivative(start, drag, base) - self._antiderivative(gap, drag, base)
-        return np.asarray(work * state.area_of(self.area))
+        return np.asarray(work * state.area_of(self.load))
 
     def _antiderivative(self, gap: Array, drag: float, base: Array) -> Array:
         return np.asarray(self.stiffness * gap**3 / 3 - drag * (gap - base) ** 2 / 2)
 
     def gradient(self, state: PointState) -> Array:
         """See Effect."""
-        return -(self.pressure(state) * state.area_of(self.area) * self.gap_slope(state))[None]
+        return -(self.pressure(state) * state.area_of(self.load) * self.gap_slope(state))[None]
 
     def hessian(self, state: PointState) -> Array:
         """See Effect."""
-        gap, area = self.gap(state.position), state.area_of(self.area)
+        gap, area = self.gap(state.position), state.area_of(self.load)
         drag, _ = self._drag(state)
         pressure = self.pressure(state)
         touching = (gap <= 0) if self.form == "printed" else (pressure > 0)
@@ -130,8 +150,26 @@ class Ground(Value):
             return 0.0, np.zeros(state.measure.size)
         return self.damping * step.velocity.rate, self.gap(step.velocity.base)
 
-    def check(self, components: int, effects: Sequence[Effect], step: Step | None) -> None:
+    def check_scene(self, scene: Scene) -> None:
+        """Raise ValueError where nothing presses the sheet on the ground."""
+        if scene.find(Gravity) is None:
+            names = ", ".join(type(e).__name__ for e in scene.effects)
+            raise ValueError(
+                f"effects = {names}: Ground must come with Gravity, else nothing lies on it"
+            )
+
+    def beyond_cycle(self, scene: Scene) -> str:
+        """Ground that is uneven, damped or counted in the current area."""
+        beyond = {
+            "height": self.height is not None,
+            f"damping = {self.damping:g}": self.damping != 0,
+            "load = 'current'": self.load is Load.CURRENT,
+        }
+        named = [words for words, there in beyond.items() if there]
+        return f"Ground({', '.join(named)})" if named else ""
+
+    def check(self, components: int, step: Step | None) -> None:
         """Raise ValueError in the plane, where nothing can touch the ground."""
         if components == 2:
             raise ValueError("effects: Ground must not be named in a planar scene (components = 2)")
-        check_area(self.area, step)
+        check_area(self.load, step)

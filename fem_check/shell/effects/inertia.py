@@ -1,6 +1,5 @@
 """Inertia as the potential of one time step."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -11,15 +10,16 @@ from fem_check.shell.effects.effect import Effect, identity
 from fem_check.shell.kinematics.point_state import PointState
 from fem_check.shell.kinematics.rates import Affine, Step
 from fem_check.shell.kinematics.region import Entries
-from fem_check.shell.scene.material import Material
+from fem_check.shell.material import Material, check_materials
 from linear_theory.common import validation
 from linear_theory.common.shown import Value
+from linear_theory.scene.scene import Scene
 
 Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
-class Inertia(Value):
+class Inertia(Value, Effect):
     """Mass h rho per undeformed area times the acceleration of Newmark's rule (eq. 16).
 
     The acceleration at the end of the step being rate (x - base), the potential is
@@ -29,14 +29,21 @@ class Inertia(Value):
     density: float
     material: Material
     entries: ClassVar[Entries] = (0,)
-    reads_rest: ClassVar[bool] = False
+    is_static: ClassVar[bool] = False
+    moves: ClassVar[bool] = True
+    stored_as: ClassVar[None] = None
 
     def __post_init__(self) -> None:
         validation.positive("density", self.density)
         validation.instance("material", self.material, Material)
 
+    @property
+    def areal_mass(self) -> float:  # type: ignore[override]
+        """h rho."""
+        return self.density * self.material.thickness
+
     def _mass(self, state: PointState) -> Array:
-        return np.asarray(self.density * self.material.thickness * state.measure)
+        return np.asarray(self.areal_mass * state.measure)
 
     def _acceleration(self, state: PointState) -> Affine:
         assert state.step is not None
@@ -58,7 +65,11 @@ class Inertia(Value):
         scale = self._mass(state) * self._acceleration(state).rate
         return np.asarray(scale * identity(state.components))[None, None]
 
-    def check(self, components: int, effects: Sequence[Effect], step: Step | None) -> None:
+    def check_scene(self, scene: Scene) -> None:
+        """See Effect."""
+        check_materials(scene)
+
+    def check(self, components: int, step: Step | None) -> None:
         """Raise ValueError without a step that has an acceleration."""
         if step is None or step.acceleration is None:
             raise ValueError("step: Inertia needs one with an acceleration; it has no static form")

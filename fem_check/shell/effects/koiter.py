@@ -12,20 +12,20 @@ a_a = x_a, n the unit normal, a^c the dual base and Gamma^c_ab = a^c . x_ab the 
                      - b_ab a^cd (n . d1 a_c)(n . d2 a_d)
 """
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from fem_check.shell.effects.effect import Effect, NoConditions, identity, outer
+from fem_check.shell.effects.effect import Effect, identity, outer
 from fem_check.shell.kinematics.point_state import PointState, dot
 from fem_check.shell.kinematics.rates import Step
 from fem_check.shell.kinematics.region import Entries
-from fem_check.shell.scene.material import Material
+from fem_check.shell.material import Material, check_materials
 from linear_theory.common import validation
 from linear_theory.common.shown import Value
+from linear_theory.scene.scene import Scene
 
 Array = NDArray[np.float64]
 
@@ -41,12 +41,14 @@ def _apply(tensor: Array, strain: Array) -> Array:
 
 
 @dataclass(frozen=True)
-class Membrane(Value, NoConditions):
+class Membrane(Value, Effect):
     """Energy of stretching, eq. 1a; any number of components, first derivatives only."""
 
     material: Material
     entries: ClassVar[Entries] = (1, 2)
     reads_rest: ClassVar[bool] = True
+    stretches: ClassVar[bool] = True
+    stored_as: ClassVar[str] = "elastic"
 
     def __post_init__(self) -> None:
         validation.instance("material", self.material, Material)
@@ -89,14 +91,25 @@ class Membrane(Value, NoConditions):
         out[1, 0] = shared + h[0, 1] * p21 + h[2, 2] * p12
         return out
 
+    def check_scene(self, scene: Scene) -> None:
+        """See Effect."""
+        check_materials(scene)
+
+    def beyond_theory(self, scene: Scene) -> str:
+        """Nothing."""
+        return ""
+
 
 @dataclass(frozen=True)
-class Bending(Value):
+class Bending(Value, Effect):
     """Energy of bending, eq. 1b; three components, H2 elements."""
 
     material: Material
     entries: ClassVar[Entries] = (1, 2, 3, 4, 5)
     reads_rest: ClassVar[bool] = True
+    needs_space: ClassVar[bool] = True
+    bends: ClassVar[bool] = True
+    stored_as: ClassVar[str] = "elastic"
 
     def __post_init__(self) -> None:
         validation.instance("material", self.material, Material)
@@ -150,7 +163,11 @@ class Bending(Value):
         out[1, 0] -= i12
         return out
 
-    def check(self, components: int, effects: Sequence[Effect], step: Step | None) -> None:
+    def check_scene(self, scene: Scene) -> None:
+        """See Effect."""
+        check_materials(scene)
+
+    def check(self, components: int, step: Step | None) -> None:
         """Raise ValueError in the plane, where nothing bends."""
         if components == 2:
             raise ValueError("effects: Bending must not be named in a planar scene (components = 2)")

@@ -1,24 +1,24 @@
 """Loads on the sheet, on an edge of it or at a point."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from fem_check.shell.effects.effect import Effect, NoConditions, outer
+from fem_check.shell.effects.effect import Effect, outer
 from fem_check.shell.kinematics.point_state import PointState
 from fem_check.shell.kinematics.rates import Step
 from fem_check.shell.kinematics.region import Entries
 from linear_theory.common import validation
 from linear_theory.common.shown import Value
+from linear_theory.scene.scene import Scene
 
 Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
-class DeadLoad(Value, NoConditions):
+class DeadLoad(Value, Effect):
     """A force that keeps its size and direction: per undeformed area, length of an edge, or at a point.
 
     force: as many components as the scene has. Raises ValueError if they are not finite.
@@ -26,12 +26,16 @@ class DeadLoad(Value, NoConditions):
 
     force: tuple[float, ...]
     entries: ClassVar[Entries] = (0,)
-    reads_rest: ClassVar[bool] = False
 
     def __post_init__(self) -> None:
         force = validation.real_array("force", self.force)
         if force.ndim != 1 or force.size not in (2, 3):
             raise ValueError(f"force has shape {force.shape}: must be (2,), or (3,) in space")
+
+    @property
+    def needs_space(self) -> bool:  # type: ignore[override]
+        """Whether the force has a third component."""
+        return len(self.force) == 3
 
     def _density(self, state: PointState) -> Array:
         return np.asarray(np.multiply.outer(np.array(self.force), state.measure))
@@ -47,14 +51,22 @@ class DeadLoad(Value, NoConditions):
     def hessian(self, state: PointState) -> None:
         """Vanishes."""
 
-    def check(self, components: int, effects: Sequence[Effect], step: Step | None) -> None:
+    def check_scene(self, scene: Scene) -> None:
+        """See Effect."""
+        self.check(scene.components, None)
+
+    def beyond_cycle(self, scene: Scene) -> str:
+        """Nothing holds the sheet against it."""
+        return type(self).__name__
+
+    def check(self, components: int, step: Step | None) -> None:
         """Raise ValueError if the force has not as many components as the scene."""
         if len(self.force) != components:
             raise ValueError(f"force has {len(self.force)} components: must have {components}")
 
 
 @dataclass(frozen=True)
-class EdgeMoment(Value):
+class EdgeMoment(Value, Effect):
     """A moment about the y axis on an edge, per undeformed length, that turns x towards z.
 
     Its work is moment times the angle theta of the tangent a_entry, (cos theta, 0, sin theta). It is
@@ -67,7 +79,7 @@ class EdgeMoment(Value):
     moment: float
     angle: float = 0.0
     entry: int = 1
-    reads_rest: ClassVar[bool] = False
+    needs_space: ClassVar[bool] = True
 
     def __post_init__(self) -> None:
         validation.real("moment", self.moment)
@@ -76,7 +88,7 @@ class EdgeMoment(Value):
             raise ValueError(f"entry = {self.entry!r}: must be 1 or 2")
 
     @property
-    def entries(self) -> Entries:
+    def entries(self) -> Entries:  # type: ignore[override]
         """The tangent across the edge."""
         return (self.entry,)
 
@@ -105,7 +117,7 @@ class EdgeMoment(Value):
         mixed = outer(along, across) + outer(across, along)
         return np.asarray(-scale * mixed)[None, None]
 
-    def check(self, components: int, effects: Sequence[Effect], step: Step | None) -> None:
+    def check(self, components: int, step: Step | None) -> None:
         """Raise ValueError in the plane, where there is no axis to turn about."""
         if components == 2:
             raise ValueError("loads: EdgeMoment must not be named in a planar scene (components = 2)")

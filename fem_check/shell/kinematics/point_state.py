@@ -12,12 +12,9 @@ from numpy.typing import NDArray
 from fem_check.shell.kinematics.rates import Step
 from fem_check.shell.kinematics.region import Entries, Region
 from fem_check.shell.kinematics.rest_state import RestState
+from linear_theory.friction.load import Load
 
 Array = NDArray[np.float64]
-
-AREAS = ("grown", "current", "material")
-"""What a load per area is counted in: the grown reference (appendix A.2), the deformed or the
-undeformed sheet (its weight then is that of its matter)."""
 
 
 def dot(u: Array, v: Array) -> Array:
@@ -122,11 +119,11 @@ class PointState:
         """Quadrature weight times current area, (points,)."""
         return self.region.weights.ravel()[self._points] * self.jacobian
 
-    def area_of(self, kind: str) -> Array:
-        """Quadrature weight times the area that a load is counted in, (points,); see `AREAS`."""
-        if kind == "material":
+    def area_of(self, load: Load) -> Array:
+        """Quadrature weight times the area that a load is counted in, (points,)."""
+        if load is Load.MATERIAL:
             return self.measure
-        if kind == "grown":
+        if load is Load.GROWN:
             return self.rest.grown_area
         assert self._step is not None
         assert self._step.area is not None

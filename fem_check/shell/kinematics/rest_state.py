@@ -9,15 +9,14 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from fem_check.shell.kinematics.region import Region
-from fem_check.shell.scene.growth import metric_factor
-from fem_check.shell.scene.material import elastic_tensor
+from fem_check.shell.material import elastic_tensor
 from linear_theory.common import validation
 from linear_theory.common.shown import Shown
+from linear_theory.growth.growth import Growth, Reference
 
 Array = NDArray[np.float64]
 
-CURVATURE_FORMS = ("grown", "undeformed")
-MEASURES = ("grown", "undeformed")
+UNGROWN = Growth(0.0)
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,45 +56,37 @@ class RestState(Shown):
         return part
 
 
-def tensor_state(region: Region, abar: ArrayLike, bbar: ArrayLike, area: str = "grown") -> RestState:
-    """Rest state of given tensors, each (3,) or (3, points); for `area` see `grown_state`.
+def tensor_state(
+    region: Region, abar: ArrayLike, bbar: ArrayLike, area: Reference | str = Reference.GROWN
+) -> RestState:
+    """Rest state of given tensors, each (3,) or (3, points); area: in which the energy is counted.
 
     Raises ValueError for tensors that are not finite and metrics that are not positive definite.
     """
-    validation.choice("area", area, MEASURES)
     metric, curvature = (
         np.broadcast_to(value.reshape(3, -1), (3, region.size))
         for value in (validation.real_array("abar", abar), validation.real_array("bbar", bbar))
     )
     determinant = metric[0] * metric[1] - metric[2] ** 2
     grown = region.weights.ravel() * np.sqrt(np.maximum(determinant, 0))
-    return RestState(metric, curvature, grown if area == "grown" else region.measure, grown)
+    return RestState(
+        metric,
+        curvature,
+        grown if Reference.named("area", area) is Reference.GROWN else region.measure,
+        grown,
+    )
 
 
-def grown_state(
-    region: Region,
-    growth: ArrayLike = 0.0,
-    alpha: float = 0.0,
-    curvature_coupling: float = 0.0,
-    *,
-    law: str = "exp",
-    curvature: str = "grown",
-    area: str = "grown",
-) -> RestState:
+def grown_state(region: Region, c: ArrayLike = 0.0, growth: Growth = UNGROWN) -> RestState:
     """Rest state of a surface (A, B) in which a field c has grown metric and curvature (eq. 4).
 
-        abar = g(c) A,    bbar = B - beta c abar
+        abar = g(alpha c) A,    bbar = B - beta c abar    (or B - beta c A, see `Growth`)
 
-    growth: c at the points, broadcast to (points,). law: g, see `growth.metric_factor`.
-    curvature_coupling: beta, 1/length. curvature: "grown" as above, so that the rest curvature is
-    exactly -beta c; "undeformed": -beta c A, the other reading of eq. 4. The paper's sheet is flat,
-    B = 0. area: measure of the energy, "grown" sqrt(det abar) (appendix A.2) or "undeformed"
-    sqrt(det A) (eq. 1).
-    Raises ValueError for other names and for growth that is not finite.
+    c: at the points, broadcast to (points,). The paper's sheet is flat, B = 0.
+    Raises ValueError for c that is not finite or by which lengths would vanish.
     """
-    validation.choice("curvature", curvature, CURVATURE_FORMS)
-    field_c = np.broadcast_to(validation.real_array("growth", growth), (region.size,))
-    abar = metric_factor(law, alpha, field_c) * region.metric
-    beta = validation.real("curvature_coupling", curvature_coupling)
-    bent = abar if curvature == "grown" else region.metric
-    return tensor_state(region, abar, region.curvature - beta * field_c * bent, area)
+    field = np.broadcast_to(validation.real_array("growth", c), (region.size,))
+    abar = growth.metric(field) * region.metric
+    bent = abar if growth.curvature is Reference.GROWN else region.metric
+    bbar = region.curvature - growth.curvature_coupling * field * bent
+    return tensor_state(region, abar, bbar, growth.energy_area)

@@ -7,7 +7,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fem_check.shell.effects.effect import PAIRS, Effect
-from fem_check.shell.effects.gravity import Gravity
 from fem_check.shell.kinematics.discretisation import Discretisation
 from fem_check.shell.kinematics.elements import require_h2
 from fem_check.shell.kinematics.point_state import PointState
@@ -88,7 +87,7 @@ class Potential(Shown):
         if self.rest is None and any(effect.reads_rest for effect in self.effects):
             raise ValueError("rest = None: an effect of this scene needs a rest state")
         for effect in (*self.effects, *(load.effect for load in self.loads)):
-            effect.check(self.discretisation.components, self.effects, self.step)
+            effect.check(self.discretisation.components, self.step)
             if max(effect.entries) > SECOND:
                 require_h2(self.discretisation.element)
 
@@ -203,10 +202,9 @@ def grouped(effects: Sequence[Effect], components: int) -> list[Group]:
     """Effects sorted into groups: one joins a larger one that reads all of its derivatives.
 
     Effects that read the position alone stay together and apart, because adding the position to the
-    five derivatives of a shell would cost them all. In the plane, on level ground, weight does no work.
+    five derivatives of a shell would cost them all. Effects that do no work are left out.
     """
-    if components == 2:
-        effects = [e for e in effects if not isinstance(e, Gravity) or e.works_in_plane]
+    effects = [effect for effect in effects if not effect.idle(components)]
     groups: list[Group] = []
     for effect in sorted(effects, key=lambda e: -len(e.entries)):
         for i, group in enumerate(groups):

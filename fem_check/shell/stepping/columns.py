@@ -50,11 +50,11 @@ def columns(trajectory: "Trajectory") -> list[Column]:
 
 def positions(trajectory: "Trajectory") -> list[Column]:
     """Of the vertices of the mesh at the stored times, and where they are in the undeformed sheet."""
-    scene = trajectory.scene
-    vertices = scene.discretisation().mesh.p
-    region = scene.discretisation().points(vertices)
+    model = trajectory.model
+    vertices = model.discretisation.mesh.p
+    region = model.discretisation.points(vertices)
     places = np.array([region.position(u, (0,))[0] for u in trajectory.states])
-    axes = np.array(list("xyz"[: scene.components]))
+    axes = np.array(list("xyz"[: model.components]))
     dims = ("stored_time", "component", "vertex")
     return [
         Column("stored_time", trajectory.stored_times, "times of stored shapes", TIME, dims[:1]),

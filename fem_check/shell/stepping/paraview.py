@@ -37,9 +37,9 @@ def write_paraview(trajectory: Trajectory, path: str | Path, refine: int = 2) ->
     """
     meshio = optional("meshio", "paraview", "ParaView output")
     hint = "simulate returns one"
-    scene = validation.instance("trajectory", trajectory, Trajectory, hint).scene
-    mesh = scene.discretisation().mesh.refined(validation.integer("refine", refine, 0))
-    region = scene.discretisation().points(mesh.p)
+    model = validation.instance("trajectory", trajectory, Trajectory, hint).model
+    mesh = model.discretisation.mesh.refined(validation.integer("refine", refine, 0))
+    region = model.discretisation.points(mesh.p)
     flat = np.vstack([mesh.p, np.zeros(mesh.p.shape[1])])
     cells = [(CELLS[mesh.t.shape[0]], np.asarray(mesh.t.T))]
     target = Path(path)
@@ -47,7 +47,7 @@ def write_paraview(trajectory: Trajectory, path: str | Path, refine: int = 2) ->
         writer.write_points_cells(flat.T, cells)
         for t, u in zip(trajectory.stored_times, trajectory.states, strict=True):
             displacement = np.zeros((3, mesh.p.shape[1]))
-            displacement[: scene.components] = region.displacement(u, (0,))[0]
-            growth = trajectory.amplitude(t) * scene.growth(t, *mesh.p)
+            displacement[: model.components] = region.displacement(u, (0,))[0]
+            growth = trajectory.amplitude(t) * model.growth(t, *mesh.p)
             data = {"displacement": displacement.T, "growth": np.asarray(growth)}
             writer.write_data(float(t), point_data=data)

@@ -19,15 +19,10 @@ from numpy.typing import NDArray
 
 from fem_check.shell.effects.effect import Effect
 from fem_check.shell.effects.friction import Friction
-from fem_check.shell.effects.gravity import Gravity
-from fem_check.shell.effects.ground import Ground
-from fem_check.shell.effects.inertia import Inertia
-from fem_check.shell.effects.koiter import Bending, Membrane
-from fem_check.shell.effects.loads import DeadLoad
 from fem_check.shell.kinematics.point_state import PointState
 from fem_check.shell.kinematics.rates import Step
 from fem_check.shell.kinematics.rest_state import RestState
-from fem_check.shell.scene.scene import Scene
+from fem_check.shell.model import ShellModel
 from linear_theory.common.shown import Shown
 
 Array = NDArray[np.float64]
@@ -57,8 +52,8 @@ class Works(Shown, _Works):
         return np.asarray(self.growth - sum(self[1:]))
 
 
-_SLOTS: tuple[tuple[type, ...], ...] = ((Membrane, Bending), (Gravity, DeadLoad), (Ground,))
-"""Effects whose energies are the entries elastic, weight and ground."""
+STORES = ("elastic", "weight", "ground")
+"""Entries of Works that are energies of effects, see `Effect.stored_as`."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,29 +74,25 @@ class Moment:
 
 
 class Ledger:
-    """Balances the energy of a scene step by step."""
+    """Balances the energy of a model step by step."""
 
-    def __init__(self, scene: Scene) -> None:
-        self.scene, self.region = scene, scene.discretisation().interior
-        flat = scene.components == 2
-        idle = [e for e in scene.effects if flat and isinstance(e, Gravity) and not e.works_in_plane]
+    def __init__(self, model: ShellModel) -> None:
+        self.region = model.discretisation.interior
         self.stored: list[tuple[int, Effect]] = [
-            (slot, e)
-            for slot, kinds in enumerate(_SLOTS)
-            for e in scene.effects
-            if isinstance(e, kinds) and e not in idle
+            (STORES.index(e.stored_as), e)
+            for e in model.effects
+            if e.stored_as is not None and not e.idle(model.components)
         ]
         self.entries = tuple(sorted({k for _, e in self.stored for k in e.entries}))
-        self.inertia: Inertia | None = scene.find(Inertia)
-        ground = scene.find(Ground)
-        self.damped: Ground | None = ground if ground is not None and ground.damping else None
+        self.areal_mass = sum(e.areal_mass for e in model.effects)
+        self.damping = [e for e in model.effects if e.damps]
+        self.friction: Friction | None = model.find(Friction)
 
     def moment(self, u: Array, rest: RestState, step: Step, velocity: Array | None) -> Moment:
         """Forces and positions at the end of a step (before the first: with a step at rest)."""
         state = PointState(self.region, u, (0,), rest, step)
-        friction: Friction | None = self.scene.find(Friction)
-        force = None if friction is None else friction.force(state)
-        speed = velocity if self.inertia is not None else None
+        force = None if self.friction is None else self.friction.force(state)
+        speed = velocity if self.areal_mass else None
         return Moment(u, rest, step.area, state.position, force, self._drag(u, state), speed)
 
     def works(self, before: Moment, after: Moment) -> Works:
@@ -131,19 +122,19 @@ class Ledger:
         return out
 
     def _kinetic(self, moment: Moment) -> float:
-        if self.inertia is None or moment.velocity is None:
+        if moment.velocity is None:
             return 0.0
         velocity = self.region.displacement(moment.velocity, (0,))[0]
-        mass = self.inertia.density * self.inertia.material.thickness * self.region.measure
+        mass = self.areal_mass * self.region.measure
         return float(mass @ (velocity**2).sum(0)) / 2
 
     def _drag(self, u: Array, state: PointState) -> Array | None:
         """Force of contact damping alone, (3, points)."""
-        if self.damped is None:
+        if not self.damping:
             return None
         assert state.step is not None
         still = PointState(self.region, u, (0,), state.rest, Step(area=state.step.area))
-        return np.asarray((self.damped.gradient(still) - self.damped.gradient(state))[0])
+        return np.asarray(sum((e.gradient(still) - e.gradient(state))[0] for e in self.damping))
 
 
 def _loss(before: Array | None, after: Array | None, way: Array) -> float:

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from fem_check.shell.effects.friction import Friction
 from fem_check.shell.kinematics.point_state import PointState
 from fem_check.shell.kinematics.rates import Affine, Step
-from fem_check.shell.scene.scene import Scene
+from fem_check.shell.model import ShellModel
 from fem_check.shell.statics.equilibrium import ConvergenceError
 from fem_check.shell.statics.newton import Factorised
 from fem_check.shell.stepping.between import probe_region
@@ -27,6 +27,7 @@ from fem_check.shell.stepping.stepper import Stepper, StepResult
 from fem_check.shell.stepping.trajectory import Trajectory
 from linear_theory.common.shown import Shown
 from linear_theory.common.threads import one_blas_thread
+from linear_theory.scene.scene import Scene
 
 Array = NDArray[np.float64]
 
@@ -83,14 +84,15 @@ class Run:
     @one_blas_thread
     def __init__(self, scene: Scene, settings: Settings) -> None:
         self.scene, self.settings, period = scene, settings, scene.period
+        self.model = ShellModel(scene)
         scene.survey.check_period()
         self.size = step_size(period, settings.rtol, settings.steps, scene.survey.rates)
         self.size.scale = abs(scene.alpha) * scene.sheet.length / period
         self.start = settings.ramp * period
-        self.stepper = Stepper(scene, self.start, self.size.dt)
+        self.stepper = Stepper(self.model, self.start, self.size.dt)
         self.marks = self.start + period * np.arange(settings.periods + 1)
-        self.ledger, self.record = Ledger(scene), Record()
-        self.region, self.probes = self.stepper.region, probe_region(scene.discretisation())
+        self.ledger, self.record = Ledger(self.model), Record()
+        self.region, self.probes = self.stepper.region, probe_region(self.model.discretisation)
         self.history = first_history(self.stepper, self.size.dt, settings.velocity)
         self.moment = self._first_moment()
         self.landing = self._land()
@@ -120,7 +122,7 @@ class Run:
         """What has been found so far."""
         record = self.record
         return Trajectory(
-            self.scene,
+            self.model,
             self.start,
             record.table,
             np.array(record.times),
@@ -179,7 +181,7 @@ class Run:
         self.record.add(self.history.time, centre, works, slide, probes, counts)
 
     def _sliding(self, result: StepResult, wrong: Array) -> Sliding:
-        friction: Friction | None = self.scene.find(Friction)
+        friction: Friction | None = self.model.find(Friction)
         if friction is None:
             return Sliding(0.0, 0.0, np.zeros(2), np.zeros(2))
         state = PointState(self.region, result.state, (0,), result.rest, result.step)

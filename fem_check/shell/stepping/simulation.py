@@ -10,14 +10,14 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from fem_check.shell.effects.friction import Friction
-from fem_check.shell.scene.scene import Scene, default_cells
+from fem_check.mesh.elements import default_cells
 from fem_check.shell.stepping.run import Progress, Run, Target
 from fem_check.shell.stepping.settings import Settings
 from fem_check.shell.stepping.snapshot import check_path, check_writable, run_fingerprint
 from fem_check.shell.stepping.trajectory import Trajectory
 from linear_theory.common import validation
-from linear_theory.friction.law import warn_if_viscous
+from linear_theory.friction.regime import warn_if_viscous
+from linear_theory.scene.scene import Scene
 
 Array = NDArray[np.float64]
 
@@ -100,8 +100,7 @@ def simulate(
         resumed_at=resumed,
         mesh_error=difference,
     )
-    friction: Friction | None = scene.find(Friction)
-    warn_if_viscous(found.speed, None if friction is None else friction.slip_speed)
+    warn_if_viscous(scene.contact.friction, found.slip_ratio)
     return found
 
 
@@ -147,7 +146,7 @@ def coarser(scene: Scene) -> Scene:
     across, along = scene.cells or default_cells(scene.sheet, scene.wave, scene.planar)
     if min(across, along) < 2:
         raise ValueError(f"cells = {scene.cells}: must be at least 2 each way where mesh_error = True")
-    return replace(scene, cells=(round(across / 1.5), round(along / 1.5)))
+    return scene.but(cells=(round(across / 1.5), round(along / 1.5)))
 
 
 def _printed(progress: Progress) -> None:

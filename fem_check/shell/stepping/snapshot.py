@@ -16,10 +16,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fem_check.shell.effects.ground import Ground
-from fem_check.shell.scene.scene import Scene
+from fem_check.shell.model import ShellModel
 from fem_check.shell.stepping.settings import Settings
 from linear_theory.common.errors import SheetcrawlError, Unidentifiable
-from linear_theory.identity.content import content_key
+from linear_theory.identity import content_key
+from linear_theory.scene.scene import PARTS, Scene
 
 Array = NDArray[np.float64]
 
@@ -129,14 +130,15 @@ def fingerprint(scene: Scene, settings: Settings) -> str:
     Values of the functions belong to it too: a name that stands for another one shall not pass.
     Raises Unidentifiable for a function without content or name.
     """
-    discretisation = scene.discretisation()
+    model = ShellModel(scene)
+    discretisation = model.discretisation
     mesh = discretisation.mesh
     x, y = discretisation.interior.parameters.reshape(2, -1)
-    values = [scene.growth(phase * scene.period, x, y) for phase in _PHASES]
+    values = [model.growth(phase * scene.period, x, y) for phase in _PHASES]
     ground: Ground | None = scene.find(Ground)
     hill = None if ground is None else ground.height
     parts = {
-        **{f.name: getattr(scene, f.name) for f in fields(scene) if f.name != "cells"},
+        **{name: getattr(scene, name) for name in PARTS if name != "elements"},
         **{f.name: getattr(settings, f.name) for f in fields(settings)},
         "mesh": (type(mesh).__name__, mesh.doflocs, mesh.t, discretisation.degree),
         # An element object fills up with tables; its functions are what tells it apart.

@@ -5,9 +5,8 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from fem_check.shell.effects.effect import Effect
+from fem_check.shell.effects.gravity import Gravity
 from fem_check.shell.effects.ground import Ground
-from fem_check.shell.effects.inertia import Inertia
 from fem_check.shell.kinematics.discretisation import Discretisation
 from fem_check.shell.kinematics.rates import Affine, Step
 from fem_check.shell.kinematics.supports import Supports
@@ -28,17 +27,17 @@ def translation(discretisation: Discretisation, shift: ArrayLike) -> Array:
 
 def resting_state(stepper: Stepper) -> Array:
     """The ungrown sheet, (size,): as it was made, or sunk into the ground under its weight."""
-    scene, discretisation = stepper.scene, stepper.scene.discretisation()
-    ground: Ground | None = scene.find(Ground)
+    model, discretisation = stepper.model, stepper.model.discretisation
+    ground: Ground | None = model.find(Ground)
     if ground is None:
         return discretisation.zeros()
     rest = stepper.rest(0.0)
-    weight = next(e.weight for e in scene.effects if hasattr(e, "weight"))
-    state = sunk(discretisation, ground, float(np.sqrt(weight / ground.stiffness)))
+    depth = float(np.sqrt(model.find(Gravity).weight / ground.stiffness))
+    state = sunk(discretisation, ground, depth)
     minimiser = Minimiser(Supports(discretisation).anchor(motions="xy"))
     for _ in range(3):  # a weight per current area is that of the state before
-        step = Step(area=stepper.area(state)) if "current" in stepper.kinds else None
-        potential = scene.potential(rest, step, scene.static_effects)
+        step = Step(area=stepper.area(state)) if stepper.holds_area else None
+        potential = model.potential(rest, step, model.static_effects)
         state = minimiser.minimise(potential, state).state
         if step is None:
             break
@@ -67,17 +66,17 @@ def first_history(stepper: Stepper, dt: float, velocity: ArrayLike | None) -> Hi
     velocity: (components,), length per time. Raises ValueError for one without inertia, which alone
     keeps it.
     """
-    scene = stepper.scene
+    model = stepper.model
     history = History.at_rest(resting_state(stepper), dt)
-    if scene.find(Inertia) is None:
+    if not any(effect.areal_mass for effect in model.effects):
         if velocity is not None:
             raise ValueError(f"velocity = {velocity!r}: must be None without Inertia, which keeps it")
         return history
-    wanted = np.zeros(scene.components) if velocity is None else velocity
+    wanted = np.zeros(model.components) if velocity is None else velocity
     speed = validation.real_array("velocity", wanted)
-    if speed.shape != (scene.components,):
-        raise ValueError(f"velocity has shape {speed.shape}: must be ({scene.components},)")
-    moving = translation(scene.discretisation(), speed)
+    if speed.shape != (model.components,):
+        raise ValueError(f"velocity has shape {speed.shape}: must be ({model.components},)")
+    moving = translation(model.discretisation, speed)
     acceleration = first_acceleration(stepper, history.state, moving)
     return replace(history, velocity=moving, acceleration=acceleration)
 
@@ -89,9 +88,10 @@ def first_acceleration(stepper: Stepper, state: Array, velocity: Array) -> Array
     moving = stepper.at_points(Affine(1.0, state - velocity))
     at_rest = stepper.at_points(Affine(1.0, state))
     step = stepper.held(Step(moving, at_rest), state, rest)
-    force = -stepper.scene.potential(rest, step).gradient(state)
-    inertia: tuple[Effect, ...] = (stepper.scene.find(Inertia),)
-    mass = minimiser.factorised(stepper.scene.potential(rest, step, inertia), state, 0.0)
+    model = stepper.model
+    force = -model.potential(rest, step).gradient(state)
+    inertia = tuple(effect for effect in model.effects if effect.areal_mass)
+    mass = minimiser.factorised(model.potential(rest, step, inertia), state, 0.0)
     acceleration = np.zeros_like(state)
     acceleration[minimiser.sparsity.order] = mass.factor.solve(force[minimiser.sparsity.order])
     return acceleration

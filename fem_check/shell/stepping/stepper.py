@@ -12,20 +12,19 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from fem_check.shell.effects.friction import Friction, load_bearer
-from fem_check.shell.effects.gravity import Gravity
-from fem_check.shell.effects.ground import Ground
+from fem_check.shell.abilities import STEPPED, require
+from fem_check.shell.effects.effect import Effect
 from fem_check.shell.kinematics.point_state import PointState
 from fem_check.shell.kinematics.rates import Affine, Step
 from fem_check.shell.kinematics.rest_state import RestState
 from fem_check.shell.kinematics.supports import Supports
-from fem_check.shell.scene.abilities import STEPPED
-from fem_check.shell.scene.scene import Scene
+from fem_check.shell.model import ShellModel
 from fem_check.shell.statics.equilibrium import ConvergenceError, Equilibrium
 from fem_check.shell.statics.newton import Factorised, Minimiser
 from fem_check.shell.statics.potential import Potential
 from fem_check.shell.statics.ramp import follow_mode
 from fem_check.shell.stepping.step_control import History
+from linear_theory.friction.load import Load
 
 Array = NDArray[np.float64]
 
@@ -70,7 +69,7 @@ class WatchedMinimiser(Minimiser):
 
 
 class Stepper:
-    """Makes steps of a scene; keeps the symbolic work and the factor between them.
+    """Makes steps of a model; keeps the symbolic work and the factor between them.
 
     Growth is multiplied by a smooth function of time that rises from 0 to 1 over `ramp`. shortest: step
     for which the minimisations are to be accurate.
@@ -78,28 +77,33 @@ class Stepper:
     `abilities.STEPPED`, among it one that has neither friction nor inertia.
     """
 
-    def __init__(self, scene: Scene, ramp: float, shortest: float) -> None:
-        STEPPED.require(scene)
-        self.scene, self.ramp = scene, ramp
-        self.region = scene.discretisation().interior
+    def __init__(self, model: ShellModel, ramp: float, shortest: float) -> None:
+        require(STEPPED, model.scene)
+        self.model, self.ramp = model, ramp
+        self.region = model.discretisation.interior
         self.minimiser = self._minimiser(shortest)
-        self.kinds = {e.area for e in scene.effects if isinstance(e, Gravity | Ground)}
-        friction = scene.find(Friction)
-        self.bearer = None if friction is None else load_bearer(scene.components, scene.effects)
+        self.holds_area = any(effect.load is Load.CURRENT for effect in model.effects)
+        self.bearer = self._bearer()
+
+    def _bearer(self) -> Effect | None:
+        """The effect whose load friction is proportional to; None without friction."""
+        effects, components = self.model.effects, self.model.components
+        if not any(effect.law for effect in effects):
+            return None
+        return next(effect for effect in effects if effect.pressed_by(components))
 
     def _minimiser(self, shortest: float) -> WatchedMinimiser:
         """Corrections are to move the sheet at much less than the slip speed within a step."""
-        friction, tolerance = self.scene.find(Friction), 1e-8
-        if friction is not None:
-            size = np.sqrt(self.region.measure.sum())
-            tolerance = min(tolerance, max(1e-3 * friction.slip_speed * shortest / size, 1e-12))
-        supports = Supports(self.scene.discretisation())
+        tolerance, size = 1e-8, np.sqrt(self.region.measure.sum())
+        for law in (effect.law for effect in self.model.effects if effect.law):
+            tolerance = min(tolerance, max(1e-3 * law.width * shortest / size, 1e-12))
+        supports = Supports(self.model.discretisation)
         return WatchedMinimiser(supports, tolerance, keep_factor=True, check_stability=False)
 
     @property
     def shape_changes_load(self) -> bool:
         """Whether load, area or normals depend on where the sheet is."""
-        return "current" in self.kinds or isinstance(self.bearer, Ground)
+        return self.holds_area or (self.bearer is not None and self.bearer.load_follows_shape)
 
     def amplitude(self, t: float) -> float:
         """Share of the growth at time t: rises with two continuous derivatives."""
@@ -107,7 +111,7 @@ class Stepper:
 
     def rest(self, t: float) -> RestState:
         """Rest state at time t, counted from the start of the ramp."""
-        return self.scene.rest(t, self.amplitude(t))
+        return self.model.rest(t, self.amplitude(t))
 
     def attempt(
         self, history: History, dt: float, patience: int = 1, check: bool = False
@@ -128,7 +132,7 @@ class Stepper:
         guess = self._start(history, dt)
         step, count = self.held(moving, guess, rest), 0
         for repeat in range(1, MOST_REPEATS + 1):
-            result = self._minimum(self.scene.potential(rest, step), guess, patience)
+            result = self._minimum(self.model.potential(rest, step), guess, patience)
             count, guess = count + result.iterations, result.state
             after = self.held(moving, guess, rest)
             if not self.shape_changes_load or change(step, after) <= LOAD_TOLERANCE:
@@ -147,7 +151,7 @@ class Stepper:
         result = self.minimiser.minimise(potential, guess, patience)
         if not result.buckled:
             return result
-        return follow_mode(self.minimiser, potential, result, PUSH * self.scene.sheet.thickness)
+        return follow_mode(self.minimiser, potential, result, PUSH * self.model.scene.sheet.thickness)
 
     def at_points(self, rule: Affine) -> Affine:
         """A rule for the unknowns as one for the positions of the points."""
@@ -156,16 +160,13 @@ class Stepper:
 
     def held(self, moving: Step, u: Array, rest: RestState) -> Step:
         """What a step holds fixed, for the sheet at u: rules with area, load and normals."""
-        area = self.area(u) if "current" in self.kinds else None
+        area = self.area(u) if self.holds_area else None
         step = replace(moving, area=area)
         if self.bearer is None:
             return step
         state = PointState(self.region, u, (0,), rest, step)
-        step = replace(step, load=self.bearer.normal_load(state))
-        if isinstance(self.bearer, Ground) and self.bearer.height is not None:
-            slope = self.bearer.gap_slope(state)
-            step = replace(step, normal=slope / np.sqrt((slope**2).sum(0)))
-        return step
+        load, normal = self.bearer.normal_load(state), self.bearer.ground_normal(state)
+        return replace(step, load=load, normal=normal)
 
     def area(self, u: Array) -> Array:
         """Quadrature weight times current area, (points,)."""

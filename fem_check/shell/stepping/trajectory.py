@@ -9,8 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from fem_check.shell.cycle.frame import poses
-from fem_check.shell.effects.friction import Friction
-from fem_check.shell.scene.scene import Scene
+from fem_check.shell.model import ShellModel
 from fem_check.shell.stepping import columns
 from fem_check.shell.stepping.between import between, interpolation_error, motion_around
 from fem_check.shell.stepping.power import Works
@@ -21,8 +20,10 @@ from linear_theory.common import validation
 from linear_theory.common.drawable import Drawable
 from linear_theory.common.shown import Shown
 from linear_theory.common.tables import Column, Tabular
+from linear_theory.friction.regime import Regime, regime_of
+from linear_theory.scene.scene import Scene
 from linear_theory.speed.path import Poses
-from linear_theory.speed.result import CrawlSpeed, Regime, regime_of, speed_in_words
+from linear_theory.speed.result import CrawlSpeed, Estimate, speed_in_words
 
 Array = NDArray[np.float64]
 
@@ -68,9 +69,9 @@ class Trajectory(Drawable, Tabular):
     summed up from the start to `times`, which balance; their slopes in time are powers. `to_dataframe`
     and `to_xarray` have it all as tables, `fem_check.write_paraview` writes a film for ParaView.
 
-    start: when the first counted period begins, after the ramp of growth. table: columns of
-    `record.COLUMNS`. stored_times (n,), states (n, size): kept states. probes (steps + 1, points,
-    components): positions of a few points at all `times`. rejected: repeated steps.
+    model: the scene in finite elements. start: when the first counted period begins, after the ramp of
+    growth. table: columns of `record.COLUMNS`. stored_times (n,), states (n, size): kept states. probes
+    (steps + 1, points, components): positions of a few points at all `times`. rejected: repeated steps.
     resumed_at: time of the snapshot that the run went on from, NaN if none. mesh_error: see
     `SpeedErrors`. seconds: spent, in this process.
 
@@ -83,7 +84,7 @@ class Trajectory(Drawable, Tabular):
     centre at y = 0.02 L at t = 1.5 T
     """
 
-    scene: Scene
+    model: ShellModel
     start: float
     table: dict[str, Array] = field(repr=False)
     stored_times: Array = field(repr=False)
@@ -94,6 +95,11 @@ class Trajectory(Drawable, Tabular):
     resumed_at: float = np.nan
     rtol: float | None = None
     mesh_error: float = np.nan
+
+    @property
+    def scene(self) -> Scene:
+        """What was simulated."""
+        return self.model.scene
 
     @property
     def times(self) -> Array:
@@ -131,11 +137,10 @@ class Trajectory(Drawable, Tabular):
 
         NaN without friction.
         """
-        friction: Friction | None = self.scene.find(Friction)
-        if friction is None:
+        if not any(effect.law for effect in self.model.effects):
             return np.nan
         fastest = float(self.table["fastest"][self._last(1)].max())
-        return friction.slip_speed / fastest if fastest > 0 else np.inf
+        return self.scene.contact.friction.slip_ratio(fastest)
 
     @property
     def regime(self) -> Regime:
@@ -177,7 +182,7 @@ class Trajectory(Drawable, Tabular):
     def _check_shape(self, t: float, rtol: float) -> None:
         error = self.shape_error(t)
         motion = motion_around(self.times, self.probes, t, self.scene.period)
-        size = np.sqrt(self.scene.discretisation().interior.measure.sum())
+        size = np.sqrt(self.model.discretisation.interior.measure.sum())
         if error > rtol * motion + ROUNDOFF * size:
             raise ValueError(
                 f"t = {t:g}: lies between kept states; there positions are known to {error:.2g}, more "
@@ -206,7 +211,7 @@ class Trajectory(Drawable, Tabular):
         rtol: as of `shape`. Raises ValueError outside the sheet and the kept times, and where the shape
         is not known to rtol.
         """
-        discretisation, u = self.scene.discretisation(), self.shape(t, rtol)
+        discretisation, u = self.model.discretisation, self.shape(t, rtol)
         mesh = discretisation.mesh
         region = discretisation.points(mesh.p if points is None else points)
         return np.asarray(region.position(u, (0,))[0])
@@ -217,7 +222,7 @@ class Trajectory(Drawable, Tabular):
 
         The frame is that of `rigid_path`; the ramp is part of the path.
         """
-        return poses(self.scene.discretisation(), self.stored_times, self.states)
+        return poses(self.model.discretisation, self.stored_times, self.states)
 
     @cached_property
     def period_speeds(self) -> Array:
@@ -250,7 +255,7 @@ class Trajectory(Drawable, Tabular):
         """
         last, errors = self._last(1), self.errors
         snaps = bool(self.buckled[last].any())
-        model = f"Koiter shell stepped in time, {self.scene.growth_law} growth"
+        model = f"Koiter shell stepped in time, {self.scene.growth.law.name} growth"
         if np.isnan(errors.mesh):
             model += "; mesh error not estimated"
         mean = float(self.period_speeds[-1])
@@ -258,8 +263,7 @@ class Trajectory(Drawable, Tabular):
         times = self.times[last]
         velocity = np.gradient(self.centre[1], self.times)[last]
         return CrawlSpeed(
-            mean=mean,
-            error=error,
+            estimate=Estimate(mean, error),
             model_error=errors.slip_speed,
             converged=self.rtol is not None and error <= self.rtol * abs(mean) and not snaps,
             times=times,
@@ -291,7 +295,9 @@ class Trajectory(Drawable, Tabular):
     def _contents(self) -> Mapping[str, Any]:
         found = self.speed
         answer = {name: getattr(found, name) for name in ("mean", "error", "converged", "regime")}
-        return {**answer, "periods": self.periods, **super()._contents()}
+        parts = {**super()._contents(), "model": self.scene}
+        named = {"scene" if name == "model" else name: value for name, value in parts.items()}
+        return {**answer, "periods": self.periods, **named}
 
     def _columns(self) -> Sequence[Column]:
         return columns.columns(self)

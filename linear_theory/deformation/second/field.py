@@ -40,24 +40,26 @@ from linear_theory.deformation.ritz import error as ritz_error
 from linear_theory.deformation.ritz import legendre
 from linear_theory.deformation.ritz.field import MOST_NUMBERS, RitzField, shortest_order
 from linear_theory.deformation.ritz.solver import RitzSolver, matrix_size
-from linear_theory.deformation.second.source import AREAS, GROWTH_LAWS, Source
+from linear_theory.deformation.second.source import Source
 from linear_theory.deformation.second.times import AtTimes, second_times
+from linear_theory.growth.growth import Growth
 from linear_theory.motion.motion import CellGrid, Motion
 from linear_theory.sheet.rectangle import Sheet
 from linear_theory.wave.survey import WaveSurvey
 
 Array = NDArray[np.float64]
 
-__all__ = ["AREAS", "GROWTH_LAWS", "SecondOrderField", "second_order_field"]
+UNIT = Growth(1.0)
+"""The growth law that the paper prints."""
 
 
 def second_order_field(
-    sheet: Sheet, wave: Wave, growth_law: str = "exp", area: str = "grown", rtol: float = 1e-4
+    sheet: Sheet, wave: Wave, growth: Growth = UNIT, rtol: float = 1e-4
 ) -> "SecondOrderField":
     """Deformation to second order, with polynomials of degrees chosen for rtol.
 
     rtol: bounds the estimated relative L2 errors of u_1 and u_2 over the sheet at their worst phases.
-    growth_law: "exp", "linear", "metric"; area: "grown", "undeformed"; see the module's head.
+    growth: its law and energy area count, see the module's head; alpha does not.
     Raises ValueError for bad input, and NotConvergedError, with the best field, where rtol needs a
     degree that does not fit in memory.
     """
@@ -69,7 +71,7 @@ def second_order_field(
     while True:
         if matrix_size(degree) > MOST_NUMBERS:
             raise NotConvergedError(f"rtol = {rtol:g}: would need degrees {degree} or more", best)
-        best = SecondOrderField(RitzField(wave, RitzSolver(sheet, degree)), growth_law, area)
+        best = SecondOrderField(RitzField(wave, RitzSolver(sheet, degree)), growth)
         tails = np.maximum(best.first.tails, best.second_tails)
         if np.hypot(*tails) <= rtol:
             best.seconds = time.perf_counter() - start
@@ -82,18 +84,15 @@ class SecondOrderField(LinearField):
     """u_1 as a linear field, and u_2, the same elastic problem with the source of the module's head.
 
     What a LinearField offers is of first order, per unit alpha, in the frame of the body. first: u_1.
-    Raises ValueError for unknown names.
     """
 
-    def __init__(self, first: RitzField, growth_law: str = "exp", area: str = "grown") -> None:
+    def __init__(self, first: RitzField, growth: Growth = UNIT) -> None:
         start = time.perf_counter()
-        validation.choice("growth_law", growth_law, GROWTH_LAWS)
-        validation.choice("area", area, AREAS)
         self.first, self.sheet, self.wave = first, first.sheet, first.wave
-        self.growth_law, self.area, self.mirrored = growth_law, area, first.mirrored
+        self.growth, self.mirrored = growth, first.mirrored
         self.numbers = 2 * first.numbers
         self._times = second_times(self.wave, first._cases)
-        square, weight = GROWTH_LAWS[growth_law], AREAS[area]
+        square, weight = growth.law.square, growth.energy_weight
         self._source = Source(self.sheet, self.wave, first.gradient_polynomials, square, weight)
         self._moments = self._times.moments(self._source, first)
         self._solution = self._solve(self._moments)
@@ -101,7 +100,7 @@ class SecondOrderField(LinearField):
         self.seconds = first.seconds + time.perf_counter() - start
 
     def _settings(self) -> Mapping[str, Any]:
-        names = {"growth_law": self.growth_law, "area": self.area}
+        names = {"growth_law": self.growth.law.name, "area": self.growth.energy_area}
         return {"degree": self.first.degree, **names}
 
     @property
@@ -170,7 +169,7 @@ class SecondOrderField(LinearField):
     def _for_times(self, t: Array) -> "SecondOrderField":
         if self._times.serve(t):
             return self
-        return SecondOrderField(self.first._for_times(t), self.growth_law, self.area)
+        return SecondOrderField(self.first._for_times(t), self.growth)
 
     def _solve(self, moments: Array) -> Array:
         """u_2 that a source makes, (basis, 2, degree x + 1, degree y + 1)."""

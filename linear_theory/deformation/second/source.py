@@ -21,12 +21,6 @@ from linear_theory.sheet.rectangle import Sheet
 
 Array = NDArray[np.float64]
 
-GROWTH_LAWS = {"exp": 1.0, "linear": 0.5, "metric": 0.0}
-"""k by law: g = exp(2 alpha c), (1 + alpha c)^2, 1 + 2 alpha c."""
-
-AREAS = {"grown": -2.0, "undeformed": -4.0}
-"""m by the area in which the energy is counted: sqrt(det abar) or that of the undeformed sheet."""
-
 EXTRA_POINTS = 6
 """Gauss points beyond those that polynomials need: c^2 and c s_1 are sines of y."""
 

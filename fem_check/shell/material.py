@@ -1,5 +1,6 @@
 """What the sheet is made of."""
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -7,8 +8,12 @@ from numpy.typing import NDArray
 
 from linear_theory.common import validation
 from linear_theory.common.shown import Value
+from linear_theory.scene.scene import Scene
 
 Array = NDArray[np.float64]
+
+SAME = 1e-12
+"""Difference of two descriptions of one material that is roundoff."""
 
 
 @dataclass(frozen=True)
@@ -55,3 +60,16 @@ def elastic_tensor(metric: Array, poisson: float) -> Array:
     out[1, 2] = out[2, 1] = b22 * b12
     out[2, 2] = poisson * b12**2 + (1 - poisson) / 2 * (b11 * b22 + b12**2)
     return out
+
+
+def check_materials(scene: Scene) -> None:
+    """Raise ValueError where effects of a scene have different materials, or not that of the sheet."""
+    materials = [effect.material for effect in scene.effects if hasattr(effect, "material")]
+    for material in materials:
+        if material != materials[0]:
+            raise ValueError(f"effects: materials {materials[0]} and {material} must be the same")
+        for name in ("thickness", "poisson"):
+            mine, theirs = getattr(material, name), getattr(scene.sheet, name)
+            none = 0.0 if name == "thickness" else SAME  # a length has no size but its own
+            if not math.isclose(mine, theirs, rel_tol=SAME, abs_tol=none):
+                raise ValueError(f"effects: material has {name} = {mine:g}, the sheet has {theirs:g}")

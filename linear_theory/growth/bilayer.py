@@ -1,33 +1,9 @@
-"""How a field c grows the sheet: laws for its metric and the couplings of a bilayer."""
+"""The couplings of a sheet of two layers of which one grows."""
 
 from typing import NamedTuple
 
-import numpy as np
-from numpy.typing import ArrayLike, NDArray
-
 from linear_theory.common import validation
 from linear_theory.common.shown import Shown
-
-Array = NDArray[np.float64]
-
-GROWTH_LAWS = ("exp", "linear", "metric")
-
-
-def metric_factor(law: str, alpha: float, growth: ArrayLike) -> Array:
-    """g(c) of the rest metric g(c) A (eq. 4), of the shape of `growth`.
-
-    law: "exp" exp(2 alpha c), as printed; "linear" (1 + alpha c)^2; "metric" 1 + 2 alpha c. They
-    agree to first order in alpha c. Raises ValueError for another name, for growth that is not
-    finite and for growth by which lengths would vanish.
-    """
-    validation.choice("law", law, GROWTH_LAWS)
-    strain = validation.real("alpha", alpha) * validation.real_array("growth", growth)
-    if law == "exp":
-        return np.asarray(np.exp(2 * strain))
-    smallest, bound = (1 + strain, -1) if law == "linear" else (1 + 2 * strain, -0.5)
-    if np.any(smallest <= 0):
-        raise ValueError(f"alpha * growth = {np.min(strain):g}: must be > {bound:g} for law {law!r}")
-    return np.asarray(smallest**2 if law == "linear" else smallest)
 
 
 class _Couplings(NamedTuple):

@@ -1,0 +1,6 @@
+"""What is asked of finite elements: the same scenes as of `linear_theory`."""
+
+from linear_theory.growth.bilayer import bilayer
+from linear_theory.scene.scene import Scene
+
+__all__ = ["Scene", "bilayer"]

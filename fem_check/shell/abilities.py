@@ -1,0 +1,49 @@
+"""What the levels of finite elements can represent, see `linear_theory.scene.level`."""
+
+from collections.abc import Collection, Mapping
+
+from fem_check.shell.effects.effect import Effect
+from fem_check.shell.effects.friction import Friction
+from fem_check.shell.effects.gravity import Gravity
+from fem_check.shell.effects.ground import Ground
+from fem_check.shell.effects.inertia import Inertia
+from fem_check.shell.effects.koiter import Bending
+from linear_theory.scene.level import THEORY, Level
+from linear_theory.scene.scene import Scene
+
+
+def wholly(effect: Effect, scene: Scene) -> str:
+    """The judge of a level that honours all effects in all of their forms."""
+    return ""
+
+
+def _moves_in_time(scene: Scene) -> str:
+    if not any(effect.moves for effect in scene.effects):
+        return "a scene without Friction and Inertia, which has no motion in time"
+    return ""
+
+
+CYCLE = Level("cycle_speed(scene)", lambda effect, scene: effect.beyond_cycle(scene))
+
+STEPPED = Level("simulate(scene)", wholly, (_moves_in_time,))
+
+LEVELS = (THEORY, CYCLE, STEPPED)
+
+WORDS: Mapping[type, str] = {
+    Bending: "bending, buckling and so the thickness",
+    Ground: "the ground",
+    Gravity: "weight, but as the load of friction",
+    Friction: "friction that deforms the sheet",
+    Inertia: "inertia",
+}
+"""What the levels know besides stretching, for people."""
+
+
+def require(level: Level, scene: Scene) -> None:
+    """Raise ValueError where the level would drop something of the scene."""
+    level.require(scene, LEVELS)
+
+
+def left_out(named: Collection[type]) -> tuple[str, ...]:
+    """What an answer leaves out whose effects are of the classes `named`, in words."""
+    return tuple(words for kind, words in WORDS.items() if kind not in named)

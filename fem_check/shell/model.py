@@ -1,0 +1,98 @@
+"""A scene in finite elements: its mesh and unknowns, its rest state at any time, its potential.
+
+What the scene does not name is neither built nor evaluated. Where no effect needs the third component
+the model is planar: two displacement components on continuous elements and first derivatives only.
+"""
+
+from collections.abc import Mapping, Sequence
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from fem_check.mesh.elements import default_cells, default_element, grid
+from fem_check.shell.effects.effect import Effect
+from fem_check.shell.effects.koiter import Membrane
+from fem_check.shell.kinematics.discretisation import Discretisation
+from fem_check.shell.kinematics.rates import Step
+from fem_check.shell.kinematics.region import Region
+from fem_check.shell.kinematics.rest_state import RestState, grown_state
+from fem_check.shell.kinematics.shape_functions import is_global
+from fem_check.shell.material import Material
+from fem_check.shell.statics.potential import Potential
+from linear_theory.common.shown import Shown
+from linear_theory.scene.scene import Scene
+
+Array = NDArray[np.float64]
+
+
+class ShellModel(Shown):
+    """What a scene is made of in finite elements; made when first asked for and kept.
+
+    >>> from fem_check.shell.model import ShellModel
+    >>> from linear_theory import Scene, Sheet, SineWave
+    >>> model = ShellModel(Scene(Sheet(), SineWave(), alpha=0.25))
+    >>> print(model.discretisation.mesh.nelements, model.rest(t=0.0).abar.shape)
+    8 (3, 288)
+    """
+
+    def __init__(self, scene: Scene) -> None:
+        self.scene, self.planar, self.components = scene, scene.planar, scene.components
+        sheet = scene.sheet
+        alone = (Membrane(Material(sheet.thickness, sheet.poisson)),)
+        self.effects: tuple[Effect, ...] = scene.effects or alone
+        scene.growth.law.check(scene.alpha, scene.extremes)
+
+    def _contents(self) -> Mapping[str, Any]:
+        return {"scene": self.scene}
+
+    def find(self, kind: type) -> Any:
+        """The effect of that class, None where there is none."""
+        return next((effect for effect in self.effects if isinstance(effect, kind)), None)
+
+    @property
+    def static_effects(self) -> tuple[Effect, ...]:
+        """Those that have a meaning without a velocity."""
+        return tuple(effect for effect in self.effects if effect.is_static)
+
+    @cached_property
+    def discretisation(self) -> Discretisation:
+        """Mesh, element and unknowns."""
+        scene, elements = self.scene, self.scene.elements
+        mesh = scene.mesh
+        if mesh is None:
+            cells = scene.cells or default_cells(scene.sheet, scene.wave, self.planar)
+            mesh = grid(scene.sheet, cells)
+        element = None if elements is None else elements.element
+        element = default_element(mesh, self.planar) if element is None else element
+        degree = _quadrature(mesh, element)
+        return Discretisation(mesh, element, components=self.components, degree=degree)
+
+    def growth(self, t: float, x: ArrayLike, y: ArrayLike) -> Array:
+        """c at points of the undeformed sheet."""
+        scene = self.scene
+        return np.asarray(scene.wave.value(x, y, t, scene.sheet.length))
+
+    def rest(self, t: float, amplitude: float = 1.0, region: Region | None = None) -> RestState:
+        """Rest state at time t of `amplitude` times the wave, at interior points unless given."""
+        region = self.discretisation.interior if region is None else region
+        x, y = region.parameters.reshape(2, -1)
+        return grown_state(region, amplitude * self.growth(t, x, y), self.scene.growth)
+
+    def potential(
+        self,
+        rest: RestState,
+        step: Step | None = None,
+        effects: Sequence[Effect] | None = None,
+    ) -> Potential:
+        """The sum of the effects (or of some of them) with that rest state and step."""
+        chosen = self.effects if effects is None else effects
+        return Potential(self.discretisation, chosen, rest, step)
+
+
+def _quadrature(mesh: Any, element: Any) -> int | None:
+    """p + 1 points along each side of a Lagrange square; otherwise the default."""
+    if mesh.t.shape[0] != 4 or is_global(element):
+        return None
+    return 2 * round(float(np.sqrt(element.maxdeg))) + 1

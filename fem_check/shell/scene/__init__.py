@@ -1,1 +1,0 @@
-"""What is simulated by a shell."""

@@ -1,0 +1,73 @@
+"""How a wave c grows the sheet: its couplings, the law of its stretch, and how eqs 1 and 4 are read."""
+
+from dataclasses import dataclass
+from enum import StrEnum
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from linear_theory.common import validation
+from linear_theory.common.shown import Value
+from linear_theory.growth.laws import Exp, GrowthLaw, growth_law
+
+Array = NDArray[np.float64]
+
+
+class Reference(StrEnum):
+    """The surface that a quantity refers to."""
+
+    GROWN = "grown"
+    UNDEFORMED = "undeformed"
+
+    @classmethod
+    def named(cls, name: str, value: object) -> "Reference":
+        """One of them, or of its name; name: of the argument. Raises ValueError for anything else."""
+        return cls(validation.choice(name, value, tuple(cls)))
+
+
+@dataclass(frozen=True)
+class Growth(Value):
+    """Rest metric g(alpha c) A and rest curvature -beta c (eq. 4).
+
+    alpha: strain of lengths per c; law: g, a `GrowthLaw` or its name; curvature_coupling: beta,
+    1/length; curvature: GROWN, -beta c abar, so that the rest curvature is exactly -beta c, or
+    UNDEFORMED, -beta c A; energy_area: in which the elastic energy is counted, GROWN sqrt(det abar)
+    (appendix A.2) or UNDEFORMED sqrt(det A) (eq. 1). Raises ValueError for numbers that are not finite
+    and names that do not exist.
+
+    >>> from linear_theory import Growth
+    >>> print(Growth(0.25).metric([0.0, 1.0]).round(6), Growth(0.25, law="linear").metric(1.0))
+    [1.       1.648721] 1.5625
+    """
+
+    alpha: float
+    law: GrowthLaw = Exp()  # noqa: RUF009 - a frozen value
+    curvature_coupling: float = 0.0
+    curvature: Reference = Reference.GROWN
+    energy_area: Reference = Reference.GROWN
+
+    def __post_init__(self) -> None:
+        for name in ("alpha", "curvature_coupling"):
+            object.__setattr__(self, name, validation.real(name, getattr(self, name)))
+        object.__setattr__(self, "law", growth_law(self.law))
+        object.__setattr__(self, "curvature", Reference.named("curvature", self.curvature))
+        object.__setattr__(self, "energy_area", Reference.named("area", self.energy_area))
+
+    def metric(self, growth: ArrayLike) -> Array:
+        """g at growth c, of its shape. Raises ValueError where lengths would vanish."""
+        c = validation.real_array("growth", growth)
+        self.law.check(self.alpha, c)
+        return np.asarray(self.law.metric(self.alpha * c))
+
+    @property
+    def energy_weight(self) -> float:
+        """m of 1 + alpha m c + ..., what growth does to the density of energy at small alpha.
+
+        The inverse rest metric in the elasticity makes -4, the grown area 2 more.
+        """
+        return -2.0 if self.energy_area is Reference.GROWN else -4.0
+
+    @property
+    def model(self) -> str:
+        """What is assumed, in words."""
+        return f"growth law {self.law.name}, energy per {self.energy_area} area"

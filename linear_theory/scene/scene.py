@@ -1,0 +1,382 @@
+"""What is simulated, said once: sheet, wave, growth, contact with the ground, and what else acts.
+
+A scene is plain data. It is neither solved nor discretised here: every level reads it, and refuses what
+it cannot represent. What a scene does not name is left out by all of them.
+"""
+
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from importlib import import_module
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linear_theory.common import validation
+from linear_theory.common.errors import Unidentifiable
+from linear_theory.common.shown import Shown, in_words
+from linear_theory.friction.contact import Contact
+from linear_theory.friction.laws import friction_law
+from linear_theory.friction.load import Load
+from linear_theory.growth.growth import Growth
+from linear_theory.identity import content_key
+from linear_theory.scene import arguments
+from linear_theory.scene.effect import NamedEffect
+from linear_theory.sheet.rectangle import Sheet
+from linear_theory.wave.phases import phases
+from linear_theory.wave.survey import WaveSurvey
+from linear_theory.wave.travelling import Wave
+
+Array = NDArray[np.float64]
+
+ELEMENTS = "fem_check.mesh.elements"
+"""The module that knows meshes, looked up by its name where a scene says something of its own."""
+
+GROWTH = {
+    "alpha": "alpha",
+    "curvature_coupling": "curvature_coupling",
+    "growth_law": "law",
+    "curvature": "curvature",
+    "area": "energy_area",
+}
+"""Arguments of a scene that make its Growth, and the fields of that."""
+
+PARTS = ("sheet", "wave", "growth", "contact", "effects", "elements")
+"""What a scene consists of, and what its key is made of."""
+
+
+@dataclass(frozen=True, eq=False, init=False)
+class Scene(Shown):
+    """A sheet driven by a wave of growth, under the effects that are named.
+
+    sheet: rectangle, thickness and Poisson ratio. wave: c(x, y, t) with its period. alpha: growth of
+    lengths per c; curvature_coupling: beta of eq. 4, 1/length; growth_law, curvature, area: those of
+    `Growth`, which may be given whole instead as `growth`. effects: of the shell, `Membrane` in any
+    case where one is named, and of Bending, Gravity, Ground, Friction, Inertia, DeadLoad those that are
+    wanted, each once; none for a sheet that stretches in its plane and nothing else. contact: load and
+    friction, where no effect says them; "current" load and dry friction unless given.
+    cells: elements across and along, two integers. mesh: instead of cells, a scikit-fem mesh of another
+    outline in the coordinates of the sheet. element: of scikit-fem. These three are for finite
+    elements; what is left out is chosen for the wave.
+
+    Scenes of the same content are equal and have the same `key`. Raises ValueError, naming the
+    argument, for values out of range, for effects that contradict each other, the contact or the sheet,
+    and for effects that miss what they need (friction without load).
+
+    >>> from fem_check import Bending, Material, Membrane
+    >>> from linear_theory import Scene, Sheet, SineWave
+    >>> material = Material(thickness=0.03, poisson=0.5)
+    >>> stretching, bending = Membrane(material), Bending(material)
+    >>> for effects in ([stretching], [stretching, bending]):
+    ...     print(Scene(Sheet(), SineWave(), alpha=0.25, effects=effects).components)
+    2
+    3
+    >>> one, other = (Scene(Sheet(), SineWave(), alpha=0.25) for _ in range(2))
+    >>> print(one == other, one.but(alpha=0.1) == other)
+    True False
+    """
+
+    sheet: Sheet
+    wave: Wave
+    growth: Growth
+    contact: Contact
+    effects: tuple[Any, ...]
+    elements: Any
+    _said: Contact | None = field(repr=False)
+
+    def __init__(
+        self,
+        sheet: Sheet,
+        wave: Wave,
+        alpha: float | None = None,
+        curvature_coupling: float | None = None,
+        effects: Sequence[Any] = (),
+        growth_law: Any = None,
+        curvature: Any = None,
+        area: Any = None,
+        cells: tuple[int, int] | None = None,
+        mesh: Any = None,
+        element: Any = None,
+        *,
+        growth: Growth | None = None,
+        contact: Contact | None = None,
+    ) -> None:
+        sheet, wave = arguments.sheet(sheet), arguments.wave(wave)
+        said = (alpha, curvature_coupling, growth_law, curvature, area)
+        self._set(
+            sheet=sheet,
+            wave=wave,
+            growth=_grown(growth, dict(zip(GROWTH.values(), said, strict=True))),
+            effects=tuple(effect.under(sheet) for effect in checked_effects(effects)),
+            _said=None if contact is None else validation.instance("contact", contact, Contact),
+        )
+        self._set(contact=_contact(self.effects, self.components, self._said))
+        self._set(elements=self._elements(cells, mesh, element))
+        self._check()
+
+    def _set(self, **parts: Any) -> None:
+        for name, value in parts.items():
+            object.__setattr__(self, name, value)
+
+    def but(self, **changes: Any) -> "Scene":
+        """The scene with other arguments; those that are not named stay.
+
+        >>> from linear_theory import Scene, Sheet, SineWave
+        >>> scene = Scene(Sheet(), SineWave(), alpha=0.25, growth_law="linear")
+        >>> print(scene.but(alpha=0.1).growth.law)
+        linear
+        """
+        known = {"sheet": self.sheet, "wave": self.wave, "growth": self.growth, "contact": self._said}
+        return Scene(**{**known, "effects": self.effects, **self._resolution(), **changes})
+
+    def resting(
+        self, load: Any = None, friction: Any = None, slip_speed: float | None = None
+    ) -> "Scene":
+        """The scene with that load and friction, names or objects; None for what it says already.
+
+        Raises ValueError for names that do not exist, and where an effect says something else.
+        """
+        if load is None and friction is None and slip_speed is None:
+            return self
+        own = self.contact
+        asked = Load.named(load, tuple(Load)) if load is not None else own.load
+        law = own.friction
+        if friction is not None or slip_speed is not None:
+            law = friction_law("tanh" if friction is None else friction, slip_speed)
+        return self.but(contact=Contact(asked, law))
+
+    @property
+    def alpha(self) -> float:
+        """Growth of lengths per c."""
+        return self.growth.alpha
+
+    @property
+    def curvature_coupling(self) -> float:
+        """beta of eq. 4, 1/length."""
+        return self.growth.curvature_coupling
+
+    @property
+    def period(self) -> float:
+        """Of the wave."""
+        return float(self.wave.period)
+
+    @property
+    def unit(self) -> float:
+        """Of speeds, length per period."""
+        return self.sheet.length / self.period
+
+    @property
+    def planar(self) -> bool:
+        """Whether no effect needs the third component."""
+        return not any(effect.needs_space for effect in self.effects)
+
+    @property
+    def components(self) -> int:
+        """2 in the plane, 3 in space."""
+        return 2 if self.planar else 3
+
+    @property
+    def cells(self) -> tuple[int, int] | None:
+        """Elements across and along, where they were given."""
+        return None if self.elements is None else self.elements.cells
+
+    @property
+    def mesh(self) -> Any:
+        """Of another outline, where it was given."""
+        return None if self.elements is None else self.elements.mesh
+
+    def find(self, kind: type) -> Any:
+        """The effect of that class, None where the scene does not name it."""
+        return next((effect for effect in self.effects if isinstance(effect, kind)), None)
+
+    @cached_property
+    def survey(self) -> WaveSurvey:
+        """How the wave depends on time, at points of the sheet."""
+        if self.mesh is None:
+            return WaveSurvey.on_sheet(self.wave, self.sheet)
+        return WaveSurvey.at_some(self.wave, self.sheet, *self.mesh.p[:, self.mesh.t].mean(1))
+
+    def speed_per_rate(self, leading: bool) -> float:
+        """Largest V that dc/dt of root mean square 1 makes, see `WaveSurvey.speed_per_rate`.
+
+        Curvature c times its coupling tilts the sheet by as much, over a wavelength/(2 pi).
+        """
+        bent = abs(self.curvature_coupling) * self.sheet.length / (2 * np.pi)
+        return self.survey.speed_per_rate(abs(self.alpha) + bent, leading)
+
+    def key(self) -> str:
+        """64 hexadecimal digits that are the same for every scene of this content, in every process.
+
+        Scenes with the same key give the same numbers. Raises Unidentifiable, a ValueError that says
+        what to name, for a function without a content of its own.
+        """
+        return content_key({name: getattr(self, name) for name in PARTS}, "scene")
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Scene):
+            return NotImplemented
+        try:
+            return self is other or self.key() == other.key()
+        except Unidentifiable:
+            return False
+
+    def __hash__(self) -> int:
+        return hash((self.sheet, self.growth, self.contact))
+
+    @classmethod
+    def stated(
+        cls,
+        sheet: "Sheet | Scene",
+        wave: Wave | None,
+        alpha: float | None,
+        load: Any = None,
+        friction: Any = None,
+        slip_speed: float | None = None,
+        **growth: Any,
+    ) -> "Scene":
+        """The scene of a call: that of a sheet that stretches in its plane, or one that is given whole.
+
+        growth: growth_law and area; load, friction: names or objects, None for the defaults or for what
+        the scene says. Raises ValueError as Scene does, and for a wave or alpha beside a scene.
+        """
+        if not isinstance(sheet, Scene):
+            contact = Contact.named(load, friction, slip_speed)
+            if alpha is None:
+                raise ValueError("alpha = None: must be given, the order is sheet, wave, alpha")
+            return cls(sheet, wave, alpha, contact=contact, **growth)  # type: ignore[arg-type]
+        for name, value in {"wave": wave, "alpha": alpha}.items():
+            if value is not None:
+                raise ValueError(f"{name} = {validation.shown(value)}: must be None beside a scene")
+        named = {name: value for name, value in growth.items() if value is not None}
+        return (sheet.but(**named) if named else sheet).resting(load, friction, slip_speed)
+
+    @classmethod
+    def from_dict(cls, data: Mapping[str, Any], **given: Any) -> "Scene":
+        """The scene that `to_dict` has written, from JSON too; given: arguments that replace its own.
+
+        Raises ValueError for what is no scene, and for waves and ground that are functions, which no
+        text holds: give them, as wave=... or effects=...
+
+        >>> import json
+        >>> from linear_theory import Scene, Sheet, SineWave
+        >>> scene = Scene(Sheet(width=0.3), SineWave(), alpha=0.25)
+        >>> print(Scene.from_dict(json.loads(json.dumps(scene.to_dict()))) == scene)
+        True
+        """
+        from linear_theory.scene.reading import arguments_of  # it knows this class
+
+        arguments, contact = arguments_of(data, given)
+        scene = cls(**{**arguments, **given})
+        return scene if contact is None or scene.contact == contact else scene.but(contact=contact)
+
+    def _title(self) -> str:
+        effects = ", ".join(type(effect).__name__ for effect in self.effects)
+        return f"Scene: {'in the plane' if self.planar else 'in space'}, {effects or 'stretching'}"
+
+    def _rows(self) -> Mapping[str, Any]:
+        growth = [f"{said}={in_words(getattr(self.growth, name))}" for said, name in GROWTH.items()]
+        rows = {"sheet": self.sheet, "wave": self.wave, "growth": ", ".join(growth)}
+        rows["contact"] = self.contact
+        rows["cells"] = "as the wave needs" if self.elements is None else self.elements
+        return {**rows, **{f"effects[{i}]": effect for i, effect in enumerate(self.effects)}}
+
+    def _contents(self) -> Mapping[str, Any]:
+        parts = {name: getattr(self, name) for name in PARTS if name != "elements"}
+        return {**parts, **self._resolution()}
+
+    def _resolution(self) -> dict[str, Any]:
+        own = self.elements
+        return {n: None if own is None else getattr(own, n) for n in ("cells", "mesh", "element")}
+
+    def _elements(self, cells: Any, mesh: Any, element: Any) -> Any:
+        if cells is None and mesh is None and element is None:
+            return None
+        return import_module(ELEMENTS).Elements(cells, mesh, element).on(self.sheet)
+
+    def _check(self) -> None:
+        """Whatever the parts may contradict."""
+        if self.effects:
+            self.growth.law.check(self.alpha, self.extremes)
+            if not any(effect.stretches for effect in self.effects):
+                names = ", ".join(type(effect).__name__ for effect in self.effects)
+                raise ValueError(
+                    f"effects = {names}: must name Membrane, without which nothing has a shape"
+                )
+        for effect in self.effects:
+            effect.check_scene(self)
+        if self.curvature_coupling and not any(effect.bends for effect in self.effects):
+            raise ValueError(
+                f"curvature_coupling = {self.curvature_coupling:g}: must be 0 without the effect "
+                "Bending, the only one that knows of a rest curvature"
+            )
+
+    @cached_property
+    def extremes(self) -> Array:
+        """c on a grid of places and times, to find growth that no rest state can have."""
+        x, y = np.array([-0.5, 0, 0.5]) * self.sheet.width, np.linspace(-0.5, 0.5, 33)
+        times, length = np.append(phases(self.period, 64), 0.0), self.sheet.length
+        return np.stack([self.wave.value(x[:, None], length * y[None], t, length) for t in times])
+
+
+def _grown(growth: Growth | None, said: dict[str, Any]) -> Growth:
+    """That, with what is said beside it."""
+    changes = {name: value for name, value in said.items() if value is not None}
+    if growth is not None:
+        return replace(validation.instance("growth", growth, Growth), **changes)
+    if "alpha" not in changes:
+        raise ValueError("alpha = None: must be given, or growth = Growth(alpha, ...)")
+    return Growth(**changes)
+
+
+def _contact(effects: Iterable[NamedEffect], components: int, said: Contact | None) -> Contact:
+    """What the effects say of load, friction and slope, and `said`, which must agree, of the rest."""
+    presses = [load for effect in effects if (load := effect.pressed_by(components)) is not None]
+    rubs = [effect for effect in effects if effect.law is not None]
+    load = presses[-1] if presses else (Load.CURRENT if said is None else said.load)
+    law = rubs[0].law if rubs else None
+    if law is None:
+        found = Contact(load) if said is None else replace(said, load=load)
+    else:
+        found = Contact(load, law, _slope(effects, rubs[0].mu))
+    if load is Load.GROUND and not presses:
+        raise ValueError("load = 'ground': the scene must name the effect Ground")
+    if said is not None and said.load != load:
+        raise ValueError(
+            f"load = {str(said.load)!r}: must be None or {str(load)!r}, as the effects of the scene say"
+        )
+    if said is not None and said.friction != found.friction:
+        raise ValueError(
+            f"friction = {said.friction!r}: must be None or that of the scene, which names Friction "
+            f"with {law!r}"
+        )
+    return found
+
+
+def _slope(effects: Iterable[NamedEffect], mu: float | None) -> float:
+    """tan(incline)/mu."""
+    incline = sum(effect.incline for effect in effects)
+    return math.tan(incline) / mu if incline and mu else 0.0
+
+
+def checked_effects(effects: Any) -> tuple[Any, ...]:
+    """The effects, one of them alone, too. Raises ValueError for what is no instance of an effect."""
+    if _is_effect(effects):
+        return (effects,)
+    if isinstance(effects, type | str) or not isinstance(effects, Iterable):
+        shown = validation.shown(effects)
+        raise ValueError(f"effects = {shown}: must be a sequence of effects, as [Membrane(material)]")
+    found = tuple(effects)
+    for i, effect in enumerate(found):
+        if not _is_effect(effect):
+            hint = "an instance, made with its arguments" if isinstance(effect, type) else "an effect"
+            raise ValueError(f"effects[{i}] = {validation.shown(effect)}: must be {hint}")
+        if type(effect) in map(type, found[:i]):
+            raise ValueError(f"effects: {type(effect).__name__} is named twice, must be named once")
+    return found
+
+
+def _is_effect(value: object) -> bool:
+    """Whether it is an object, and no class, that a scene can ask what it needs to know."""
+    return not isinstance(value, type) and isinstance(value, NamedEffect)
