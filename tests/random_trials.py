@@ -21,21 +21,24 @@ from typing import Any
 import numpy as np
 
 from fem_check.command import main
-from fem_check.predict.levels import LEVELS, Question, scene
+from fem_check.predict.levels import LEVELS, finer
 from fem_check.predict.prediction import predict
 from fem_check.shell.cycle.motion import UnresolvedError
 from fem_check.shell.cycle.speed import cycle_speed
 from fem_check.shell.statics.equilibrium import ConvergenceError
 from linear_theory import (
+    Contact,
     CrawlSpeed,
     FieldWave,
     NotConvergedError,
+    Scene,
     Sheet,
     SineWave,
     TravellingWave,
     crawl_speed,
     line_balance,
 )
+from linear_theory.friction.contact import Contact
 from linear_theory.friction.load import WEIGHTS as LOADS
 
 REFUSALS = (ValueError, NotConvergedError, ConvergenceError, UnresolvedError)
@@ -154,11 +157,11 @@ def prediction(rng: np.random.Generator) -> Outcome:
     wave, alpha = SineWave(int(rng.choice([1, -1, 2]))), an_alpha(rng, 0.25)
     load, law = str(rng.choice(LOADS)), str(rng.choice(LAWS))
     rtol = 10.0 ** rng.uniform(-2.5, -0.5)
-    question = Question(sheet, wave, alpha, law, load=load)
-    words = f"{question}, rtol {rtol:.1e}"
+    scene = Scene(sheet, wave, alpha, growth_law=law, contact=Contact(load))
+    words = f"{sheet}, {wave}, {scene.growth}, {load} load, rtol {rtol:.1e}"
     try:
         found = predict(sheet, wave, alpha, law, load=load, rtol=rtol)
-        better = cycle_speed(scene(question, 3), load, rtol=3e-4, atol=3e-5 * alpha**2)
+        better = cycle_speed(finer(scene, 3), rtol=3e-4, atol=3e-5 * alpha**2)
     except REFUSALS as refusal:
         return Outcome(f"{words}: {refusal}")
     return Outcome(words, abs(found.mean - better.mean), found.error + better.error)

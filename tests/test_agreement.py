@@ -12,7 +12,7 @@ import pytest
 from fem_check.plane_stress.field import plane_stress_field
 from linear_theory import Sheet, SineWave, TravellingWave, airy_series, ritz_field
 from linear_theory.balance.period import Crawl, first_resolution
-from linear_theory.friction.laws import Coulomb
+from linear_theory.friction.contact import Contact
 
 WAVES = {
     "sine": SineWave(),
@@ -60,7 +60,7 @@ def test_one_balance_serves_all_three(width, name):
     times = np.array([0.07, 0.31]) * WAVES[name].period
     speeds = {}
     for key, field in solutions.items():
-        crawl = Crawl(field, 0.1, "current", Coulomb(), first_resolution(1e-5))
+        crawl = Crawl(field, 0.1, Contact(), first_resolution(1e-5))
         motion = crawl.balance(times)
         speeds[key] = 0.1 * (motion.leading + 0.1 * motion.remainder)[:, 1]
     for key in ("ritz", "fem"):

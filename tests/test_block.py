@@ -6,14 +6,12 @@ import warnings
 
 import numpy as np
 import pytest
-from linear_theory.line.growth import GROWTH_LAWS
 from scipy import special
 
 from fem_check.answer.block import block
 from fem_check.answer.growth import alpha_of, extremes
 from fem_check.answer.rounding import measured, rounded_up
 from fem_check.answer.units import Units
-from fem_check.predict.levels import Question
 from fem_check.predict.prediction import predict
 from linear_theory import (
     FieldWave,
@@ -24,6 +22,8 @@ from linear_theory import (
     line_cycle_speed,
     pulse_wave,
 )
+from linear_theory.growth.laws import GROWTH_LAWS
+from linear_theory.scene.scene import Scene
 
 MM = Units("mm", "s")
 NUMBER = r"([−\d.]+)"
@@ -188,7 +188,7 @@ def test_growth_at_the_crest_is_what_was_asked_for(law, wave):
     stretch = {"exp": np.exp(alpha * crest), "linear": 1 + alpha * crest}
     stretch["metric"] = np.sqrt(1 + 2 * alpha * crest)
     assert stretch[law] == pytest.approx(1.12, rel=1e-5)  # the crest falls between phases
-    assert extremes(Question(Sheet(), wave, alpha, law)).crest == pytest.approx(0.12, rel=1e-12)
+    assert extremes(Scene(Sheet(), wave, alpha, growth_law=law)).crest == pytest.approx(0.12, rel=1e-12)
 
 
 def test_pulse_has_the_width_and_the_harmonics_that_it_says():

@@ -26,8 +26,10 @@ from fem_check.predict.levels import LEVELS
 from fem_check.predict.prediction import METHODS, predict
 from linear_theory import Sheet, SineWave, TravellingWave, pulse_wave
 from linear_theory.common.progress import Progress
-from linear_theory.deformation.second.field import AREAS, GROWTH_LAWS
-from linear_theory.friction.laws import LAWS, LOADS
+from linear_theory.friction.laws import FRICTION_LAWS as LAWS
+from linear_theory.friction.load import WEIGHTS as LOADS
+from linear_theory.growth.growth import Reference
+from linear_theory.growth.laws import GROWTH_LAWS
 from tests.processes import interruptible
 
 SPEED = ("speed", "--growth", "5 %")
@@ -324,7 +326,7 @@ def test_slip_speed_and_tolerance_with_units(capsys):
 def test_choices_are_those_of_the_library(name):
     known = {
         "growth_law": GROWTH_LAWS,
-        "area": AREAS,
+        "area": tuple(Reference),
         "load": LOADS,
         "friction": LAWS,
         "method": METHODS,

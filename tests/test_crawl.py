@@ -18,6 +18,7 @@ from linear_theory import (
     ritz_field,
 )
 from linear_theory.balance.period import Crawl, first_resolution
+from linear_theory.friction.contact import Contact
 from linear_theory.friction.laws import Coulomb, Tanh, Viscous
 from tests import reference_balance
 
@@ -33,7 +34,7 @@ def paper_field():
 
 def rigid(field, alpha, times, load="current", law=None, rtol=1e-7):
     """V_x, V_y, Omega at given times, (times, 3), without any use of symmetry in time."""
-    crawl = Crawl(field, alpha, load, law or Coulomb(), first_resolution(rtol))
+    crawl = Crawl(field, alpha, Contact(load, law or Coulomb()), first_resolution(rtol))
     motion = crawl.balance(np.asarray(times, float))
     return alpha * (motion.leading + alpha * motion.remainder)
 

@@ -5,25 +5,33 @@ import math
 import numpy as np
 import pytest
 
-from fem_check.predict.levels import LEVELS, MESHES, TARGET, Question, cycle, scene
+from fem_check.predict.levels import LEVELS, MESHES, TARGET, cycle, finer
 from fem_check.predict.prediction import predict
 from fem_check.shell.cycle.speed import cycle_speed
-from linear_theory import FieldWave, Sheet, SineWave, TravellingWave, crawl_speed, line_cycle_speed
+from linear_theory import (
+    Contact,
+    FieldWave,
+    Scene,
+    Sheet,
+    SineWave,
+    Tolerance,
+    TravellingWave,
+    crawl_speed,
+    line_cycle_speed,
+)
 
 PULSE = TravellingWave(np.array([0.5, 0.3]), np.array([0.2, 0.1]))
 
 
 @pytest.fixture(scope="module")
 def reference():
-    """Speed of the nonlinear sheet by question, on a mesh finer than any level takes."""
+    """Speed of the nonlinear sheet by scene, on a mesh finer than any level takes."""
     found = {}
 
-    def speed(question):
-        key = question.sheet, question.alpha, question.load, question.growth_law
-        if key not in found:
-            fine = cycle_speed(scene(question, 3), question.load, rtol=1e-4)
-            found[key] = fine.mean
-        return found[key]
+    def speed(scene):
+        if scene not in found:
+            found[scene] = cycle_speed(finer(scene, 3), rtol=1e-4).mean
+        return found[scene]
 
     return speed
 
@@ -34,12 +42,14 @@ def reference():
     [(0.5, 0.25, "current", "exp"), (0.2, 0.1, "grown", "linear"), (1.0, 0.05, "current", "exp")],
 )
 def test_error_covers_the_distance_to_the_nonlinear_sheet(reference, width, alpha, load, law, rtol):
-    question = Question(Sheet(width=width), SineWave(), alpha, law, load=load)
-    found = predict(question.sheet, question.wave, alpha, law, load=load, rtol=rtol)
+    sheet, wave = Sheet(width=width), SineWave()
+    scene = Scene(sheet, wave, alpha, growth_law=law, contact=Contact(load))
+    found = predict(sheet, wave, alpha, law, load=load, rtol=rtol)
+    assert found.scene == scene
     assert found.converged
     assert found.error <= rtol * abs(found.mean)
     # 2e-4: the reference itself, whose tolerance is 1e-4
-    true = reference(question)
+    true = reference(scene)
     assert abs(found.mean - true) <= found.error + 2e-4 * abs(true)
 
 
@@ -87,10 +97,10 @@ def test_units(method):
 
 
 def test_cycle_refines_its_mesh_until_the_tolerance_is_met():
-    question = Question(Sheet(), SineWave(), 0.25)
-    coarse = cycle_speed(scene(question), rtol=1e-3)
+    scene = Scene(Sheet(), SineWave(), 0.25)
+    coarse = cycle_speed(finer(scene, 1), rtol=1e-3)
     assert not coarse.converged  # else this test shows nothing
-    fine = cycle(question, 1e-3, 1e-9)
+    fine = cycle(scene, Tolerance(1e-3, 1e-9))
     assert fine.converged
     assert fine.seconds > coarse.seconds / 10  # sums over the meshes, of which this is the first
     assert MESHES[0] == 1

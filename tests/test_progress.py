@@ -4,9 +4,9 @@ import math
 from concurrent.futures import ThreadPoolExecutor
 
 import pytest
-from fem_check.shell.scene.scene import default_cells
 
 from fem_check import Material, Membrane, Scene, cycle_speed, predict
+from fem_check.mesh.elements import default_cells
 from linear_theory import Sheet, SineWave, crawl_speed
 from linear_theory.common.progress import part_of, track, watched
 

@@ -5,7 +5,7 @@ import pytest
 import skfem
 from numpy.typing import NDArray
 
-from fem_check.shell.effects.friction import Friction, load_bearer, log_cosh, sech_squared, tanh_ratio
+from fem_check.shell.effects.friction import Friction, log_cosh, sech_squared, tanh_ratio
 from fem_check.shell.effects.gravity import Gravity
 from fem_check.shell.effects.ground import Ground
 from fem_check.shell.effects.inertia import Inertia
@@ -20,6 +20,7 @@ from fem_check.shell.statics.newton import Minimiser
 from fem_check.shell.statics.potential import Potential
 from fem_check.shell.statics.ramp import ramp
 from linear_theory import SineWave
+from linear_theory.friction.load import Load
 from linear_theory.growth.growth import Growth
 from tests.shell_cases import affine, koiter, shell
 
@@ -196,7 +197,7 @@ def test_a_planar_block_is_slowed_down_by_its_friction() -> None:
     a0 = np.zeros_like(x) + np.array([[-mu * g], [0.0]])
     velocity, acceleration = newmark(x, v0, a0, dt)
     gravity = Gravity(WEIGHT)
-    assert load_bearer(2, (gravity,)) is gravity
+    assert gravity.pressed_by(2) is Load.GROWN
     load = gravity.normal_load(PointState(d.interior, d.zeros(), (0,), rest))
     effects = (Membrane(PAPER), gravity, Friction(mu, 1e-4), Inertia(density, PAPER))
     potential = Potential(d, effects, rest, Step(velocity, acceleration, load))

@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 import skfem
-from fem_check.shell.scene.growth import GROWTH_LAWS, bilayer, metric_factor
 from numpy.typing import NDArray
 
 from fem_check.shell.effects.koiter import Membrane
@@ -17,7 +16,9 @@ from fem_check.shell.statics.newton import Minimiser
 from fem_check.shell.statics.potential import Potential
 from fem_check.shell.statics.ramp import ramp
 from linear_theory import SineWave
+from linear_theory.growth.bilayer import bilayer
 from linear_theory.growth.growth import Growth
+from linear_theory.growth.laws import GROWTH_LAWS
 from tests.shell_cases import koiter, shell
 
 Array = NDArray[np.float64]
@@ -46,8 +47,8 @@ def grown(d: Discretisation, material: Material, rest: object, **options: float)
 def test_growth_laws(law: str) -> None:
     c = np.linspace(-1, 1, 7)
     expected = {"exp": np.exp(0.4 * c), "linear": (1 + 0.2 * c) ** 2, "metric": 1 + 0.4 * c}[law]
-    np.testing.assert_allclose(metric_factor(law, 0.2, c), expected, rtol=1e-15)
-    small = metric_factor(law, 1e-6, c)
+    np.testing.assert_allclose(Growth(0.2, law).metric(c), expected, rtol=1e-15)
+    small = Growth(1e-6, law).metric(c)
     np.testing.assert_allclose(small, 1 + 2e-6 * c, atol=1e-11)
 
 

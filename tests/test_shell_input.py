@@ -5,9 +5,8 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 import skfem
-from fem_check.shell.scene.growth import bilayer, metric_factor
-from fem_check.shell.scene.scene import Scene, default_cells
 
+from fem_check.mesh.elements import default_cells
 from fem_check.shell.effects.friction import Friction
 from fem_check.shell.effects.gravity import Gravity
 from fem_check.shell.effects.ground import Ground
@@ -24,7 +23,9 @@ from fem_check.shell.statics.newton import Minimiser
 from fem_check.shell.statics.potential import Load, Potential
 from fem_check.shell.statics.ramp import ramp
 from linear_theory import Sheet, SineWave
+from linear_theory.growth.bilayer import bilayer
 from linear_theory.growth.growth import Growth
+from linear_theory.scene.scene import Scene
 from tests.shell_cases import at, koiter, shell
 
 PAPER = Material(0.03, 0.5)
@@ -102,18 +103,18 @@ CASES: dict[str, tuple[str, Callable[[], object]]] = {
     "thickness": ("thickness = 0: must be > 0", lambda: Material(0.0, 0.5)),
     "young": ("young = -1: must be > 0", lambda: Material(0.1, 0.5, -1.0)),
     "poisson": ("poisson = 0.6", lambda: Material(0.1, 0.6)),
-    "law": ("law = 'cubic'", lambda: metric_factor("cubic", 0.1, 0.0)),
+    "law": ("growth_law = 'cubic'", lambda: Growth(0.1, "cubic")),
     "growth not finite": (
         "growth contains nan",
         lambda: grown_state(PLATE.interior, np.nan, Growth(0.1)),
     ),
     "growth that shrinks to nothing": (
-        r"alpha \* growth = -1.2: must be > -1",
-        lambda: metric_factor("linear", 1.2, -1.0),
+        r"alpha = 1.2: alpha c = -1.2 is not within -1, .*must be < 1",
+        lambda: Growth(1.2, "linear").metric(-1.0),
     ),
     "metric law that shrinks to nothing": (
-        "must be > -0.5",
-        lambda: metric_factor("metric", 0.5, -1.0),
+        "not within -0.5, .*must be < 0.5",
+        lambda: Growth(0.5, "metric").metric(-1.0),
     ),
     "metric not definite": (
         "abar has determinant",
@@ -133,7 +134,7 @@ CASES: dict[str, tuple[str, Callable[[], object]]] = {
     ),
     "bilayer": ("thickness_ratio = 0", lambda: bilayer(0.1, 0.03, 0.0)),
     "weight": ("weight = 0: must be > 0", lambda: Gravity(0.0)),
-    "load area": ("area = 'printed'", lambda: Gravity(1.0, "printed")),
+    "load area": ("load = 'printed'", lambda: Gravity(1.0, "printed")),
     "stiffness": ("stiffness = 0: must be > 0", lambda: Ground(0.0)),
     "damping": ("damping = -1: must be >= 0", lambda: Ground(1.0, -1.0)),
     "ground form": ("form = 'sticky'", lambda: Ground(1.0, form="sticky")),
@@ -152,11 +153,11 @@ CASES: dict[str, tuple[str, Callable[[], object]]] = {
     "no rest state": ("rest = None", lambda: Potential(PLATE, (Membrane(PAPER),))),
     "friction without ground": (
         "Friction must come with Ground",
-        lambda: Potential(PLATE, (Friction(0.7, 1.0), Gravity(1.0)), REST, STILL),
+        lambda: Scene(Sheet(), SineWave(), 0.1, effects=(*koiter(PAPER), Friction(0.7, 1.0))),
     ),
     "planar friction without weight": (
         "Friction must come with Gravity",
-        lambda: Potential(PLANAR, (Friction(0.7, 1.0),), FLAT_REST),
+        lambda: Scene(Sheet(), SineWave(), 0.1, effects=(Membrane(PAPER), Friction(0.7, 1.0))),
     ),
     "static friction": (
         "step: Friction needs",
@@ -167,7 +168,7 @@ CASES: dict[str, tuple[str, Callable[[], object]]] = {
         lambda: Potential(PLATE, (Inertia(1.0, PAPER),), REST, STILL),
     ),
     "current area in statics": (
-        "area = 'current': must come with a step",
+        "load = 'current': must come with a step",
         lambda: Potential(PLATE, (Gravity(1.0, "current"),), REST),
     ),
     "planar bending": ("Bending must not", lambda: Potential(PLANAR, (Bending(PAPER),), FLAT_REST)),

@@ -14,7 +14,6 @@ from fem_check.shell.statics.newton import Minimiser
 from fem_check.shell.statics.ramp import ramp
 from linear_theory import Sheet, TravellingWave
 from linear_theory.balance.period import Crawl, first_resolution
-from linear_theory.friction.laws import Coulomb
 from linear_theory.motion.rigid import RigidNorm
 
 ANGLES = 2 * np.pi * np.arange(12) / 12
@@ -79,11 +78,11 @@ def test_small_growth_moves_it_as_linear_theory_says(name):
     """The same triangles and degree in both: what is left is of order alpha and of the balances."""
     alpha, times = 1e-3, np.array([0.05, 0.3])
     field = plane_stress_field(outline(name).mesh(0.8), WAVE, degree=2)
-    crawl = Crawl(field, alpha, "current", Coulomb(), first_resolution(1e-3))
+    crawl = Crawl(field, alpha, Contact(), first_resolution(1e-3))
     both = crawl.balance(np.concatenate([times, times + 0.5]))
     linear = alpha * (both.leading + alpha * both.remainder)
     shapes = cycle_of_shapes(scene(name, alpha, field.mesh), 8)
-    found = CycleBalance(shapes, Contact("current", Coulomb()), 7, 14, 1e-7, False).balance(times)
+    found = CycleBalance(shapes, Contact(), 7, 14, 1e-7, False).balance(times)
     norm = RigidNorm(field.gyration, False)
     wrong = norm.speeds(found.leading.reshape(-1, 3).T - linear.T)
     # of order alpha and of the balances; met: 6e-4 to 2.8e-3

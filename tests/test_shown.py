@@ -10,7 +10,6 @@ from functools import cache
 
 import numpy as np
 import pytest
-from fem_check.shell.scene.growth import Couplings
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -24,6 +23,7 @@ from fem_check.shell.kinematics.surface import AnnulusSector, Cylinder, Flat, Sp
 from fem_check.shell.statics.equilibrium import Equilibrium
 from fem_check.shell.stepping.run import Progress
 from linear_theory.common.shown import LINES, WIDTH, Shown, in_words, number, with_error
+from linear_theory.growth.bilayer import Couplings
 
 PACKAGES = (linear_theory, fem_check)
 

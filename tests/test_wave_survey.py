@@ -21,7 +21,7 @@ from linear_theory import (
     ritz_field,
 )
 from linear_theory.balance.period import Crawl, first_resolution
-from linear_theory.friction.laws import Coulomb
+from linear_theory.friction.contact import Contact
 from linear_theory.wave.survey import WaveSurvey, spread
 
 SHEET, SINE, ALPHA = Sheet(), SineWave(), 0.1
@@ -201,7 +201,7 @@ def test_noise_is_not_taken_for_a_wave_that_is_resolved() -> None:
     found = crawl_speed(narrow, noisy_pulse(), 0.12, rtol=1e-2)
     field = ritz_field(narrow, noisy_pulse(), degree=(9, 25))
     times = np.random.default_rng(3).uniform(size=400)
-    some = Crawl(field, 0.12, "current", Coulomb(), first_resolution(1e-1)).balance(times)
+    some = Crawl(field, 0.12, Contact(), first_resolution(1e-1)).balance(times)
     v = 0.12 * (some.leading + 0.12 * some.remainder)[:, 1]
     literal_error = 3 * v.std() / np.sqrt(v.size)  # of a mean of random times
     assert abs(found.mean - v.mean()) <= found.error + literal_error
@@ -211,7 +211,7 @@ def test_noise_is_not_taken_for_a_wave_that_is_resolved() -> None:
 def mean_of_noisy_pulse(times: int = 211) -> tuple[float, float]:
     """Mean V and its standard error from a prime number of equidistant times."""
     field = ritz_field(Sheet(width=0.375), noisy_pulse(), degree=(9, 25))
-    crawl = Crawl(field, 0.12, "current", Coulomb(), first_resolution(1e-1))
+    crawl = Crawl(field, 0.12, Contact(), first_resolution(1e-1))
     velocity = crawl.counted(crawl.balance((np.arange(times) + 0.3) / times))[1]
     return float(velocity.mean()), float(velocity.std()) / math.sqrt(times)
 

@@ -58,16 +58,21 @@ def second_order(scene: Scene, tolerance: Tolerance) -> CrawlSpeed:
 def cycle(scene: Scene, tolerance: Tolerance) -> CrawlSpeed:
     """The target, on finer meshes as long as the tolerance is not met and they help."""
     seconds, before = 0.0, math.inf
-    across, along = scene.cells or default_cells(scene.sheet, scene.wave, planar=True)
     for factor in MESHES:
-        cells = factor * across, factor * along
-        with part_of("{} x {} elements".format(*cells)):
-            found = Cycle(scene.but(cells=cells)).speed(tolerance)
+        fine = finer(scene, factor)
+        with part_of("{} x {} elements".format(*fine.cells or ())):
+            found = Cycle(fine).speed(tolerance)
         seconds += found.seconds
         if found.converged or found.error > HELPED * before:
             break
         before = found.error
     return replace(found, seconds=seconds)
+
+
+def finer(scene: Scene, factor: int) -> Scene:
+    """A planar scene with `factor` times its cells each way."""
+    across, along = scene.cells or default_cells(scene.sheet, scene.wave, planar=True)
+    return scene.but(cells=(factor * across, factor * along))
 
 
 LEVELS: dict[str, Level] = {

@@ -12,9 +12,13 @@ from linear_theory.scene.level import THEORY, Level
 from linear_theory.scene.scene import Scene
 
 
-def wholly(effect: Effect, scene: Scene) -> str:
-    """The judge of a level that honours all effects in all of their forms."""
-    return ""
+def _of_a_cycle(effect: object, scene: Scene) -> str:
+    return effect.beyond_cycle(scene) if isinstance(effect, Effect) else type(effect).__name__
+
+
+def _of_a_step(effect: object, scene: Scene) -> str:
+    """All effects, in all of their forms."""
+    return "" if isinstance(effect, Effect) else type(effect).__name__
 
 
 def _moves_in_time(scene: Scene) -> str:
@@ -23,9 +27,9 @@ def _moves_in_time(scene: Scene) -> str:
     return ""
 
 
-CYCLE = Level("cycle_speed(scene)", lambda effect, scene: effect.beyond_cycle(scene))
+CYCLE = Level("cycle_speed(scene)", _of_a_cycle)
 
-STEPPED = Level("simulate(scene)", wholly, (_moves_in_time,))
+STEPPED = Level("simulate(scene)", _of_a_step, (_moves_in_time,))
 
 LEVELS = (THEORY, CYCLE, STEPPED)
 

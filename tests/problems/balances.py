@@ -14,6 +14,7 @@ from linear_theory import (
     second_order,
 )
 from linear_theory.deformation.field import Wave
+from linear_theory.friction.contact import Contact
 from tests import reference_balance
 from tests.problems.line import samples, stopping
 from tests.problems.problem import Outcome, Problem, case, family, of_speed
@@ -96,7 +97,7 @@ def joining(speed: float) -> Outcome:
 
     field, alpha, t = airy_series(PAPER, SINE, rtol=1e-8), 0.25, 0.06
     law = Tanh(speed)
-    motion = Crawl(field, alpha, "current", law, first_resolution(1e-6)).balance(np.array([t]))
+    motion = Crawl(field, alpha, Contact(friction=law), first_resolution(1e-6)).balance(np.array([t]))
     found = alpha * (motion.leading + alpha * motion.remainder)[0, 1]
     exact = reference_balance.speed_at(field, alpha, t, force=lambda r: np.tanh(r / speed) / r)
     # midpoints: the cells at points at rest, 1/320000 of the area each, times the speed 0.04
