@@ -38,7 +38,6 @@ from linear_theory import (
     crawl_speed,
     line_balance,
 )
-from linear_theory.friction.contact import Contact
 from linear_theory.friction.load import WEIGHTS as LOADS
 
 REFUSALS = (ValueError, NotConvergedError, ConvergenceError, UnresolvedError)

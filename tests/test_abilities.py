@@ -163,7 +163,7 @@ DISAGREEING = {
     "load": (r"load = 'material': must be None or 'grown', as the effects", {"load": "material"}),
     "ground": (r"load = 'ground': the scene must name the effect Ground", {"load": "ground"}),
     "law": (r"friction = Coulomb\(\): must be None or that of the scene", {"friction": "coulomb"}),
-    "slip": (r"friction = Tanh\(slip_speed=0.01\): must be None", {"friction": "tanh", "slip_speed": 0.01}),
+    "slip": (r"friction = Tanh\(slip_speed=0.01\): must be None", {"slip_speed": 0.01}),
 }  # fmt: skip
 
 

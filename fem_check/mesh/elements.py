@@ -60,12 +60,16 @@ class Elements(Value):
         kind = None if mesh is None else (type(mesh).__name__, mesh.doflocs, mesh.t)
         return self.cells, kind, _call(self.element)
 
-    def _contents(self) -> Mapping[str, Any]:
+    def contents(self) -> Mapping[str, Any]:
+        """cells, mesh and element as plain data, see `from_data`."""
         mesh = None if self.mesh is None else MeshShown(self.mesh)
         return {"cells": self.cells, "mesh": mesh, "element": _call(self.element)}
 
+    def _contents(self) -> Mapping[str, Any]:
+        return self.contents()
+
     def _rows(self) -> Mapping[str, Any]:
-        return {name: value for name, value in self._contents().items() if value is not None}
+        return {name: value for name, value in self.contents().items() if value is not None}
 
 
 def from_data(data: Mapping[str, Any]) -> dict[str, Any]:

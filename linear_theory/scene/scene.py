@@ -212,7 +212,8 @@ class Scene(Shown):
         Scenes with the same key give the same numbers. Raises Unidentifiable, a ValueError that says
         what to name, for a function without a content of its own.
         """
-        return content_key({name: getattr(self, name) for name in PARTS}, "scene")
+        parts = {name: content_key(getattr(self, name), name) for name in PARTS}
+        return content_key(parts, "scene")
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Scene):
@@ -284,7 +285,7 @@ class Scene(Shown):
 
     def _contents(self) -> Mapping[str, Any]:
         parts = {name: getattr(self, name) for name in PARTS if name != "elements"}
-        return {**parts, **self._resolution()}
+        return {**parts, **(self._resolution() if self.elements is None else self.elements.contents())}
 
     def _resolution(self) -> dict[str, Any]:
         own = self.elements

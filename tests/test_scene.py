@@ -1,0 +1,237 @@
+"""Scenes: the same content is the same scene, in every process and from plain data."""
+
+import json
+import math
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+import skfem
+
+from fem_check import (
+    Bending,
+    Friction,
+    Gravity,
+    Ground,
+    Inertia,
+    Material,
+    Membrane,
+    Outline,
+    cycle_speed,
+    predict,
+    simulate,
+)
+from linear_theory import (
+    Contact,
+    Coulomb,
+    Exp,
+    FieldWave,
+    Growth,
+    Linear,
+    Load,
+    Scene,
+    Sheet,
+    SineWave,
+    Tanh,
+    TravellingWave,
+    Viscous,
+    crawl_speed,
+    line_balance,
+    pulse_wave,
+    second_order,
+)
+from linear_theory.common.errors import Unidentifiable
+
+MATERIAL = Material(0.03, 0.5)
+PLANE = (Membrane(MATERIAL), Gravity(3e-6), Friction(1.0, 5e-3))
+SPACE = (Membrane(MATERIAL), Bending(MATERIAL), Gravity(2.5e-4), Ground(0.5), Friction(0.3, 1e-2))
+TRIANGLES = Outline([(-0.25, -0.5), (0.25, -0.5), (0.1, 0.5), (-0.1, 0.5)]).mesh(0.3)
+
+SCENES = {
+    "plain": Scene(Sheet(), SineWave(), 0.25),
+    "pulse, laws": Scene(
+        Sheet(width=0.3, poisson=-0.2),
+        pulse_wave(0.2, count=-2),
+        -0.1,
+        growth_law=Linear(),
+        area="undeformed",
+        contact=Contact(Load.MATERIAL, Tanh(0.02)),
+    ),
+    "plane": Scene(Sheet(), SineWave(period=2.0), 0.1, effects=PLANE, cells=(1, 2)),
+    "incline": Scene(
+        Sheet(), SineWave(), 0.1, effects=(PLANE[0], Gravity(3e-6, "current", 0.1), PLANE[2])
+    ),
+    "space": Scene(
+        Sheet(), SineWave(), 0.1, 2.0, SPACE, curvature="undeformed", element=skfem.ElementQuadBFS()
+    ),
+    "inertia": Scene(Sheet(), SineWave(), 0.1, effects=(*PLANE, Inertia(1e-3, MATERIAL))),
+    "mesh": Scene(Sheet(), SineWave(), 0.1, effects=PLANE, mesh=TRIANGLES),
+    "degree": Scene(Sheet(), SineWave(), 0.1, effects=PLANE, element=skfem.ElementQuadP(3)),
+}
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_a_scene_comes_back_from_its_data(name: str) -> None:
+    scene = SCENES[name]
+    again = Scene.from_dict(json.loads(json.dumps(scene.to_dict())))
+    assert again == scene
+    assert again.key() == scene.key()
+    assert hash(again) == hash(scene)
+    assert repr(again) == repr(scene)
+    assert again.contact == scene.contact
+
+
+def test_different_scenes_have_different_keys() -> None:
+    keys = {scene.key() for scene in SCENES.values()}
+    assert len(keys) == len(SCENES)
+    assert all(len(key) == 64 for key in keys)
+
+
+CHANGES = {
+    "alpha": {"alpha": 0.11},
+    "coupling": {"curvature_coupling": 2.5},
+    "law": {"growth_law": "metric"},
+    "curvature": {"curvature": "grown"},
+    "area": {"area": "undeformed"},
+    "sheet": {"sheet": Sheet(length=1.01)},
+    "wave": {"wave": SineWave(count=2)},
+    "wave's last digit": {"wave": TravellingWave([0.0], [1 + 2.3e-16])},
+    "cells": {"cells": (3, 6)},
+    "element": {"element": skfem.ElementQuadBFS(), "cells": (7, 8)},
+    "effects": {"effects": (*SPACE[:-1], Friction(0.3, 1.01e-2))},
+}
+
+
+@pytest.mark.parametrize("name", CHANGES)
+def test_any_change_changes_the_key(name: str) -> None:
+    scene = SCENES["space"]
+    other = scene.but(**CHANGES[name])
+    assert other != scene
+    assert other.key() != scene.key()
+    back = {part: getattr(scene, part) for part in ("sheet", "wave", "growth", "effects")}
+    assert other.but(**back, cells=None, element=skfem.ElementQuadBFS()) == scene
+
+
+def test_the_key_is_the_same_in_another_process() -> None:
+    code = (
+        "import sys; sys.path.insert(0, sys.argv[1])\n"
+        "from tests.test_scene import SCENES\n"
+        "print(*(scene.key() for scene in SCENES.values()))"
+    )
+    root = str(Path(__file__).parents[1])
+    done = subprocess.run([sys.executable, "-c", code, root], capture_output=True, text=True, check=True)
+    assert done.stdout.split() == [scene.key() for scene in SCENES.values()]
+
+
+def test_names_and_objects_say_the_same() -> None:
+    named = Scene(Sheet(), SineWave(), 0.1, growth_law="linear", area="undeformed")
+    whole = Scene(Sheet(), SineWave(), growth=Growth(0.1, Linear(), energy_area="undeformed"))
+    assert named == whole
+    assert Scene(Sheet(), SineWave(), 0.2, growth=whole.growth) == whole.but(alpha=0.2)
+    assert Growth(0.1, "exp") == Growth(0.1, Exp())
+    assert Contact("grown", "viscous") == Contact(Load.GROWN, Viscous())
+    assert Contact.named() == Contact(Load.CURRENT, Coulomb())
+
+
+def test_functions_are_known_by_content_or_name() -> None:
+    def wave(scale: float, name: str | None = None) -> FieldWave:
+        return FieldWave(lambda x, y, t: scale * np.sin(2 * np.pi * (y - t)) + 0 * x, 1.0, name=name)
+
+    same = [Scene(Sheet(), wave(1.0), 0.1) for _ in range(2)]
+    assert same[0] == same[1]
+    assert same[0] != Scene(Sheet(), wave(1.1), 0.1)
+    assert Scene(Sheet(), wave(1.0, "a"), 0.1) != Scene(Sheet(), wave(1.0, "b"), 0.1)
+    nameless = FieldWave(iter([1]).__next__, 1.0)
+    with pytest.raises(Unidentifiable, match=r"wave"):
+        Scene(Sheet(), nameless, 0.1).key()
+    with pytest.raises(ValueError, match=r"wave = .*give it: Scene.from_dict\(data, wave=...\)"):
+        Scene.from_dict(same[0].to_dict())
+    assert Scene.from_dict(same[0].to_dict(), wave=wave(1.0)) == same[0]
+
+
+def test_uneven_ground_is_given_again() -> None:
+    hill = Ground(0.5, height=lambda x, y: 0.01 * np.cos(3 * y) + 0 * x)
+    effects = (*SPACE[:3], hill, SPACE[-1])
+    scene = Scene(Sheet(), SineWave(), 0.1, effects=effects)
+    with pytest.raises(ValueError, match=r"effects\[3\].*a Terrain cannot be made"):
+        Scene.from_dict(scene.to_dict())
+    assert Scene.from_dict(scene.to_dict(), effects=effects) == scene
+
+
+@pytest.mark.parametrize(
+    ("data", "words"),
+    [
+        ({}, "data = {}: must be what Scene.to_dict"),
+        ({"type": "Scene"}, "a scene must have sheet, wave, growth, effects"),
+        (SCENES["plain"].to_dict() | {"sheet": {"type": "Sheet", "size": 1}}, "must be its arguments"),
+        (SCENES["plain"].to_dict() | {"sheet": {"type": "os"}}, "a os cannot be made"),
+        (SCENES["plain"].to_dict() | {"element": "os.system(1)"}, "must be the name of one"),
+        (SCENES["plain"].to_dict() | {"cells": [0, 1]}, "cells = 0: must be >= 1"),
+    ],
+)
+def test_what_is_no_scene_is_refused(data: dict[str, object], words: str) -> None:
+    with pytest.raises(ValueError, match=words.replace("{}", r"\{\}")):
+        Scene.from_dict(data)
+
+
+def test_a_scene_is_short_to_look_at() -> None:
+    for scene in SCENES.values():
+        assert len(repr(scene).splitlines()) <= 12
+        assert max(map(len, repr(scene).splitlines())) <= 100
+
+
+def test_what_a_scene_says_of_its_contact() -> None:
+    assert SCENES["plain"].contact == Contact()
+    assert SCENES["plane"].contact == Contact(Load.GROWN, Tanh(5e-3))
+    assert SCENES["space"].contact == Contact(Load.GROUND, Tanh(1e-2))
+    slope = SCENES["incline"].contact.slope
+    assert slope == pytest.approx(math.tan(0.1) / 1.0, rel=1e-15)
+
+
+def test_every_level_reads_the_same_scene() -> None:
+    """Against the calls with plain arguments, which build it."""
+    scene = Scene(
+        Sheet(width=0.4), SineWave(), 0.1, growth_law="linear", contact=Contact("grown", Tanh(0.05))
+    )
+    options = {"load": "grown", "friction": "tanh", "slip_speed": 0.05}
+    grown = {**options, "growth_law": "linear"}
+    plain = Sheet(width=0.4), SineWave(), 0.1
+    for order in (1, 2):
+        one, other = crawl_speed(scene, rtol=1e-2, order=order), crawl_speed(
+            *plain, rtol=1e-2, order=order, **grown
+        )
+        assert (one.mean, one.error, one.model) == (other.mean, other.error, other.model)
+    assert predict(scene, rtol=0.3).mean == predict(*plain, rtol=0.3, **grown).mean
+    bare = scene.but(contact=Contact())
+    one, other = cycle_speed(scene, rtol=1e-2), cycle_speed(bare, **options, rtol=1e-2)
+    assert (one.mean, one.error) == (other.mean, other.error)
+    both = second_order(scene, rtol=1e-2), second_order(*plain[:2], rtol=1e-2, **grown)
+    assert both[0].second == both[1].second
+    assert line_balance(SineWave(), 0.1).mean != 0
+
+
+def test_theory_refuses_what_it_cannot_represent() -> None:
+    for name, words in {
+        "space": "Bending; Gravity; Ground",
+        "inertia": "Inertia",
+        "incline": "a slope of 0.100",
+        "mesh": "a mesh of its own outline",
+    }.items():
+        for call in (crawl_speed, second_order, predict):
+            with pytest.raises(ValueError, match=rf"cannot represent.*{words}"):
+                call(SCENES[name])
+    with pytest.raises(ValueError, match=r"wave = SineWave\(.*must be None beside a scene"):
+        crawl_speed(SCENES["plain"], SineWave())
+    with pytest.raises(ValueError, match="alpha = None: must be given"):
+        crawl_speed(Sheet(), SineWave())
+
+
+def test_a_scene_without_effects_stretches() -> None:
+    scene = Scene(Sheet(), SineWave(), 0.25, cells=(2, 4))
+    named = scene.but(effects=[Membrane(MATERIAL)])
+    one, other = (cycle_speed(s, rtol=1e-2) for s in (scene, named))
+    assert (one.mean, one.error) == (other.mean, other.error)
+    with pytest.raises(ValueError, match="without Friction and Inertia"):
+        simulate(scene)
