@@ -20,7 +20,7 @@ import numpy as np
 import skfem
 from numpy.typing import NDArray
 
-from fem_check.shell.cycle.shapes import static_depth
+from fem_check.shell.depth import laid_down
 from fem_check.shell.effects.effect import Effect
 from fem_check.shell.effects.friction import Friction
 from fem_check.shell.effects.gravity import Gravity
@@ -101,7 +101,7 @@ class Static:
         self.sheet = self.model.discretisation
         self.supports = Supports(self.sheet).anchor(motions=held_motions(scene))
         self.minimiser = Minimiser(self.supports)
-        self.result = ramp(self.minimiser, self.problem, static_depth(self.model), follow=1e-3)
+        self.result = ramp(self.minimiser, self.problem, laid_down(self.model), follow=1e-3)
 
     def problem(self, share: float) -> Potential:
         """Energy at a share of the growth."""

@@ -13,13 +13,15 @@ import numpy as np
 import skfem
 from numpy.typing import NDArray
 
-from fem_check.shell.cycle.shapes import extrapolated, static_depth, working_effects
+from fem_check.shell.cycle.shapes import working_effects
+from fem_check.shell.depth import laid_down
 from fem_check.shell.effects.effect import Effect
 from fem_check.shell.effects.friction import Friction
 from fem_check.shell.effects.gravity import Gravity
 from fem_check.shell.effects.ground import Ground
 from fem_check.shell.effects.inertia import Inertia
 from fem_check.shell.effects.koiter import Bending, Membrane
+from fem_check.shell.kinematics.extrapolation import extrapolated
 from fem_check.shell.kinematics.rates import Step
 from fem_check.shell.kinematics.supports import Supports
 from fem_check.shell.material import Material
@@ -186,7 +188,7 @@ class Named:
         rest = model.rest(0.1)
         if not self.moves:
             energy = Potential(model.discretisation, working_effects(model), rest)
-            return energy, static_depth(model)
+            return energy, laid_down(model)
         dt = model.scene.period / self.steps
         stepper = Stepper(model, 0.5, dt)
         history = first_history(stepper, dt, None)
@@ -218,10 +220,10 @@ def static_shapes(model: ShellModel, steps: int) -> tuple[int, int]:
     motions = "xyz" if model.find(Ground) is None else "xy"
     supports = Supports(model.discretisation).anchor(motions=motions)
     minimiser = Minimiser(supports, keep_factor=True, check_stability=False)
-    states, iterations = [static_depth(model)], 0
+    states, iterations = [laid_down(model)], 0
     for i in range(SHAPES):
         potential = Potential(model.discretisation, working_effects(model), model.rest(i / steps))
-        guess = extrapolated(states[-4:]) if len(states) > 4 else states[-1]
+        guess = extrapolated(range(4), states[-4:], 4.0) if len(states) > 4 else states[-1]
         result = minimiser.minimise(potential, guess)
         states.append(result.state)
         iterations += result.iterations
