@@ -62,8 +62,6 @@ def ramp(
             places, states = zip(*path, strict=True)
             guess = extrapolated(places, states, target)
             result = _increment(minimiser, problem(target), guess, state)
-                minimiser, problem(target), extrapolated(*zip(*path, strict=True), target), state
-            )
             if result.buckled and follow > 0:
                 result = follow_mode(minimiser, problem(target), result, follow)
         except ConvergenceError as error:
