@@ -22,6 +22,7 @@ from linear_theory.scene import arguments
 from linear_theory.scene.scene import Scene
 from linear_theory.sheet.rectangle import Sheet
 from linear_theory.speed.result import CrawlSpeed, Estimate
+from linear_theory.speed.words import model_words
 from linear_theory.wave.given import FieldWave
 from linear_theory.wave.travelling import TravellingWave
 
@@ -111,7 +112,7 @@ def line_crawl(scene: Scene, tolerance: Tolerance, body: str) -> CrawlSpeed:
         second_order=length * answer.second,
         sticks=answer.sticks and answer.fastest > 0,
         seconds=time.perf_counter() - start,
-        model=_words(law, piece, body),
+        model=_words(scene, body),
     )
 
 
@@ -149,10 +150,8 @@ def _on_unit(wave: Wave, length: float) -> FieldWave:
     return FieldWave(value, wave.period, None if differenced else rate)
 
 
-def _words(law: FrictionLaw, piece: Piece, body: str) -> str:
+def _words(scene: Scene, body: str) -> str:
     shape = {"line": "body on a line", "strip": "narrow strip that grows both ways"}[body]
-    load = {0: "weight conserved", 1: "load on the current length", 2: "load on the current area"}
-    return (
-        f"{shape}, stretch {piece.law.words}, quasi-static, shape not affected by friction; "
-        f"{law.words}, {load[piece.power]}"
-    )
+    stretch = f"stretch {scene.growth.law.words}"
+    remarks = stretch, "quasi-static", "shape not affected by friction"
+    return model_words(shape, None, scene.contact, *remarks)

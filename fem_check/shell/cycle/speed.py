@@ -34,6 +34,7 @@ from linear_theory.friction.contact import Contact
 from linear_theory.friction.regime import warn_if_viscous
 from linear_theory.scene.scene import Scene
 from linear_theory.speed.result import CrawlSpeed, Estimate, RigidSpeed
+from linear_theory.speed.words import model_words
 from linear_theory.wave.travelling import TravellingWave
 
 Array = NDArray[np.float64]
@@ -283,10 +284,7 @@ def _starts_at_second_order(scene: Scene, contact: Contact) -> bool:
 
 def _words(scene: Scene, contact: Contact) -> str:
     where = "in the plane" if scene.planar else "in space"
-    slope = f", on a slope of {contact.slope:g} of its friction" if contact.slope else ""
     weak = friction_over_growth(scene)
     ratio = f" (its strain is {weak:.1g} of that by growth)" if 0 < weak < math.inf else ""
-    return (
-        f"nonlinear sheet {where}{slope}, {scene.growth.model}, "
-        f"static shapes not affected by friction{ratio}; {contact.model}"
-    )
+    static = f"static shapes not affected by friction{ratio}"
+    return model_words(f"nonlinear sheet {where}", scene.growth, contact, static)
