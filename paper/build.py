@@ -15,7 +15,7 @@ from pathlib import Path
 
 import typst
 
-from figures import output
+from figures.common import output
 
 ROOT = Path(__file__).resolve().parent.parent
 MAIN = ROOT / "paper" / "paper.typ"
@@ -27,13 +27,13 @@ PAGE_PPI = 110.0
 
 COMMANDS = {
     "docs/hard_cases.json": "python -m tests.hard_cases_page",
-    "linear_theory/data/model_error.csv": "python -m figures.model_error_table",
+    "linear_theory/data/model_error.csv": "python -m figures.measure.model_error",
     "paper/generated/numbers.json": "python -m paper.numbers",
-    "paper/generated/derivations.json": "python -m paper.derivations",
-    "paper/generated/shell.csv": "python -m paper.shell_table",
-    "figures/data/second_order.csv": "python -m figures.second_order_table",
-    "figures/data/reach.csv": "python -m figures.reach_table",
-    "figures/data/turning.csv": "python -m figures.turning_table",
+    "paper/generated/derivations.json": "python -m paper.derive",
+    "paper/generated/shell.csv": "python -m paper.numbers.shell",
+    "figures/data/second_order.csv": "python -m figures.measure.second_order",
+    "figures/data/reach.csv": "python -m figures.measure.reach",
+    "figures/data/turning.csv": "python -m figures.measure.turning",
     "figures/data/cost.csv": "make cost",
 }
 """What makes the files that the text reads; `make figures` makes those of FIGURES."""

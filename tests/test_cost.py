@@ -6,19 +6,17 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from figures import (
-    cost,
-    cost_cases,
-    cost_draw,
-    cost_effects,
-    cost_fields,
-    cost_growth,
-    cost_speeds,
-    cost_table,
-    peers,
-)
-from figures.cost_measure import calls, held_memory, machine, timed
-from figures.cost_table import Order, Point
+from figures.draw import cost as cost_draw
+from figures.measure.cost import cases as cost_cases
+from figures.measure.cost import command as cost
+from figures.measure.cost import effects as cost_effects
+from figures.measure.cost import fields as cost_fields
+from figures.measure.cost import growth as cost_growth
+from figures.measure.cost import speeds as cost_speeds
+from figures.measure.cost import tables as cost_table
+from figures.measure.cost.peers import peer as peers
+from figures.measure.cost.tables import Order, Point
+from figures.measure.meters import calls, held_memory, machine, timed
 from linear_theory import Sheet, airy_series, ritz_field
 
 
@@ -152,7 +150,7 @@ def test_tables_are_read_as_they_were_written(tmp_path):
 
 
 def test_absent_tables_are_reported_with_their_command(tmp_path):
-    with pytest.raises(FileNotFoundError, match=r"python -m figures\.cost"):
+    with pytest.raises(FileNotFoundError, match=r"python -m figures\.measure\.cost"):
         cost_table.read(tmp_path / "t.csv", Point)
 
 

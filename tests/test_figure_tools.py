@@ -13,7 +13,7 @@ import pytest
 from matplotlib.image import imread
 
 from fem_check.output import progress
-from figures import output, style
+from figures.common import output, style
 from linear_theory.speed.si import Scale, speed_si
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -21,7 +21,7 @@ ROOT = Path(__file__).resolve().parents[1]
 DRAWING = """
 import sys
 import numpy as np
-from figures import style
+from figures.common import style
 fig = style.figure(width=style.COLUMN_CM, height=5.0)
 left, right = fig.subplots(1, 2)
 x = np.linspace(0, 1, 50)

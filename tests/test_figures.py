@@ -7,8 +7,12 @@ import json
 import numpy as np
 import pytest
 
-from figures import fig3, fig3_data, fig3_speed, fig7, nonlinear
-from figures.fig3_speed import LABELS
+from figures.draw import fig7
+from figures.draw.fig3 import data as fig3_data
+from figures.draw.fig3 import figure as fig3
+from figures.draw.fig3 import speeds as fig3_speed
+from figures.draw.fig3.speeds import LABELS
+from figures.measure import nonlinear
 from linear_theory import (
     Sheet,
     SineWave,
@@ -136,10 +140,10 @@ def test_the_table_of_nonlinear_speeds_is_what_its_command_makes():
 
 def test_an_absent_or_incomplete_table_is_reported_with_its_command(tmp_path):
     path = tmp_path / "nonlinear.csv"
-    with pytest.raises(FileNotFoundError, match=r"python -m figures\.nonlinear"):
+    with pytest.raises(FileNotFoundError, match=r"python -m figures\.measure\.nonlinear"):
         nonlinear.read(path)
     nonlinear.write([s for s in nonlinear.read() if s.body == "sheet"], path)
-    with pytest.raises(ValueError, match=r"no coulomb bar.*python -m figures\.nonlinear"):
+    with pytest.raises(ValueError, match=r"no coulomb bar.*python -m figures\.measure\.nonlinear"):
         fig3_speed.nonlinear_speeds(nonlinear.read(path))
 
 

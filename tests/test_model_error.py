@@ -8,8 +8,9 @@ import numpy as np
 import pytest
 
 from fem_check.shell.cycle.speed import cycle_speed
-from figures import cycles, model_error_table
-from figures.model_error_table import BASE, Case
+from figures.common import scenes as cycles
+from figures.measure import model_error as model_error_table
+from figures.measure.model_error import BASE, Case
 from linear_theory import (
     FieldWave,
     Sheet,
@@ -143,7 +144,7 @@ def test_bad_input(options, words):
 
 
 def test_an_absent_table_is_reported_with_its_command(tmp_path):
-    with pytest.raises(FileNotFoundError, match=r"python -m figures\.model_error_table"):
+    with pytest.raises(FileNotFoundError, match=r"python -m figures\.measure\.model_error"):
         read(tmp_path / "model_error.csv")
 
 

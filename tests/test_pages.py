@@ -10,7 +10,9 @@ import pytest
 
 import fem_check
 import linear_theory
-from figures import reach_table, regimes, regimes_table
+from figures.draw import regimes
+from figures.measure import reach as reach_table
+from figures.measure import regimes as regimes_table
 from linear_theory.common.records import read_rows
 
 ROOT = Path(__file__).parents[1]

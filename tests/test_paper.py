@@ -9,10 +9,14 @@ import pytest
 import sympy as sp
 import typst
 
-from figures import regimes_table, second_order_table
-from paper import build, derivations, numbers, numbers_field
-from paper.proof import ProofError, proved
-from paper.typst_math import typst as formula
+from figures.measure import regimes as regimes_table
+from figures.measure import second_order as second_order_table
+from paper import build
+from paper.derive import appendix as derivations
+from paper.derive.proof import ProofError, proved
+from paper.derive.typst_math import typst as formula
+from paper.numbers import field as numbers_field
+from paper.numbers import groups as numbers
 
 SOURCES = build.sources()
 TEXTS = {path.name: path.read_text() for path in SOURCES}

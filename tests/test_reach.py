@@ -8,8 +8,10 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from figures import reach, reach_table
-from figures.reach_table import COMMAND, DATA, REACHES, SHARES, SPEEDS, Point, Reach
+from figures.common.folders import DATA
+from figures.draw import reach
+from figures.measure import reach as reach_table
+from figures.measure.reach import COMMAND, REACHES, SHARES, SPEEDS, Point, Reach
 from linear_theory import Sheet, SineWave, crawl_speed, line_cycle_speed
 from linear_theory.common.records import read_rows
 
@@ -127,7 +129,7 @@ def test_the_figure_writes_the_same_bytes(tmp_path):
 
 
 def test_an_absent_table_is_reported_with_its_command(tmp_path):
-    with pytest.raises(FileNotFoundError, match=r"python -m figures\.reach_table"):
+    with pytest.raises(FileNotFoundError, match=r"python -m figures\.measure\.reach"):
         read_rows(tmp_path / SPEEDS, Point, COMMAND)
     again = read_rows(reach_table.write(POINTS[:3], tmp_path / SPEEDS), Point, COMMAND)
     assert again == POINTS[:3]

@@ -10,7 +10,10 @@ import pytest
 
 from fem_check.command import main
 from fem_check.shell.statics.ellipticity import edge_limit
-from figures import nonlinear, reach_table, regimes, regimes_table
+from figures.draw import regimes
+from figures.measure import nonlinear
+from figures.measure import reach as reach_table
+from figures.measure import regimes as regimes_table
 from linear_theory import Sheet, SineWave, crawl_speed
 from linear_theory.common.records import read_rows
 

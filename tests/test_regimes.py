@@ -13,7 +13,8 @@ from fem_check.shell.effects.inertia import Inertia
 from fem_check.shell.effects.koiter import Membrane
 from fem_check.shell.scene.scene import Scene
 from fem_check.shell.stepping.simulation import simulate
-from figures import regimes, regimes_table
+from figures.draw import regimes
+from figures.measure import regimes as regimes_table
 from linear_theory import (
     CrawlSpeed,
     FieldWave,
@@ -344,9 +345,9 @@ def test_the_figure_is_made_of_the_table_and_always_the_same(
 
 
 def test_a_missing_table_is_reported_with_its_command(tmp_path) -> None:
-    with pytest.raises(FileNotFoundError, match=r"python -m figures\.regimes_table"):
+    with pytest.raises(FileNotFoundError, match=r"python -m figures\.measure\.regimes"):
         regimes_table.read(tmp_path / "none.csv")
-    with pytest.raises(ValueError, match=r"no line.*python -m figures\.regimes_table"):
+    with pytest.raises(ValueError, match=r"no line.*python -m figures\.measure\.regimes"):
         regimes.select([], "line")
 
 

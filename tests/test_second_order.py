@@ -15,7 +15,7 @@ from fem_check.shell.effects.koiter import Membrane
 from fem_check.shell.scene.growth import metric_factor
 from fem_check.shell.scene.material import Material
 from fem_check.shell.scene.scene import Scene
-from figures import second_order_table as table
+from figures.measure import second_order as table
 from linear_theory import Sheet, SineWave, TravellingWave, crawl_speed, second_order
 from linear_theory.deformation.ritz import RitzField
 from linear_theory.deformation.ritz.solver import RitzSolver
@@ -329,7 +329,7 @@ def test_both_columns_of_the_table_agree():
 
 def test_a_table_that_is_not_there(tmp_path):
     path = tmp_path / "second_order.csv"
-    with pytest.raises(FileNotFoundError, match=r"python -m figures\.second_order_table"):
+    with pytest.raises(FileNotFoundError, match=r"python -m figures\.measure\.second_order"):
         table.read(path)
     rows = table.read()[:2]
     assert table.read(table.write(rows, path)) == rows

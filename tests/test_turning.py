@@ -7,7 +7,8 @@ import pathlib
 import numpy as np
 import pytest
 
-from figures import turning, turning_table
+from figures.draw import turning
+from figures.measure import turning as turning_table
 
 
 @pytest.fixture(scope="module")
@@ -53,7 +54,7 @@ def test_the_table_of_stepped_sheets(tmp_path: pathlib.Path) -> None:
     assert (
         turning_table.write(rows, tmp_path / "again.csv").read_text() == turning_table.PATH.read_text()
     )
-    with pytest.raises(FileNotFoundError, match=r"figures\.turning_table"):
+    with pytest.raises(FileNotFoundError, match=r"figures\.measure\.turning"):
         turning_table.read(tmp_path / "none.csv")
     first = turning_table.stepped("unequal", 1, turning_table.STEPS)
     row = next(row for row in rows if (row.wave, row.period) == ("unequal", 1))
