@@ -114,7 +114,8 @@ def test_symbols_are_names_of_the_code():
         for kind in (linear_theory.Sheet, linear_theory.SineWave, fem_check.Scene, fem_check.Friction)
         for name in kind.__dataclass_fields__
     }
-    kinds = {**vars(fem_check), "RestState": found("fem_check.shell.kinematics.rest_state.RestState")}
+    kinds = {name: getattr(fem_check, name) for name in fem_check.__all__}
+    kinds |= {"RestState": found("fem_check.shell.kinematics.rest_state.RestState")}
     assert len(named) == 13
     for name in named:
         kind, _, field = name.rpartition(".")
