@@ -32,20 +32,21 @@ export OMP_NUM_THREADS := 1
 export OPENBLAS_NUM_THREADS := 1
 export MKL_NUM_THREADS := 1
 
-FIGURE_OPTIONS = $(if $(OUT),--out "$(OUT)") $(if $(RTOL),--rtol $(RTOL))
+FIGURE_OUT = $(if $(OUT),--out "$(OUT)")
+FIGURE_RTOL = $(if $(RTOL),--rtol $(RTOL))
 
 .PHONY: figures test paper docs cost bench-shell bench-threads tables lock clean distclean
 .DEFAULT_GOAL := figures
 .DELETE_ON_ERROR:
 
 figures: $(STAMP)
-	$(RUN) -m figures.draw.fig3 $(FIGURE_OPTIONS)
-	$(RUN) -m figures.draw.fig7 $(FIGURE_OPTIONS)
-	$(RUN) -m figures.draw.reach $(FIGURE_OPTIONS)
-	$(RUN) -m figures.draw.turning $(FIGURE_OPTIONS)
-	$(RUN) -m figures.measure.cost --draw $(if $(OUT),--out "$(OUT)")
-	$(RUN) -m figures.draw.regimes $(if $(OUT),--out "$(OUT)")
-	$(RUN) -m figures.draw.readme_movie $(if $(OUT),--out "$(OUT)")
+	$(RUN) -m figures.draw.fig3 $(FIGURE_OUT) $(FIGURE_RTOL)
+	$(RUN) -m figures.draw.fig7 $(FIGURE_OUT) $(FIGURE_RTOL)
+	$(RUN) -m figures.draw.turning $(FIGURE_OUT) $(FIGURE_RTOL)
+	$(RUN) -m figures.draw.reach $(FIGURE_OUT)
+	$(RUN) -m figures.draw.cost $(FIGURE_OUT)
+	$(RUN) -m figures.draw.regimes $(FIGURE_OUT)
+	$(RUN) -m figures.draw.readme_movie $(FIGURE_OUT)
 
 test: $(STAMP)
 	$(RUN) -m ruff check .
@@ -55,6 +56,7 @@ test: $(STAMP)
 
 cost: $(STAMP)
 	$(RUN) -m figures.measure.cost
+	$(RUN) -m figures.draw.cost
 
 bench-shell: $(STAMP)
 	$(RUN) -m figures.measure.bench.shell

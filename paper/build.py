@@ -7,7 +7,6 @@ and nothing is fetched. A file that the text reads and that is missing stops the
 command that makes it. --pages also writes every page as a PNG.
 """
 
-import argparse
 import re
 import sys
 from collections.abc import Iterator, Sequence
@@ -16,6 +15,7 @@ from pathlib import Path
 import typst
 
 from figures.common import output
+from figures.common.command import parser
 
 ROOT = Path(__file__).resolve().parent.parent
 MAIN = ROOT / "paper" / "paper.typ"
@@ -107,11 +107,10 @@ def pages(figures: str = FIGURES, ppi: float = PAGE_PPI) -> list[bytes]:
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Set the text; returns 1 where something is missing."""
-    parser = argparse.ArgumentParser(prog="paper.build", description=main.__doc__)
-    parser.add_argument("--out", type=Path, default=PATH, metavar="FILE")
-    parser.add_argument("--pages", type=Path, metavar="FOLDER", help="also write every page as PNG")
-    parser.add_argument("--figures", default=FIGURES, metavar="FOLDER", help="relative to the root")
-    options = parser.parse_args(arguments)
+    settings = {"figures": (FIGURES, "folder of the figures, relative to the root")}
+    made = parser("python -m paper.build", __doc__, PATH, **settings)
+    made.add_argument("--pages", type=Path, metavar="FOLDER", help="also write every page as PNG")
+    options = made.parse_args(arguments)
     try:
         print(output.write_bytes(options.out, pdf(options.figures)))
         for number, page in enumerate(pages(options.figures) if options.pages else [], 1):

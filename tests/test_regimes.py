@@ -254,7 +254,7 @@ def test_motion_without_friction_has_no_regime() -> None:
 
 @pytest.fixture(scope="module")
 def table() -> list[regimes_table.Row]:
-    return regimes_table.read()
+    return regimes_table.TABLE.read()
 
 
 @pytest.mark.parametrize("model", regimes_table.MODELS)
@@ -346,13 +346,13 @@ def test_the_figure_is_made_of_the_table_and_always_the_same(
 
 def test_a_missing_table_is_reported_with_its_command(tmp_path) -> None:
     with pytest.raises(FileNotFoundError, match=r"python -m figures\.measure\.regimes"):
-        regimes_table.read(tmp_path / "none.csv")
+        regimes_table.TABLE.read(tmp_path / "none.csv")
     with pytest.raises(ValueError, match=r"no line.*python -m figures\.measure\.regimes"):
         regimes.select([], "line")
 
 
 def test_written_rows_are_read_back(table: list[regimes_table.Row], tmp_path) -> None:
-    again = regimes_table.read(regimes_table.write(table, tmp_path / "regimes.csv"))
+    again = regimes_table.TABLE.read(regimes_table.TABLE.write(table, tmp_path / "regimes.csv"))
     assert again == table
 
 

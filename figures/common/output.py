@@ -1,20 +1,28 @@
-"""Files of numbers that are the same bytes for the same input, and progress while they are made."""
+"""Files that are the same bytes for the same input, and progress while they are made."""
 
-import csv
-import io
 import json
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from pathlib import Path
+from typing import TypeVar
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from fem_check.output.files import replacing as replacing
 from fem_check.output.progress import Progress as Progress
 
+Item = TypeVar("Item")
+
 DIGITS = 9
 """Significant digits written: more than a figure shows, fewer than roundoff can change."""
+
+
+def tracked(label: str, items: Collection[Item]) -> Iterator[Item]:
+    """The items one after another, each of which takes about as long; says how far it is."""
+    with Progress(label, max(len(items), 1)) as progress:
+        for item in items:
+            yield item
+            progress.advance()
 
 
 def write_bytes(path: Path, content: bytes) -> Path:
@@ -24,32 +32,8 @@ def write_bytes(path: Path, content: bytes) -> Path:
     return path
 
 
-def write_csv(path: Path, columns: Mapping[str, ArrayLike], digits: int = DIGITS) -> Path:
-    """Write named columns of equal length; floats with `digits` significant digits, NaN as nan.
-
-    Raises ValueError for columns that are not one-dimensional, differ in length, or hold
-    anything but real numbers and text.
-    """
-    arrays = {name: np.asarray(values) for name, values in columns.items()}
-    shapes = {name: array.shape for name, array in arrays.items()}
-    if len(set(shapes.values())) != 1 or any(len(shape) != 1 for shape in shapes.values()):
-        raise ValueError(f"columns of shapes {shapes}: must be one or more, 1D, of one length")
-    text = io.StringIO()
-    rows = csv.writer(text, lineterminator="\n")  # the default, CRLF, suits no tool used here
-    rows.writerow(arrays)
-    rows.writerows(zip(*(_cells(name, a, digits) for name, a in arrays.items()), strict=True))
-    return write_bytes(path, text.getvalue().encode())
-
-
-def _cells(name: str, column: np.ndarray, digits: int) -> list[str]:
-    if column.dtype.kind == "f":
-        return [_rounded(value, digits) for value in column.tolist()]
-    if column.dtype.kind in "iuU":
-        return [str(value) for value in column.tolist()]
-    raise ValueError(f"column {name!r} of dtype {column.dtype}: must be real numbers or text")
-
-
-def _rounded(value: float, digits: int) -> str:
+def rounded(value: float, digits: int) -> str:
+    """A float as text, to significant digits."""
     # Adding zero turns -0.0 into 0.0: which of the two a sum ends in is an accident of its order.
     return f"{value + 0.0:.{digits}g}"
 
@@ -76,7 +60,7 @@ def _plain(value: object, digits: int, where: str) -> object:
         case float():
             if math.isinf(value):
                 raise ValueError(f"{where} = {value}: must be finite, or NaN for unknown")
-            return None if math.isnan(value) else float(_rounded(value, digits))
+            return None if math.isnan(value) else float(rounded(value, digits))
         case Mapping():
             if not all(isinstance(key, str) for key in value):
                 raise ValueError(f"{where} has keys {list(value)}: must be text")

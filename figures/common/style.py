@@ -1,6 +1,6 @@
 """One look for all figures, one place for their files, the same bytes for the same input.
 
-    from figures import style
+    from figures.common import style
     fig = style.figure(width=style.COLUMN_CM, height=6.0)
     axes = fig.subplots()
     ...
@@ -20,6 +20,7 @@ import matplotlib as mpl
 from matplotlib.figure import Figure
 
 from fem_check.output.look import CM_PER_INCH, COLORS, COLUMN_CM, DOUBLE_CM, STYLE
+from figures.common.command import parser
 from figures.common.folders import OUT
 from figures.common.output import replacing
 
@@ -29,7 +30,6 @@ __all__ = [
     "COLUMN_CM",
     "DOUBLE_CM",
     "METADATA",
-    "OUTPUT_DIR",
     "STYLE",
     "figure",
     "options",
@@ -37,9 +37,6 @@ __all__ = [
     "save",
     "use",
 ]
-
-OUTPUT_DIR = OUT
-"""Where figures and their data go unless --out says otherwise."""
 
 # Dates and versions would change the bytes of a file whose picture did not change.
 METADATA: dict[str, dict[str, Any]] = {
@@ -65,8 +62,8 @@ def figure(width: float = COLUMN_CM, height: float = 6.0) -> Figure:
 
 
 def output_path(name: str, out: Path | str | None = None) -> Path:
-    """Path of the file `name` (with suffix) in the folder `out`, OUTPUT_DIR if None."""
-    return (OUTPUT_DIR if out is None else Path(out)) / name
+    """Path of the file `name` (with suffix) in the folder `out`, figures/out if None."""
+    return (OUT if out is None else Path(out)) / name
 
 
 def save(
@@ -87,11 +84,9 @@ def save(
 
 
 def options(
-    name: str, description: str | None, rtol: float, meaning: str, arguments: Sequence[str] | None
+    name: str, text: str | None, arguments: Sequence[str] | None, **settings: tuple[Any, str]
 ) -> argparse.Namespace:
-    """The command line that all figures share: --out, --rtol (default and meaning given), --formats."""
-    parser = argparse.ArgumentParser(prog=f"figures.draw.{name}", description=description)
-    parser.add_argument("--out", type=Path, help="folder of the files (figures/out)")
-    parser.add_argument("--rtol", type=float, default=rtol, help=f"{meaning} (%(default)g)")
-    parser.add_argument("--formats", nargs="+", choices=list(METADATA), default=["png", "pdf"])
-    return parser.parse_args(arguments)
+    """Of the script that draws a figure: --out, --formats and further settings, as in `parser`."""
+    made = parser(f"python -m figures.draw.{name}", text, OUT, **settings)
+    made.add_argument("--formats", nargs="+", choices=list(METADATA), default=["png", "pdf"])
+    return made.parse_args(arguments)

@@ -1,4 +1,10 @@
-"""The work-precision diagrams: error against seconds, one panel for each quantity."""
+"""Work-precision diagrams: error against time, one panel for each quantity.
+
+    python -m figures.draw.cost [--out FOLDER] [--data FOLDER] [--formats png pdf]
+
+(a) displacement, (b) small-strain and (c) nonlinear speed, from the table that `figures.measure.cost`
+writes.
+"""
 
 import math
 from collections.abc import Sequence
@@ -13,6 +19,7 @@ from matplotlib.patches import Patch
 from matplotlib.ticker import FixedLocator, LogLocator, NullFormatter, NullLocator
 
 from figures.common import style
+from figures.common.folders import DATA
 from figures.measure.cost.cases import (
     AUTO,
     BAR,
@@ -29,7 +36,7 @@ from figures.measure.cost.cases import (
 )
 from figures.measure.cost.fields import PANEL as FIELD
 from figures.measure.cost.speeds import LINEAR, LINEAR_ALPHA, NONLINEAR, NONLINEAR_ALPHA
-from figures.measure.cost.tables import Point, cheapest, curves
+from figures.measure.cost.tables import REFERENCE, Point, cheapest, curves, read
 
 HEIGHT_CM = 9.0
 
@@ -89,8 +96,6 @@ TITLES = {
     LINEAR: rf"(b)  $\bar V$, small strain, $\alpha$ = {LINEAR_ALPHA:g}",
     NONLINEAR: rf"(c)  $\bar V$, nonlinear sheet, $\alpha$ = {NONLINEAR_ALPHA:g}",
 }
-
-REFERENCE = "references"
 
 LIMITS = (2e-6, 40.0)
 """Seconds, alike in all panels."""
@@ -238,3 +243,14 @@ def legend_handles(points: Sequence[Point]) -> list[Artist]:
     handles.append(Line2D([], [], color=style.COLORS["yellow"], lw=4, alpha=0.6, label="cheapest"))
     handles.append(Patch(color="0.9", lw=0, label="references differ"))
     return handles
+
+
+def main(arguments: Sequence[str] | None = None) -> None:
+    """Draw the figure from its table."""
+    options = style.options("cost", __doc__, arguments, data=(DATA, "folder of the table"))
+    figure = draw(read(options.data / "cost.csv", Point))
+    print(*style.save(figure, "cost", options.out, tuple(options.formats)), sep="\n")
+
+
+if __name__ == "__main__":
+    main()

@@ -19,6 +19,7 @@ from matplotlib.lines import Line2D
 from numpy.typing import NDArray
 
 from figures.common import output, style
+from figures.common.records import write_csv
 from linear_theory import AirySeries, Sheet, SineWave, airy_series
 
 Array = NDArray[np.float64]
@@ -225,16 +226,14 @@ def write(data: Fig7Data, out: Path | None, formats: Sequence[str]) -> list[Path
             columns[name] += getattr(a, name).tolist()
     return [
         *style.save(draw(data), "fig7", out, tuple(formats)),
-        output.write_csv(style.output_path("fig7.csv", out), columns),
+        write_csv(style.output_path("fig7.csv", out), columns),
         output.write_json(style.output_path("fig7.json", out), numbers_shown(data)),
     ]
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
     """Compute, draw and write figure 7."""
-    options = style.options(
-        "figures.draw.fig7", main.__doc__, RTOL, "error of the displacement", arguments
-    )
+    options = style.options("fig7", __doc__, arguments, rtol=(RTOL, "error of the displacement"))
     for path in write(compute(options.rtol), options.out, options.formats):
         print(path)
 

@@ -22,9 +22,7 @@ from numpy.typing import NDArray
 from scipy.interpolate import PchipInterpolator
 
 from figures.common import output, style
-from figures.common.folders import DATA
-from figures.measure.reach import COMMAND, REACHES, SHARES, SPEEDS, Point, Reach, curve
-from linear_theory.common.records import read_rows
+from figures.measure.reach import REACHES, SHARES, SPEEDS, Point, Reach, curve
 
 Array = NDArray[np.float64]
 
@@ -159,14 +157,8 @@ def write(
 
 def main(arguments: Sequence[str] | None = None) -> None:
     """Draw and write the map."""
-    options = style.options(
-        "figures.draw.reach", main.__doc__, 0.0, "has no effect: all is read", arguments
-    )
-    points, reaches = (
-        read_rows(DATA / SPEEDS, Point, COMMAND),
-        read_rows(DATA / REACHES, Reach, COMMAND),
-    )
-    for path in write(points, reaches, options.out, options.formats):
+    options = style.options("reach", __doc__, arguments)
+    for path in write(SPEEDS.read(), REACHES.read(), options.out, options.formats):
         print(path)
 
 

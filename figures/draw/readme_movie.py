@@ -6,13 +6,12 @@ A sheet of 40 x 15 x 0.8 mm grows by 12 % of its length at the crest of a pulse 
 8 s. The speed is that of the nonlinear sheet; the same bytes on every run.
 """
 
-import argparse
 import math
 from collections.abc import Sequence
-from pathlib import Path
 
 from fem_check import Prediction, predict
 from fem_check.output import Units
+from figures.common.command import parser
 from figures.common.folders import GALLERY
 from linear_theory import Sheet, pulse_wave
 
@@ -40,11 +39,8 @@ def answer() -> Prediction:
 
 def main(arguments: Sequence[str] | None = None) -> None:
     """Write the film of the README."""
-    parser = argparse.ArgumentParser(prog="figures.draw.readme_movie", description=main.__doc__)
-    parser.add_argument(
-        "--out", type=Path, default=GALLERY, help="folder of the film (figures/gallery)"
-    )
-    path = parser.parse_args(arguments).out / NAME
+    options = parser("python -m figures.draw.readme_movie", __doc__, GALLERY).parse_args(arguments)
+    path = options.out / NAME
     print(answer().movie(path, periods=PERIODS, frames=FRAMES, fps=FPS, width=WIDTH, units=UNITS))
 
 

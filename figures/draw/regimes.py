@@ -13,7 +13,6 @@ they were if T was below 0.09 alpha L/v0 (0.023 L/v0 at alpha = 0.25), and of vi
 speeds a third lower, if T was above 1.84 alpha L/v0, as it is for all that is marked.
 """
 
-import argparse
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -66,7 +65,7 @@ def select(rows: Sequence[regimes_table.Row], model: str) -> dict[str, Array]:
     """
     chosen = [r for r in rows if r.model == model and 0 < r.slip < np.inf]
     if not chosen:
-        raise ValueError(f"no {model} sheet in the table; `{regimes_table.COMMAND}` makes it")
+        raise ValueError(f"no {model} sheet in the table; `{regimes_table.TABLE.command}` makes it")
     names = ("slip", "coefficient", "error", "slip_ratio")
     return {name: np.array([getattr(r, name) for r in chosen]) for name in names}
 
@@ -166,11 +165,8 @@ def write(rows: Sequence[regimes_table.Row], out: Path | None, formats: Sequence
 
 def main(arguments: Sequence[str] | None = None) -> None:
     """Draw the figure from its table."""
-    parser = argparse.ArgumentParser(prog="figures.draw.regimes", description=main.__doc__)
-    parser.add_argument("--out", type=Path, help="folder of the files (figures/out)")
-    parser.add_argument("--formats", nargs="+", choices=list(style.METADATA), default=["png", "pdf"])
-    options = parser.parse_args(arguments)
-    for path in write(regimes_table.read(), options.out, options.formats):
+    options = style.options("regimes", __doc__, arguments)
+    for path in write(regimes_table.TABLE.read(), options.out, options.formats):
         print(path)
 
 

@@ -13,7 +13,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import skfem
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
@@ -22,9 +21,10 @@ from matplotlib.ticker import MultipleLocator
 from numpy.typing import NDArray
 
 from fem_check.shell.cycle.speed import cycle_speed
-from fem_check.shell.scene.scene import Scene
 from figures.common import output, style
-from figures.measure.turning import ALPHA, SHEET, WAVES, Row, membrane, read
+from figures.common.records import write_csv
+from figures.common.scenes import smooth_scene
+from figures.measure.turning import ALPHA, SHEET, TABLE, WAVES, Row
 from linear_theory import crawl_speed, rigid_path, ritz_field
 from linear_theory.speed import path as paths
 
@@ -67,19 +67,17 @@ class Track:
 
 def compute(rtol: float = RTOL) -> list[Track]:
     """Both waves; the stepped sheets are read. Raises RuntimeError if a speed misses its tolerance."""
-    table = read()
+    table = TABLE.read()
     return [track(name, rtol, [row for row in table if row.wave == name]) for name in WAVES]
 
 
 def track(name: str, rtol: float, stepped: Sequence[Row]) -> Track:
     """Paths of one wave."""
     wave = WAVES[name]
-    scene = Scene(
-        SHEET, wave, ALPHA, effects=(membrane(),), cells=CELLS, element=skfem.ElementQuadBFS()
-    )
+    sheet = smooth_scene(SHEET, wave, ALPHA, CELLS)
     speeds = (
         crawl_speed(SHEET, wave, ALPHA, rtol=rtol),
-        cycle_speed(scene, "current", rtol=max(rtol, RTOL)),
+        cycle_speed(sheet, "current", rtol=max(rtol, RTOL)),
     )
     for speed in speeds:
         if not speed.converged:
@@ -231,16 +229,14 @@ def write(tracks: Sequence[Track], out: Path | None, formats: Sequence[str]) -> 
                     column.append(value)
     return [
         *style.save(draw(tracks), "turning", out, tuple(formats)),
-        output.write_csv(style.output_path("turning.csv", out), columns),
+        write_csv(style.output_path("turning.csv", out), columns),
         output.write_json(style.output_path("turning.json", out), numbers_shown(tracks)),
     ]
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
     """Compute, draw and write the figure of paths."""
-    options = style.options(
-        "figures.draw.turning", main.__doc__, RTOL, "error of the speeds", arguments
-    )
+    options = style.options("turning", __doc__, arguments, rtol=(RTOL, "error of the speeds"))
     for path in write(compute(options.rtol), options.out, options.formats):
         print(path)
 

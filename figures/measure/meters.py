@@ -27,6 +27,9 @@ LEAST, MOST = 3, 15
 LONG = 6.0
 """Seconds after which two repeats are enough."""
 
+RSS_UNIT = 1 if sys.platform == "darwin" else 1024
+"""Bytes in the unit of the largest memory that the system tells."""
+
 PACKAGES = ("numpy", "scipy", "scikit-fem")
 """Whose versions belong to a measured time."""
 
@@ -95,8 +98,7 @@ def import_seconds(module: str) -> float:
 def peak_memory(code: str) -> float:
     """MB that a process of its own takes at most to run `code`."""
     read = "import resource; print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss)"
-    unit = 1 if sys.platform == "darwin" else 1024  # bytes there, kilobytes elsewhere
-    return int(_printed(f"{code}\n{read}")) * unit / 1e6
+    return int(_printed(f"{code}\n{read}")) * RSS_UNIT / 1e6
 
 
 def _printed(code: str) -> str:

@@ -12,7 +12,6 @@ middle of the long sides of a wide sheet, where c = -1, the stretching energy (e
 the compression (see `fem_check.shell.statics.ellipticity`).
 """
 
-import argparse
 import functools
 import itertools
 import math
@@ -23,8 +22,8 @@ from pathlib import Path
 from fem_check.shell.cycle.motion import UnresolvedError
 from fem_check.shell.cycle.speed import Cycle
 from fem_check.shell.statics.equilibrium import ConvergenceError
-from figures.common import output
-from figures.common.records import write_rows
+from figures.common.output import tracked
+from figures.common.records import Table
 from figures.common.scenes import planar_scene
 from linear_theory.deformation.airy import airy_series
 from linear_theory.deformation.field import LinearField
@@ -33,7 +32,7 @@ from linear_theory.friction.law import LOADS
 from linear_theory.line.finite import line_cycle_speed
 from linear_theory.sheet.rectangle import Sheet
 from linear_theory.speed.crawl import field_speed
-from linear_theory.speed.model_error import COMMAND, PATH, Row, read
+from linear_theory.speed.model_error import COMMAND, PATH, Row
 from linear_theory.speed.second_order import second_order
 from linear_theory.wave.travelling import SineWave
 
@@ -60,6 +59,8 @@ SMALL_ALPHA = 1e-3
 
 DIGITS = 5
 """Significant digits written: less than the errors leave."""
+
+TABLE = Table(PATH, Row, COMMAND, "width in L, speeds and differences over alpha^2 L/T", DIGITS)
 
 
 @dataclass(frozen=True)
@@ -211,12 +212,10 @@ def small_strain(width: float, poisson: float, count: int, rtol: float) -> Linea
 def compute(path: Path, rtol: float = RTOL, kept: Sequence[Row] = ()) -> list[Row]:
     """All rows but those kept, written as they come."""
     chosen, found = list(cases()), {astuple(case): rows_of(case, kept) for case in cases()}
-    with output.Progress("model error", len(chosen)) as progress:
-        for case in chosen:
-            if not found[astuple(case)]:
-                found[astuple(case)] = rows(case, rtol)
-                write([row for some in found.values() for row in some], path)
-            progress.advance()
+    for case in tracked("model error", chosen):
+        if not found[astuple(case)]:
+            found[astuple(case)] = rows(case, rtol)
+            TABLE.write([row for some in found.values() for row in some], path)
     return [row for some in found.values() for row in some]
 
 
@@ -225,20 +224,15 @@ def rows_of(case: Case, table: Sequence[Row]) -> list[Row]:
     return [row for row in table if astuple(row)[: len(fields(Case))] == astuple(case)]
 
 
-def write(table: Sequence[Row], path: Path = PATH) -> Path:
-    """The rows as a table, after a line that tells how it was made."""
-    words = "width in L, speeds and differences over alpha^2 L/T"
-    return write_rows(path, table, COMMAND, words, DIGITS)
-
-
 def main(arguments: Sequence[str] | None = None) -> None:
     """Compute and write the table."""
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--out", type=Path, default=PATH, metavar="FILE")
-    parser.add_argument("--rtol", type=float, default=RTOL)
-    parser.add_argument("--resume", action="store_true", help="keep the rows that are there")
-    options = parser.parse_args(arguments)
-    kept = read(options.out) if options.resume and options.out.exists() else []
+    options = TABLE.options(
+        __doc__,
+        arguments,
+        rtol=(RTOL, "error of the speeds"),
+        resume=(False, "keep the rows that are there"),
+    )
+    kept = TABLE.read(options.out) if options.resume and options.out.exists() else []
     compute(options.out, options.rtol, kept)
 
 

@@ -9,30 +9,22 @@ tanh(v/v0) with v0 in proportion to the speeds alpha L/T of the deformation: v0 
 L/T make dry, mixed and viscous crawling. The bar is the same growth in one dimension, exactly.
 """
 
-import argparse
+import itertools
 import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
-import skfem
 
 from fem_check.shell.cycle.speed import cycle_speed
-from fem_check.shell.effects.koiter import Membrane
-from fem_check.shell.scene.material import Material
-from fem_check.shell.scene.scene import Scene
-from figures.common import output
 from figures.common.folders import DATA
-from figures.common.records import write_rows
+from figures.common.output import tracked
+from figures.common.records import Table
+from figures.common.scenes import friction_law, smooth_scene
 from linear_theory.common.errors import ViscousRegimeWarning
-from linear_theory.common.records import read_rows
 from linear_theory.line.finite import line_cycle_speed
 from linear_theory.sheet.rectangle import Sheet
 from linear_theory.wave.travelling import SineWave
-
-PATH = DATA / "nonlinear.csv"
-COMMAND = "python -m figures.measure.nonlinear"
 
 RTOL = 3e-4
 """Relative error asked of the speeds of the sheet: a tenth of the width of a line."""
@@ -68,17 +60,22 @@ class Speed:
     slip_ratio: float
 
 
+TABLE = Table(
+    DATA / "nonlinear.csv",
+    Speed,
+    "python -m figures.measure.nonlinear",
+    "speeds and errors in L/T",
+    DIGITS,
+)
+
+
 def compute(alphas: Sequence[float] = ALPHAS, rtol: float = RTOL) -> list[Speed]:
     """Speeds of sheet and bar at all alphas and slip speeds.
 
     Raises RuntimeError if a speed misses its tolerance.
     """
-    speeds = []
-    with output.Progress("nonlinear sheet", len(SLIPS) * len(alphas)) as progress:
-        for friction in SLIPS:
-            for alpha in alphas:
-                speeds.append(sheet_speed(alpha, friction, rtol))
-                progress.advance()
+    pairs = list(itertools.product(SLIPS, alphas))
+    speeds = [sheet_speed(alpha, law, rtol) for law, alpha in tracked("nonlinear sheet", pairs)]
     for alpha in alphas:
         speed = float(line_cycle_speed(alpha, "exp"))
         speeds.append(Speed("bar", "coulomb", alpha, speed, ROUNDING * abs(speed), 0.0))
@@ -87,13 +84,8 @@ def compute(alphas: Sequence[float] = ALPHAS, rtol: float = RTOL) -> list[Speed]
 
 def sheet_speed(alpha: float, friction: str, rtol: float) -> Speed:
     """The nonlinear sheet under one law of friction."""
-    sheet = Sheet()
-    membrane = Membrane(Material(sheet.thickness, sheet.poisson))
-    scene = Scene(
-        sheet, SineWave(), alpha, effects=(membrane,), cells=CELLS, element=skfem.ElementQuadBFS()
-    )
-    slip = SLIPS[friction] * alpha
-    law = {"friction": "tanh", "slip_speed": slip} if slip else {"friction": "coulomb"}
+    scene = smooth_scene(Sheet(), SineWave(), alpha, CELLS)
+    law = friction_law(SLIPS[friction] * alpha)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", ViscousRegimeWarning)  # viscous crawling is meant
         found = cycle_speed(scene, "current", rtol=rtol, **law)
@@ -104,16 +96,6 @@ def sheet_speed(alpha: float, friction: str, rtol: float) -> Speed:
     return Speed("sheet", friction, alpha, found.mean, found.error, found.slip_ratio)
 
 
-def write(speeds: Sequence[Speed], path: Path = PATH) -> Path:
-    """The rows as a table, after a line that tells how it was made."""
-    return write_rows(path, speeds, COMMAND, "speeds and errors in L/T", DIGITS)
-
-
-def read(path: Path = PATH) -> list[Speed]:
-    """The rows of a table. Raises FileNotFoundError, naming the command that makes it."""
-    return read_rows(path, Speed, COMMAND)
-
-
 def select(speeds: Sequence[Speed], body: str, friction: str = "coulomb") -> tuple[np.ndarray, ...]:
     """alpha, speed and error, each (n,), of one body under one friction."""
     chosen = [s for s in speeds if (s.body, s.friction) == (body, friction)]
@@ -122,11 +104,8 @@ def select(speeds: Sequence[Speed], body: str, friction: str = "coulomb") -> tup
 
 def main(arguments: Sequence[str] | None = None) -> None:
     """Compute and write the table."""
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--out", type=Path, default=PATH, metavar="FILE")
-    parser.add_argument("--rtol", type=float, default=RTOL)
-    options = parser.parse_args(arguments)
-    write(compute(rtol=options.rtol), options.out)
+    options = TABLE.options(__doc__, arguments, rtol=(RTOL, "relative error of the speeds"))
+    TABLE.write(compute(rtol=options.rtol), options.out)
 
 
 if __name__ == "__main__":

@@ -9,10 +9,9 @@ V_4 alpha^4 + ... and the largest alpha up to which a theory stays within 1, 5 a
 sheet. Some minutes of computing.
 """
 
-import argparse
 import itertools
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -23,10 +22,12 @@ from scipy.interpolate import CubicSpline
 from fem_check.shell.cycle.motion import UnresolvedError
 from fem_check.shell.cycle.shapes import cycle_of_shapes
 from fem_check.shell.cycle.speed import cycle_speed
+from fem_check.shell.scene.scene import Scene
 from fem_check.shell.statics.equilibrium import ConvergenceError
-from figures.common import output
+from figures.common.command import parser
 from figures.common.folders import DATA
-from figures.common.records import write_rows
+from figures.common.output import tracked
+from figures.common.records import Table
 from figures.common.scenes import planar_scene
 from figures.measure.model_error import (
     BASE,
@@ -36,13 +37,10 @@ from figures.measure.model_error import (
     leading_of,
     strip_ratio,
 )
-from linear_theory.common.records import read_rows
-from linear_theory.sheet.rectangle import Sheet
 
 Array = NDArray[np.float64]
 
 
-SPEEDS, REACHES = "reach_speeds.csv", "reach.csv"
 COMMAND = "python -m figures.measure.reach"
 
 RTOL = 3e-4
@@ -104,6 +102,11 @@ class Reach:
     second_order_10: float
 
 
+WORDS = "width in L, speeds and coefficients in L/T"
+SPEEDS = Table(DATA / "reach_speeds.csv", Point, COMMAND, WORDS, DIGITS)
+REACHES = Table(DATA / "reach.csv", Reach, COMMAND, WORDS, DIGITS)
+
+
 def points(width: float, poisson: float, rtol: float = RTOL) -> list[Point]:
     """Speeds of one sheet at all alphas at which it has a shape, and at the last one."""
     case = Case(width, poisson, 1, *BASE[:2])
@@ -116,7 +119,8 @@ def points(width: float, poisson: float, rtol: float = RTOL) -> list[Point]:
     for alpha in ALPHAS:
         point = point_at(case, alpha, second, rtol)
         if point is None:
-            last = point_at(case, largest_alpha(case.sheet, found[-1].alpha, alpha), second, rtol)
+            limit = largest_alpha(lambda a: planar_scene(case.sheet, 1, a), found[-1].alpha, alpha)
+            last = point_at(case, limit, second, rtol)
             return found + ([last] if last and last.alpha > found[-1].alpha else [])
         found.append(point)
     return found
@@ -137,12 +141,12 @@ def point_at(case: Case, alpha: float, second: float, rtol: float) -> Point | No
     )
 
 
-def largest_alpha(sheet: Sheet, low: float, high: float) -> float:
-    """Where between two alphas shapes are found no longer, to LIMIT_STEP."""
+def largest_alpha(scene: Callable[[float], Scene], low: float, high: float) -> float:
+    """Where between two alphas the scenes have shapes no longer, to LIMIT_STEP."""
     while high - low > LIMIT_STEP * 1.01:
         middle = LIMIT_STEP * round((low + high) / 2 / LIMIT_STEP)
         try:
-            cycle_of_shapes(planar_scene(sheet, 1, middle))
+            cycle_of_shapes(scene(middle))
             low = middle
         except ConvergenceError:
             high = middle
@@ -195,11 +199,9 @@ def compute(path: Path, rtol: float = RTOL) -> list[Point]:
     """All points, sheet after sheet, written as they come."""
     sheets = list(itertools.product(POISSONS, WIDTHS))
     found: list[Point] = []
-    with output.Progress("reach", len(sheets)) as progress:
-        for poisson, width in sheets:
-            found += points(width, poisson, rtol)
-            write(found, path)
-            progress.advance()
+    for poisson, width in tracked("reach", sheets):
+        found += points(width, poisson, rtol)
+        SPEEDS.write(found, path)
     return found
 
 
@@ -209,21 +211,14 @@ def reaches(table: Sequence[Point]) -> list[Reach]:
     return [reach(list(group)) for _, group in sheets]
 
 
-def write(lines: Sequence[Point] | Sequence[Reach], path: Path) -> Path:
-    """Lines as a table, after one that tells how it was made."""
-    return write_rows(path, lines, COMMAND, "width in L, speeds and coefficients in L/T", DIGITS)
-
-
 def main(arguments: Sequence[str] | None = None) -> None:
     """Compute and write both tables."""
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--out", type=Path, default=DATA, metavar="FOLDER")
-    parser.add_argument("--rtol", type=float, default=RTOL)
-    options = parser.parse_args(arguments)
-    compute(options.out / SPEEDS, options.rtol)
+    settings = {"rtol": (RTOL, "relative error of the speeds")}
+    options = parser(COMMAND, __doc__, DATA, **settings).parse_args(arguments)
+    speeds, limits = (options.out / table.path.name for table in (SPEEDS, REACHES))
+    compute(speeds, options.rtol)
     # from the speeds as they are written: rounding them changes V_4 by more than its own digits
-    speeds = read_rows(options.out / SPEEDS, Point, COMMAND)
-    write(reaches(speeds), options.out / REACHES)
+    REACHES.write(reaches(SPEEDS.read(speeds)), limits)
 
 
 if __name__ == "__main__":

@@ -10,27 +10,20 @@ body on a line; "linear", eqs 10 and 11; "second order", the limit of small alph
 shapes not affected by friction; "stepped", through time, with friction 1e-4 of the stiffness.
 """
 
-import argparse
 import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cache
-from pathlib import Path
 from typing import Any
 
 import numpy as np
-import skfem
 
 from fem_check.shell.cycle.speed import cycle_speed
-from fem_check.shell.effects.friction import Friction
-from fem_check.shell.effects.gravity import Gravity
-from fem_check.shell.effects.koiter import Membrane
-from fem_check.shell.scene.material import Material
-from fem_check.shell.scene.scene import Scene
 from fem_check.shell.stepping.simulation import simulate
-from figures.common import output
 from figures.common.folders import DATA
-from figures.common.records import write_rows
+from figures.common.output import tracked
+from figures.common.records import Table
+from figures.common.scenes import friction_law, sliding_scene, smooth_scene
 from linear_theory import (
     CrawlSpeed,
     RitzField,
@@ -42,10 +35,6 @@ from linear_theory import (
     line_balance,
     ritz_field,
 )
-from linear_theory.common.records import read_rows
-
-PATH = DATA / "regimes.csv"
-COMMAND = "python -m figures.measure.regimes"
 
 SHEET, WAVE, ALPHA = Sheet(), SineWave(), 0.1
 
@@ -60,16 +49,14 @@ LIMITS = (0.0, np.inf)
 
 STEPPED = (0.032, 0.32, 1.0, 10.0)
 
-STEPS, WEAK = 128, 1e-4 * SHEET.thickness
-"""Steps per period; weight for which friction does not change the shape: mu weight L/(E h) = 1e-4."""
+STEPS = 128
+"""Steps per period."""
 
 CELLS = (8, 16)
 """Elements across and along of the nonlinear sheet; their error is below 1e-4 of V."""
 
 DIGITS = 7
 """Significant digits written."""
-
-MEMBRANE = Membrane(Material(SHEET.thickness, SHEET.poisson))
 
 
 @dataclass(frozen=True)
@@ -86,6 +73,14 @@ class Row:
     error: float
     slip_ratio: float
 
+
+TABLE = Table(
+    DATA / "regimes.csv",
+    Row,
+    "python -m figures.measure.regimes",
+    f"alpha = {ALPHA:g}; slip: v0/(alpha L/T), coefficient: V/alpha^2 and its error in L/T",
+    DIGITS,
+)
 
 Law = dict[str, Any]
 """Arguments friction and slip_speed."""
@@ -114,15 +109,12 @@ def second_order(law: Law, rtol: float) -> CrawlSpeed:
 
 def nonlinear(law: Law, rtol: float) -> CrawlSpeed:
     """The cycle of static shapes."""
-    smooth = skfem.ElementQuadBFS()
-    scene = Scene(SHEET, WAVE, ALPHA, effects=(MEMBRANE,), cells=CELLS, element=smooth)
-    return cycle_speed(scene, "current", rtol=rtol, **law)
+    return cycle_speed(smooth_scene(SHEET, WAVE, ALPHA, CELLS), "current", rtol=rtol, **law)
 
 
 def stepped(law: Law, steps: int = STEPS) -> CrawlSpeed:
     """A ramp of half a period and one period, with the error of the mesh."""
-    effects = (MEMBRANE, Gravity(WEAK, "current"), Friction(1.0, law["slip_speed"]))
-    scene = Scene(SHEET, WAVE, ALPHA, effects=effects)
+    scene = sliding_scene(SHEET, WAVE, ALPHA, law["slip_speed"])
     return simulate(scene, periods=1, steps=steps, mesh_error=True).speed
 
 
@@ -136,19 +128,12 @@ MODELS: dict[str, tuple[Callable[[Law, float], CrawlSpeed], tuple[float, ...]]] 
 """How each model finds a speed, and at which slip speeds."""
 
 
-def law_of(slip: float) -> Law:
-    """The law of friction at a slip speed over alpha L/T, limits included."""
-    if slip == 0 or np.isinf(slip):
-        return {"friction": "viscous" if slip else "coulomb"}
-    return {"friction": "tanh", "slip_speed": slip * ALPHA}
-
-
 def row(model: str, slip: float, rtol: float = RTOL) -> Row:
     """One speed. Raises RuntimeError if it misses its tolerance (steps have none)."""
     speed, _ = MODELS[model]
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", ViscousRegimeWarning)  # here that is what is studied
-        found = speed(law_of(slip), rtol)
+        found = speed(friction_law(slip * ALPHA), rtol)
     if not (found.converged or model == "stepped"):
         raise RuntimeError(
             f"{model}, slip speed {slip:g} alpha L/T: error {found.error:.2g} of {found.mean:.4g} "
@@ -160,32 +145,13 @@ def row(model: str, slip: float, rtol: float = RTOL) -> Row:
 def compute(rtol: float = RTOL) -> list[Row]:
     """All rows of the table, saying how far it is."""
     chosen = [(model, slip) for model, (_, slips) in MODELS.items() for slip in sorted(slips)]
-    rows = []
-    with output.Progress("regimes", len(chosen)) as progress:
-        for model, slip in chosen:
-            rows.append(row(model, slip, rtol))
-            progress.advance()
-    return rows
-
-
-def write(rows: Sequence[Row], path: Path = PATH) -> Path:
-    """The rows as a table, after a line that tells how it was made."""
-    words = f"alpha = {ALPHA:g}; slip: v0/(alpha L/T), coefficient: V/alpha^2 and its error in L/T"
-    return write_rows(path, rows, COMMAND, words, DIGITS)
-
-
-def read(path: Path = PATH) -> list[Row]:
-    """The rows of a table. Raises FileNotFoundError, naming the command that makes it."""
-    return read_rows(path, Row, COMMAND)
+    return [row(model, slip, rtol) for model, slip in tracked("regimes", chosen)]
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
     """Compute and write the table."""
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--out", type=Path, default=PATH, metavar="FILE")
-    parser.add_argument("--rtol", type=float, default=RTOL)
-    options = parser.parse_args(arguments)
-    write(compute(options.rtol), options.out)
+    options = TABLE.options(__doc__, arguments, rtol=(RTOL, "relative error of the speeds"))
+    TABLE.write(compute(options.rtol), options.out)
 
 
 if __name__ == "__main__":

@@ -9,32 +9,23 @@ their opposites; what is even and odd in alpha is extrapolated to 0 (Richardson)
 of the speeds plus a tenth of the step of the extrapolation.
 """
 
-import argparse
 import functools
 import itertools
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from pathlib import Path
 
 import numpy as np
-import skfem
 
 from fem_check.shell.cycle.speed import Cycle
-from fem_check.shell.effects.koiter import Membrane
-from fem_check.shell.scene.material import Material
-from fem_check.shell.scene.scene import Scene
-from figures.common import output
 from figures.common.folders import DATA
-from figures.common.records import write_rows
-from linear_theory.common.records import read_rows
+from figures.common.output import tracked
+from figures.common.records import Table
+from figures.common.scenes import smooth_scene
 from linear_theory.deformation.second.field import AREAS, GROWTH_LAWS
 from linear_theory.friction.law import LOADS
 from linear_theory.sheet.rectangle import Sheet
 from linear_theory.speed.second_order import second_order
 from linear_theory.wave.travelling import SineWave, TravellingWave
-
-PATH = DATA / "second_order.csv"
-COMMAND = "python -m figures.measure.second_order"
 
 RTOL = 3e-4
 """Relative error asked of V_2 by theory and of the nonlinear speeds: agreement is asked to 2e-3."""
@@ -113,6 +104,15 @@ class Row:
     nonlinear_second_error: float
 
 
+TABLE = Table(
+    DATA / "second_order.csv",
+    Row,
+    "python -m figures.measure.second_order",
+    "width in L, coefficients and errors in L/T",
+    DIGITS,
+)
+
+
 def cases() -> Iterator[Case]:
     """All rows of the table."""
     models = list(itertools.product(GROWTH_LAWS, AREAS, LOADS))
@@ -173,17 +173,8 @@ def nonlinear_speed(case: Case, alpha: float, rtol: float) -> tuple[float, float
 @functools.lru_cache(maxsize=4)  # the loads of a case follow each other, with four alphas each
 def cycle_of(case: Case, alpha: float) -> Cycle:
     """Static shapes, whatever the load."""
-    scene = Scene(
-        sheet=case.sheet,
-        wave=WAVES[case.wave],
-        alpha=alpha,
-        effects=(Membrane(Material(case.sheet.thickness, case.poisson)),),
-        growth_law=case.growth_law,
-        area=case.area,
-        cells=case.cells,
-        element=skfem.ElementQuadBFS(),
-    )
-    return Cycle(scene)
+    wave = WAVES[case.wave]
+    return Cycle(smooth_scene(case.sheet, wave, alpha, case.cells, case.growth_law, case.area))
 
 
 def extrapolated(values: Sequence[float], errors: Sequence[float]) -> tuple[float, float]:
@@ -195,31 +186,13 @@ def extrapolated(values: Sequence[float], errors: Sequence[float]) -> tuple[floa
 
 def compute(chosen: Sequence[Case], rtol: float = RTOL) -> list[Row]:
     """Rows of the table, saying how far it is."""
-    rows = []
-    with output.Progress("second order", len(chosen)) as progress:
-        for case in chosen:
-            rows.append(row(case, rtol))
-            progress.advance()
-    return rows
-
-
-def write(rows: Sequence[Row], path: Path = PATH) -> Path:
-    """The rows as a table, after a line that tells how it was made."""
-    return write_rows(path, rows, COMMAND, "width in L, coefficients and errors in L/T", DIGITS)
-
-
-def read(path: Path = PATH) -> list[Row]:
-    """The rows of a table. Raises FileNotFoundError, naming the command that makes it."""
-    return read_rows(path, Row, COMMAND)
+    return [row(case, rtol) for case in tracked("second order", chosen)]
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
     """Compute and write the table."""
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--out", type=Path, default=PATH, metavar="FILE")
-    parser.add_argument("--rtol", type=float, default=RTOL)
-    options = parser.parse_args(arguments)
-    write(compute(list(cases()), options.rtol), options.out)
+    options = TABLE.options(__doc__, arguments, rtol=(RTOL, "relative error of the speeds"))
+    TABLE.write(compute(list(cases()), options.rtol), options.out)
 
 
 if __name__ == "__main__":

@@ -7,12 +7,12 @@ difference to what is derived vanishes, and `ProofError` is raised if not. What 
 (`tests/test_derivations_*.py`) is taken from there: appendix and tests cannot say different things.
 """
 
-import argparse
 from collections.abc import Callable, Sequence
 from dataclasses import asdict
 from pathlib import Path
 
 from figures.common import output
+from figures.common.command import parser
 from paper.derive import line as proofs_line
 from paper.derive import sheet as proofs_sheet
 from paper.derive.proof import Step
@@ -40,21 +40,10 @@ STEPS = (
 
 def compute(steps: Sequence[Callable[[], Step]] = STEPS) -> list[Step]:
     """Prove and write down. Raises ProofError."""
-    done = []
-    with output.Progress("derivations", len(steps)) as progress:
-        for step in steps:
-            done.append(step())
-            progress.advance()
-    return done
+    return [step() for step in output.tracked("derivations", steps)]
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
     """Prove all steps and write the appendix."""
-    parser = argparse.ArgumentParser(prog="paper.derive", description=main.__doc__)
-    parser.add_argument("--out", type=Path, default=PATH, metavar="FILE")
-    options = parser.parse_args(arguments)
+    options = parser("python -m paper.derive", __doc__, PATH).parse_args(arguments)
     print(output.write_json(options.out, {"steps": [asdict(step) for step in compute()]}))
-
-
-if __name__ == "__main__":
-    main()

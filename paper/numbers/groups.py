@@ -8,11 +8,11 @@ origin, the call or the rule that made it. Tables that take longer have their ow
 the text as they are. Lengths are in L, times in T, unless the key says otherwise.
 """
 
-import argparse
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
 from figures.common import output
+from figures.common.command import parser
 from paper.numbers import field as numbers_field
 from paper.numbers import limits as numbers_limits
 from paper.numbers import original as numbers_print
@@ -46,10 +46,8 @@ GROUPS: dict[str, Callable[[], Numbers]] = {
 def compute(groups: Sequence[str] = tuple(GROUPS)) -> Numbers:
     """The numbers of some groups, or of all."""
     found: Numbers = {}
-    with output.Progress("numbers of the text", len(groups)) as progress:
-        for name in groups:
-            found |= GROUPS[name]()
-            progress.advance()
+    for name in output.tracked("numbers of the text", groups):
+        found |= GROUPS[name]()
     return found
 
 
@@ -60,10 +58,5 @@ def write(numbers: Mapping[str, Number], path: Path = PATH) -> Path:
 
 def main(arguments: Sequence[str] | None = None) -> None:
     """Compute and write all numbers."""
-    parser = argparse.ArgumentParser(prog="paper.numbers", description=main.__doc__)
-    parser.add_argument("--out", type=Path, default=PATH, metavar="FILE")
-    print(write(compute(), parser.parse_args(arguments).out))
-
-
-if __name__ == "__main__":
-    main()
+    options = parser("python -m paper.numbers", __doc__, PATH).parse_args(arguments)
+    print(write(compute(), options.out))

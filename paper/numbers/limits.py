@@ -1,22 +1,17 @@
 """Numbers about friction regimes, turning sheets and the loss of shape of wide sheets (F3, F4)."""
 
 import warnings
-from dataclasses import replace
 
 import numpy as np
-import skfem
 from scipy.interpolate import CubicSpline
 
 from fem_check import cycle_speed
-from fem_check.shell.cycle.shapes import cycle_of_shapes
-from fem_check.shell.scene.scene import Scene
 from fem_check.shell.statics.ellipticity import edge_limit
-from fem_check.shell.statics.equilibrium import ConvergenceError
-from figures.common.scenes import planar_scene
+from figures.common.scenes import smooth_scene
 from figures.draw import regimes
 from figures.measure import regimes as regimes_table
 from figures.measure import turning as turning_table
-from figures.measure.reach import LIMIT_STEP
+from figures.measure.reach import LIMIT_STEP, largest_alpha
 from linear_theory import Sheet, SineWave, ViscousRegimeWarning, crawl_speed, rigid_path
 from linear_theory.speed.result import DRY_RATIO, VISCOUS_RATIO
 from paper.numbers.number import SHEET, SHOWN_ALPHA, WAVE, Number, Numbers
@@ -54,7 +49,7 @@ def shown_regimes() -> Numbers:
 
 def boundaries() -> Numbers:
     """Where friction is dry and viscous, and how much of the difference in speed is gone there."""
-    table = regimes_table.read()
+    table = regimes_table.TABLE.read()
     ends = regimes.boundaries(table)
     sheet = regimes.select(table, "nonlinear")
     limits = regimes.limits(table, "nonlinear")
@@ -108,14 +103,7 @@ def cat() -> Numbers:
         speed = crawl_speed(SHEET, wave, alpha, "material", "viscous", rtol=1e-3, order=order)
         origin = f'rigid_path(crawl_speed(unequal, "material", "viscous", order={order})).turn/alpha^2'
         numbers[f"cat.{name}"] = Number(_small(rigid_path(speed).turn / alpha**2), origin)
-    scene = Scene(
-        SHEET,
-        wave,
-        alpha,
-        effects=(turning_table.membrane(),),
-        cells=(4, 8),
-        element=skfem.ElementQuadBFS(),
-    )
+    scene = smooth_scene(SHEET, wave, alpha, (4, 8))
     found = cycle_speed(scene, "material", "viscous", rtol=3e-3, atol=1e-8)
     numbers["cat.sheet"] = Number(
         rigid_path(found).turn / alpha**2, "the same of cycle_speed, alpha = 0.02, 4 by 8 elements"
@@ -125,7 +113,7 @@ def cat() -> Numbers:
 
 def shapes() -> Numbers:
     """Where a square sheet is found to lose its static shape, on two meshes."""
-    found = [_last_shape(n) for n in MESHES]
+    found = [_last_shape((n, n)) for n in MESHES]
     origin = f"last alpha with cycle_of_shapes, W = L, nu = 1/2, to {LIMIT_STEP:g}"
     return {
         "shape.meshes": Number([float(n) for n in MESHES], "MESHES"),
@@ -135,14 +123,6 @@ def shapes() -> Numbers:
     }
 
 
-def _last_shape(elements: int, low: float = 0.1, high: float = 0.3) -> float:
-    """Largest multiple of LIMIT_STEP between the two at which there are static shapes."""
-    sheet = Sheet(width=1.0)
-    while high - low > 1.01 * LIMIT_STEP:
-        middle = LIMIT_STEP * round((low + high) / 2 / LIMIT_STEP)
-        try:
-            cycle_of_shapes(replace(planar_scene(sheet, 1, middle), cells=(elements, elements)))
-            low = middle
-        except ConvergenceError:
-            high = middle
-    return low
+def _last_shape(cells: tuple[int, int]) -> float:
+    """Largest alpha at which a square sheet has static shapes, to LIMIT_STEP."""
+    return largest_alpha(lambda a: smooth_scene(Sheet(width=1.0), WAVE, a, cells), 0.1, 0.3)

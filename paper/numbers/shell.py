@@ -6,25 +6,23 @@ Writes paper/generated/shell.csv: half a minute of computing. Problems and refer
 tests (`tests/shell_cases.py`, `tests/test_shell_tables.py`), where their sources stand.
 """
 
-import argparse
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
 from pathlib import Path
-from typing import NamedTuple
 
-import numpy as np
-
-from figures.common import output
+from figures.common.output import tracked
+from figures.common.records import Table
 from tests import shell_cases, test_shell_tables
 from tests.shell_cases import Path as LoadPath
 
-PATH = Path(__file__).parents[1] / "generated" / "shell.csv"
 DIGITS = 6
 """Significant digits written: one more than the best reference has."""
 
 QUARTERS = (0.25, 0.5, 0.75, 1.0)
 
 
-class Row(NamedTuple):
+@dataclass(frozen=True)
+class Row:
     """problem and element by name, quantity in Typst mathematics; here and reference in units of the
     problem; elements: how many the mesh has."""
 
@@ -34,6 +32,15 @@ class Row(NamedTuple):
     elements: int
     here: float
     reference: float
+
+
+TABLE = Table(
+    Path(__file__).parents[1] / "generated" / "shell.csv",
+    Row,
+    "python -m paper.numbers.shell",
+    "in the units of each problem",
+    DIGITS,
+)
 
 
 def bending() -> Iterator[Row]:
@@ -86,25 +93,12 @@ def linear() -> Iterator[Row]:
             yield Row(problem, quantity, element, count, solve(element, n), reference)
 
 
-def write(rows: Sequence[Row], path: Path = PATH) -> Path:
-    """The rows as CSV."""
-    columns = zip(*rows, strict=True)
-    table = {name: np.array(values) for name, values in zip(Row._fields, columns, strict=True)}
-    return output.write_csv(path, table, DIGITS)
-
-
 def main(arguments: Sequence[str] | None = None) -> None:
     """Compute and write the table."""
-    parser = argparse.ArgumentParser(prog="paper.numbers.shell", description=main.__doc__)
-    parser.add_argument("--out", type=Path, default=PATH, metavar="FILE")
-    options = parser.parse_args(arguments)
-    groups = (bending, pinched, linear)
-    rows: list[Row] = []
-    with output.Progress("table of shells", len(groups)) as progress:
-        for group in groups:
-            rows += group()
-            progress.advance()
-    print(write(rows, options.out))
+    options = TABLE.options(__doc__, arguments)
+    groups = tracked("table of shells", (bending, pinched, linear))
+    rows = [row for group in groups for row in group()]
+    print(TABLE.write(rows, options.out))
 
 
 if __name__ == "__main__":

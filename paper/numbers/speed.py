@@ -75,10 +75,10 @@ def pulses() -> Numbers:
 
 def reach() -> Numbers:
     """How far both orders are from the nonlinear sheet, on the table that figure 3 reads (F3)."""
-    rows = [r for r in nonlinear.read() if (r.body, r.friction) == ("sheet", "coulomb")]
+    rows = [r for r in nonlinear.TABLE.read() if (r.body, r.friction) == ("sheet", "coulomb")]
     coefficient = second_order(SHEET, WAVE, rtol=3e-4).second
     first = [crawl_speed(SHEET, WAVE, r.alpha, rtol=1e-4).mean for r in rows]
-    table = second_order_table.read()
+    table = second_order_table.TABLE.read()
     sines = [r for r in table if r.wave != "pulse" and r.first == 0]
     return {
         "reach.second": Number(coefficient, "second_order(Sheet(), SineWave()).second, in L/T"),

@@ -97,7 +97,7 @@ class Fig3Data:
 def compute(rtol: float = RTOL) -> Fig3Data:
     """Friction and speeds for the paper's sheet and wave; rtol: of the speeds from theory."""
     sheet, wave = Sheet(), SineWave()
-    table = nonlinear.read()
+    table = nonlinear.TABLE.read()
     theory = airy_series(sheet, wave, rtol=LEADING_FACTOR * rtol)
     elements = plane_stress_field(sheet, wave, size=FEM_SIZE)
     limit = largest_alpha(theory)

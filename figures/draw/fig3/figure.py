@@ -26,6 +26,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from figures.common import output, style
+from figures.common.records import write_csv
 from figures.draw.fig3.data import ALPHA_SHOWN, ARROWS, RTOL, Fig3Data, compute
 from figures.draw.fig3.panels import draw
 from figures.draw.fig3.speeds import LABELS, REGIMES, Series
@@ -98,18 +99,14 @@ def write(data: Fig3Data, out: Path | None, formats: Sequence[str]) -> list[Path
             arrows[name + axis] = np.ravel([getattr(shot, vectors)[i] for shot in data.snapshots])
     return [
         *style.save(draw(data), "fig3", out, tuple(formats)),
-        output.write_csv(style.output_path("fig3_speed.csv", out), speed_columns(data)),
-        output.write_csv(style.output_path("fig3_friction.csv", out), arrows),
+        write_csv(style.output_path("fig3_speed.csv", out), speed_columns(data)),
+        write_csv(style.output_path("fig3_friction.csv", out), arrows),
         output.write_json(style.output_path("fig3.json", out), numbers_shown(data)),
     ]
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
     """Compute, draw and write figure 3."""
-    options = style.options("fig3", main.__doc__, RTOL, "error of the speeds", arguments)
+    options = style.options("fig3", __doc__, arguments, rtol=(RTOL, "error of the speeds"))
     for path in write(compute(options.rtol), options.out, options.formats):
         print(path)
-
-
-if __name__ == "__main__":
-    main()

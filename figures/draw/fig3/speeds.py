@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from figures.common.scenes import friction_law
 from figures.measure import nonlinear
 from linear_theory import Sheet, SineWave, field_speed, line_speed, second_order
 from linear_theory.common.errors import BeyondReachWarning, ViscousRegimeWarning
@@ -70,13 +71,12 @@ def sheet_speeds(
 
 def mean_speed(field: LinearField, alpha: float, friction: str, rtol: float) -> tuple[float, float]:
     """One speed and its error; the slip speed is in proportion to alpha, as in the table."""
-    slip = nonlinear.SLIPS[friction] * alpha
-    law, slip_speed = ("tanh", slip) if slip else ("coulomb", None)
+    law = friction_law(nonlinear.SLIPS[friction] * alpha)
     with warnings.catch_warnings():
         # viscous crawling and the end of the theory are shown on purpose
         warnings.simplefilter("ignore", ViscousRegimeWarning)
         warnings.simplefilter("ignore", BeyondReachWarning)
-        found = field_speed(field, alpha, "current", law, slip_speed, rtol)
+        found = field_speed(field, alpha, "current", rtol=rtol, **law)
     return found.mean, found.error
 
 
@@ -131,5 +131,6 @@ def table_speeds(table: Sequence[nonlinear.Speed], label: str, body: str, fricti
     """What the table holds of one body. Raises ValueError, naming the command, if that is nothing."""
     alpha, speed, error = nonlinear.select(table, body, friction)
     if not alpha.size:
-        raise ValueError(f"no {friction} {body} in the table of speeds; `{nonlinear.COMMAND}` makes it")
+        command = nonlinear.TABLE.command
+        raise ValueError(f"no {friction} {body} in the table of speeds; `{command}` makes it")
     return Series(label, "simulation", 1 if body == "bar" else 2, alpha, speed, error, friction)

@@ -17,7 +17,6 @@ from functools import partial
 from typing import NamedTuple
 
 import numpy as np
-import skfem
 from numpy.typing import NDArray
 
 from fem_check.shell.cycle.shapes import static_depth
@@ -35,7 +34,8 @@ from fem_check.shell.statics.potential import Potential
 from fem_check.shell.statics.ramp import ramp
 from fem_check.shell.stepping.simulation import simulate
 from figures.common.output import Progress
-from figures.measure.meters import machine, timed
+from figures.common.scenes import shell_scene
+from figures.measure.meters import RSS_UNIT, machine, timed
 from linear_theory import Sheet, SineWave
 
 Array = NDArray[np.float64]
@@ -85,11 +85,7 @@ Advance = Callable[[], None]
 
 def bent(element: str, across: int, effects: Sequence[Effect]) -> Scene:
     """The bending sheet on a uniform mesh of that element."""
-    if element == "BFS":
-        return Scene(SHEET, WAVE, ALPHA, COUPLING, effects, cells=(across, 2 * across))
-    x, y = SHEET.width / 2, SHEET.length / 2
-    grid = np.linspace(-x, x, across + 1), np.linspace(-y, y, 2 * across + 1)
-    return Scene(SHEET, WAVE, ALPHA, COUPLING, effects, mesh=skfem.MeshTri.init_tensor(*grid))
+    return shell_scene(element, across, SHEET, WAVE, ALPHA, COUPLING, effects)
 
 
 class Static:
@@ -202,7 +198,6 @@ def stepped(cells: tuple[int, int], steps: int | None) -> Run:
     effects = (*LYING, Friction(1.0, PERIOD_SLIP))
     scene = Scene(SHEET, WAVE, PERIOD_ALPHA, PERIOD_COUPLING, effects, cells=cells)
     run = simulate(scene, periods=1, steps=steps, rtol=None if steps else 1e-2)
-    unit = 1 if sys.platform == "darwin" else 1024  # bytes there, kilobytes elsewhere
     return Run(
         scene.discretisation().size,
         run.speed.mean,
@@ -211,7 +206,7 @@ def stepped(cells: tuple[int, int], steps: int | None) -> Run:
         run.times.size - 1,
         run.iterations,
         int(run.buckled.sum()),
-        resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * unit / 1e6,
+        resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * RSS_UNIT / 1e6,
     )
 
 

@@ -25,7 +25,7 @@ from figures.measure.cost.cases import (
     Judged,
     elements,
 )
-from figures.measure.cost.peers import peer as peers
+from figures.measure.cost.peers import peer
 from linear_theory import airy_series, ritz_field
 from linear_theory.deformation.field import LinearField
 
@@ -113,16 +113,16 @@ class Fields:
     def _peers(self) -> Iterator[Case]:
         """Finite elements of other codes, of which two load cases are put together."""
         amplitudes = np.stack([np.cos(2 * np.pi * self.times), np.sin(2 * np.pi * self.times)])
-        for peer in peers.installed():
-            for n in peer.cells:
+        for code in peer.installed():
+            for n in code.cells:
 
-                def judge(result: Any, peer: peers.Peer = peer) -> Judged:
-                    parts = peer.displacements(result, *np.broadcast_arrays(self.x, self.y))
+                def judge(result: Any, code: peer.Peer = code) -> Judged:
+                    parts = code.displacements(result, *np.broadcast_arrays(self.x, self.y))
                     values = np.tensordot(self._settled(parts), amplitudes, (0, 0))
                     return Judged(self._distance(values, TAIL))
 
-                solve = partial(peer.solve, SHEET, peers.PARTS, n)
-                yield Case(PANEL, peer.name, "cells along", n, solve, judge, quick=n <= 8)
+                solve = partial(code.solve, SHEET, peer.PARTS, n)
+                yield Case(PANEL, code.name, "cells along", n, solve, judge, quick=n <= 8)
 
     def _at(self, field: LinearField) -> Array:
         return field.displacement(self.x[..., None], self.y[..., None], self.times)

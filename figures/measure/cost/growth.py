@@ -4,16 +4,15 @@ from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 
 import numpy as np
-import skfem
 
 from fem_check.plane_stress.field import PlaneStressField
 from fem_check.shell.effects.koiter import Bending, Membrane
 from fem_check.shell.kinematics.supports import Supports
 from fem_check.shell.scene.material import Material
-from fem_check.shell.scene.scene import Scene
 from fem_check.shell.statics.linear_solver import factorise
 from fem_check.shell.statics.potential import Potential
 from fem_check.shell.statics.sparsity import Sparsity
+from figures.common.scenes import shell_scene
 from figures.measure.cost.cases import LINE, P2, P4, PLAIN, RITZ, SHEET, TAIL, WAVE, Case, elements
 from linear_theory import SineWave, airy_series, crawl_speed, field_speed, line_speed, ritz_field
 
@@ -102,13 +101,8 @@ class NewtonIteration:
 
     def __init__(self, level: str, across: int) -> None:
         material = Material(SHEET.thickness, SHEET.poisson)
-        effects, size = (Membrane(material), Bending(material)), (across, 2 * across)
-        if level.endswith("BFS"):
-            scene = Scene(SHEET, WAVE, ALPHA, effects=effects, cells=size)
-        else:
-            x, y = SHEET.width / 2, SHEET.length / 2
-            grid = np.linspace(-x, x, size[0] + 1), np.linspace(-y, y, size[1] + 1)
-            scene = Scene(SHEET, WAVE, ALPHA, effects=effects, mesh=skfem.MeshTri.init_tensor(*grid))
+        effects = (Membrane(material), Bending(material))
+        scene = shell_scene(level.split()[1], across, SHEET, WAVE, ALPHA, 0.0, effects)
         supports = Supports(scene.discretisation()).anchor()
         self.potential: Potential = scene.potential(scene.rest(0.0, 0.0))
         self.sparsity = Sparsity(scene.discretisation(), supports.free)

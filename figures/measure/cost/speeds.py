@@ -12,18 +12,14 @@ from functools import partial
 from typing import Any
 
 import numpy as np
-import skfem
 
 from fem_check.predict.levels import Question
 from fem_check.predict.levels import strip as strip_level
 from fem_check.predict.prediction import Prediction, predict
 from fem_check.shell.cycle.speed import cycle_speed
-from fem_check.shell.effects.friction import Friction
-from fem_check.shell.effects.gravity import Gravity
-from fem_check.shell.effects.koiter import Membrane
-from fem_check.shell.scene.material import Material
 from fem_check.shell.scene.scene import Scene
 from fem_check.shell.stepping.simulation import simulate
+from figures.common.scenes import membrane, sliding_scene, smooth_scene
 from figures.measure.cost.cases import (
     AUTO,
     BAR,
@@ -85,11 +81,6 @@ VARIED_STEPS = (16, 32, 64, 128, 256)
 VARIED_SLIPS = (0.3, 0.1, 0.03, 0.01)
 VARIED_CELLS = ((1, 2), (2, 4), (4, 8))
 
-WEAK = 1e-4 * SHEET.thickness
-"""Weight for which friction does not change the shape: mu weight L/(E h) = 1e-4."""
-
-MEMBRANE = Membrane(Material(SHEET.thickness, SHEET.poisson))
-
 
 class LinearSpeeds:
     """Panel (b): ways to the speed of the small-strain balance."""
@@ -142,14 +133,7 @@ class NonlinearSpeeds:
     """Panel (c): ways to the speed of the nonlinear sheet."""
 
     def __init__(self, cells: tuple[int, int] = FINE, rtol: float = FINE_RTOL) -> None:
-        scene = Scene(
-            SHEET,
-            WAVE,
-            NONLINEAR_ALPHA,
-            effects=(MEMBRANE,),
-            cells=cells,
-            element=skfem.ElementQuadBFS(),
-        )
+        scene = smooth_scene(SHEET, WAVE, NONLINEAR_ALPHA, cells)
         self.exact = cycle_speed(scene, rtol=rtol)
 
     def disagreement(self) -> float:
@@ -205,15 +189,14 @@ def unclaimed(judge: Callable[[Any], Judged], found: Any) -> Judged:
 
 def planar(cells: tuple[int, int] = STEPPED_CELLS) -> Scene:
     """The nonlinear sheet in the plane with nothing but its membrane, elements of degree 5."""
-    return Scene(SHEET, WAVE, NONLINEAR_ALPHA, effects=(MEMBRANE,), cells=cells)
+    return Scene(SHEET, WAVE, NONLINEAR_ALPHA, effects=(membrane(SHEET),), cells=cells)
 
 
 def stepped(
     steps: int = STEPS, cells: tuple[int, int] = STEPPED_CELLS, slip: float = SLIP
 ) -> CrawlSpeed:
     """Its speed by stepping through a ramp of half a period and one period."""
-    effects = (MEMBRANE, Gravity(WEAK, "current"), Friction(1.0, slip))
-    scene = Scene(SHEET, WAVE, NONLINEAR_ALPHA, effects=effects, cells=cells)
+    scene = sliding_scene(SHEET, WAVE, NONLINEAR_ALPHA, slip, cells)
     return simulate(scene, periods=1, steps=steps).speed
 
 

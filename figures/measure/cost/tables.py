@@ -13,7 +13,7 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from figures.common.records import write_rows
+from figures.common.records import Table
 from linear_theory.common.records import read_rows
 
 COMMAND = "python -m figures.measure.cost"
@@ -26,6 +26,9 @@ SMALLER_IS_FINER = ("rtol", "slip speed")
 
 FALLS = 1.5
 """Least ratio of the errors of neighbours that still converge; beyond, they are on a plateau."""
+
+REFERENCE = "references"
+"""Level of the rows that tell by how much the references of a panel differ."""
 
 LAST = 3
 """Points, those of most work, that give the growth of the time: the others hold fixed costs."""
@@ -145,7 +148,7 @@ def cheapest(points: Sequence[Point]) -> list[Point]:
 
 def write(rows: Sequence[Any], path: Path, words: str) -> Path:
     """Rows of one dataclass as a table, after the command and `words` that tell how it was made."""
-    return write_rows(path, rows, COMMAND, words, DIGITS)
+    return Table(path, type(rows[0]), COMMAND, words, DIGITS).write(rows)
 
 
 def read(path: Path, kind: type[Row]) -> list[Row]:
