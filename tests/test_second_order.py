@@ -12,9 +12,7 @@ from fem_check.plane_stress.solver import PlaneStressSolver
 from fem_check.shell.cycle.frame import BodyFrame
 from fem_check.shell.cycle.shapes import cycle_of_shapes
 from fem_check.shell.effects.koiter import Membrane
-from fem_check.shell.scene.growth import metric_factor
-from fem_check.shell.scene.material import Material
-from fem_check.shell.scene.scene import Scene
+from fem_check.shell.material import Material
 from figures.measure import second_order as table
 from linear_theory import Sheet, SineWave, TravellingWave, crawl_speed, second_order
 from linear_theory.deformation.ritz import RitzField

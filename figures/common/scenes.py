@@ -11,9 +11,10 @@ from fem_check.shell.effects.effect import Effect
 from fem_check.shell.effects.friction import Friction
 from fem_check.shell.effects.gravity import Gravity
 from fem_check.shell.effects.koiter import Membrane
-from fem_check.shell.scene.material import Material
-from fem_check.shell.scene.scene import Scene
+from fem_check.shell.material import Material
 from linear_theory.deformation.field import Wave
+from linear_theory.friction.load import Load
+from linear_theory.scene.scene import Scene
 from linear_theory.sheet.rectangle import Sheet
 from linear_theory.wave.travelling import SineWave
 
@@ -75,7 +76,7 @@ def sliding_scene(
     sheet: Sheet, wave: Wave, alpha: float, slip: float, cells: tuple[int, int] | None = None
 ) -> Scene:
     """A sheet that only stretches, for steps in time, under weak friction tanh(v/slip)."""
-    weight = Gravity(WEAK * sheet.thickness, "current")
+    weight = Gravity(WEAK * sheet.thickness, Load.CURRENT)
     effects = (membrane(sheet), weight, Friction(1.0, slip))
     return Scene(sheet, wave, alpha, effects=effects, cells=cells)
 

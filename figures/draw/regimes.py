@@ -25,7 +25,7 @@ from scipy.interpolate import CubicSpline
 
 from figures.common import output, style
 from figures.measure import regimes as regimes_table
-from linear_theory.speed.result import DRY_RATIO, VISCOUS_RATIO
+from linear_theory.friction.regime import DRY_RATIO, VISCOUS_RATIO
 
 Array = NDArray[np.float64]
 

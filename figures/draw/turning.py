@@ -26,7 +26,6 @@ from figures.common.records import write_csv
 from figures.common.scenes import smooth_scene
 from figures.measure.turning import ALPHA, SHEET, TABLE, WAVES, Row
 from linear_theory import crawl_speed, rigid_path, ritz_field
-from linear_theory.scene.scene import Scene
 from linear_theory.speed import path as paths
 
 Array = NDArray[np.float64]

@@ -25,6 +25,7 @@ from fem_check.shell.statics.equilibrium import ConvergenceError
 from figures.common.output import tracked
 from figures.common.records import Table
 from figures.common.scenes import planar_scene
+from linear_theory.common.tolerance import Tolerance
 from linear_theory.deformation.airy import airy_series
 from linear_theory.deformation.field import LinearField
 from linear_theory.friction.contact import Contact

@@ -23,7 +23,6 @@ from figures.common.records import Table
 from figures.common.scenes import friction_law, smooth_scene
 from linear_theory.common.errors import ViscousRegimeWarning
 from linear_theory.line.finite import line_cycle_speed
-from linear_theory.scene.scene import Scene
 from linear_theory.sheet.rectangle import Sheet
 from linear_theory.wave.travelling import SineWave
 

@@ -22,7 +22,6 @@ from scipy.interpolate import CubicSpline
 from fem_check.shell.cycle.motion import UnresolvedError
 from fem_check.shell.cycle.shapes import cycle_of_shapes
 from fem_check.shell.cycle.speed import cycle_speed
-from fem_check.shell.scene.scene import Scene
 from fem_check.shell.statics.equilibrium import ConvergenceError
 from figures.common.command import parser
 from figures.common.folders import DATA
@@ -37,6 +36,7 @@ from figures.measure.model_error import (
     leading_of,
     strip_ratio,
 )
+from linear_theory.scene.scene import Scene
 
 Array = NDArray[np.float64]
 

@@ -21,8 +21,11 @@ from figures.common.folders import DATA
 from figures.common.output import tracked
 from figures.common.records import Table
 from figures.common.scenes import smooth_scene
-from linear_theory.deformation.second.field import AREAS, GROWTH_LAWS
-from linear_theory.friction.law import LOADS
+from linear_theory.common.tolerance import Tolerance
+from linear_theory.friction.contact import Contact
+from linear_theory.friction.load import WEIGHTS as LOADS
+from linear_theory.growth.growth import Reference
+from linear_theory.growth.laws import GROWTH_LAWS
 from linear_theory.sheet.rectangle import Sheet
 from linear_theory.speed.second_order import second_order
 from linear_theory.wave.travelling import SineWave, TravellingWave

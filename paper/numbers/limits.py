@@ -13,7 +13,7 @@ from figures.measure import regimes as regimes_table
 from figures.measure import turning as turning_table
 from figures.measure.reach import LIMIT_STEP, largest_alpha
 from linear_theory import Sheet, SineWave, ViscousRegimeWarning, crawl_speed, rigid_path
-from linear_theory.speed.result import DRY_RATIO, VISCOUS_RATIO
+from linear_theory.friction.regime import DRY_RATIO, VISCOUS_RATIO
 from paper.numbers.number import SHEET, SHOWN_ALPHA, WAVE, Number, Numbers
 
 MESHES = (8, 16)

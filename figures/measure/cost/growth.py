@@ -8,14 +8,14 @@ import numpy as np
 from fem_check.plane_stress.field import PlaneStressField
 from fem_check.shell.effects.koiter import Bending, Membrane
 from fem_check.shell.kinematics.supports import Supports
-from fem_check.shell.scene.material import Material
+from fem_check.shell.material import Material
+from fem_check.shell.model import ShellModel
 from fem_check.shell.statics.linear_solver import factorise
 from fem_check.shell.statics.potential import Potential
 from fem_check.shell.statics.sparsity import Sparsity
 from figures.common.scenes import shell_scene
 from figures.measure.cost.cases import LINE, P2, P4, PLAIN, RITZ, SHEET, TAIL, WAVE, Case, elements
 from linear_theory import SineWave, airy_series, crawl_speed, field_speed, line_speed, ritz_field
-from linear_theory.scene.scene import Scene
 
 PANEL = "growth"
 
@@ -104,10 +104,11 @@ class NewtonIteration:
         material = Material(SHEET.thickness, SHEET.poisson)
         effects = (Membrane(material), Bending(material))
         scene = shell_scene(level.split()[1], across, SHEET, WAVE, ALPHA, 0.0, effects)
-        supports = Supports(scene.discretisation()).anchor()
-        self.potential: Potential = scene.potential(scene.rest(0.0, 0.0))
-        self.sparsity = Sparsity(scene.discretisation(), supports.free)
-        self.start = np.zeros(scene.discretisation().size)
+        model = ShellModel(scene)
+        supports = Supports(model.discretisation).anchor()
+        self.potential: Potential = model.potential(model.rest(0.0, 0.0))
+        self.sparsity = Sparsity(model.discretisation, supports.free)
+        self.start = np.zeros(model.discretisation.size)
 
     def __call__(self) -> object:
         """One correction, of nothing."""

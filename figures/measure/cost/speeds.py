@@ -16,7 +16,6 @@ import numpy as np
 from fem_check.predict.levels import strip as strip_level
 from fem_check.predict.prediction import Prediction, predict
 from fem_check.shell.cycle.speed import cycle_speed
-from fem_check.shell.scene.scene import Scene
 from fem_check.shell.stepping.simulation import simulate
 from figures.common.scenes import membrane, sliding_scene, smooth_scene
 from figures.measure.cost.cases import (
@@ -47,7 +46,6 @@ from linear_theory import (
     line_speed,
 )
 from linear_theory.common.tolerance import Tolerance
-from linear_theory.friction.load import Load
 from linear_theory.scene.scene import Scene
 from linear_theory.speed.result import CrawlSpeed
 
