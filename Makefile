@@ -83,7 +83,7 @@ paper: figures
 # The public names, the effects and the material that scenes are made of.
 docs: $(STAMP)
 	$(RUN) -m pdoc --docformat markdown -o build/docs linear_theory \
-	    fem_check fem_check.output fem_check.shell.effects fem_check.shell.scene.material
+	    fem_check fem_check.output fem_check.shell.effects fem_check.shell.material
 
 # setuptools comes with the lock and build isolation is off: pip fetches nothing that is not pinned.
 $(STAMP): requirements.lock pyproject.toml

@@ -3,10 +3,10 @@
 import math
 
 import numpy as np
-from fem_check.shell.scene.growth import bilayer
 from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
+from linear_theory.growth.bilayer import bilayer
 from paper.numbers.number import SHEET, Number, Numbers
 
 Array = NDArray[np.float64]
