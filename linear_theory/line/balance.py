@@ -15,7 +15,7 @@ from linear_theory.friction.load import Load
 from linear_theory.friction.regime import warn_if_viscous
 from linear_theory.growth.laws import GrowthLaw
 from linear_theory.line.piece import Piece
-from linear_theory.line.result import Balance
+from linear_theory.line.result import LineMotion
 from linear_theory.line.samples import sampled_balance
 from linear_theory.line.travelling import travelling_balance
 from linear_theory.scene import arguments
@@ -128,7 +128,7 @@ def _checked_length(length: float | None, wave: Wave) -> float:
     )
 
 
-def _in_lengths(scene: Scene, piece: Piece, tolerance: Tolerance) -> Balance:
+def _in_lengths(scene: Scene, piece: Piece, tolerance: Tolerance) -> LineMotion:
     """The balance in units of the length of the body, those of the tolerance."""
     wave, length = scene.wave, scene.sheet.length
     law = scene.contact.friction.scaled(length)

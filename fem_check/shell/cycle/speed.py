@@ -17,7 +17,7 @@ import skfem
 from numpy.typing import NDArray
 
 from fem_check.shell.abilities import CYCLE, require
-from fem_check.shell.cycle.balance import CycleBalance, Period
+from fem_check.shell.cycle.balance import CycleBalance, PairedPeriod
 from fem_check.shell.cycle.contact import creep, held_contact
 from fem_check.shell.cycle.deformation import CycleDeformation
 from fem_check.shell.cycle.motion import UnresolvedError, is_mirrored
@@ -156,7 +156,7 @@ class Cycle(Shown):
         mesh, gain = other_mesh(self._shapes.model.discretisation.mesh)
         return KeptShapes(ShellModel(self.scene.but(cells=None, mesh=mesh))), gain
 
-    def _mesh_error(self, balance: CycleBalance, period: Period) -> Array:
+    def _mesh_error(self, balance: CycleBalance, period: PairedPeriod) -> Array:
         """What the mesh does to the mean motion, from the speed on another mesh at the same times."""
         kept, gain = self._compared
         shapes = kept.at(len(balance.shapes.states))
@@ -187,7 +187,7 @@ class KeptShapes:
 
 def _with_enough_phases(
     kept: KeptShapes, contact: Contact, tolerance: Tolerance
-) -> tuple[CycleBalance, Period, Array]:
+) -> tuple[CycleBalance, PairedPeriod, Array]:
     """Double the phases until the interpolation between them takes its share of the tolerance.
 
     Or until it is below the noise of the shapes, which more phases do not reduce; or at once where the
@@ -210,7 +210,7 @@ def _with_enough_phases(
         count *= 2
 
 
-def _phase_error(balance: CycleBalance, period: Period) -> Array:
+def _phase_error(balance: CycleBalance, period: PairedPeriod) -> Array:
     """What the interpolation between phases does to the mean motion, (3,).
 
     The change by leaving out every second phase, reduced by the ratio of the harmonics beyond the
