@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from linear_theory import CrawlSpeed, FieldWave, Sheet, crawl_speed, rigid_path
 from linear_theory.balance.time_grid import TimeGrid
 from linear_theory.speed.path import Path
+from linear_theory.speed.result import Estimate, RigidSpeed
 
 Array = NDArray[np.float64]
 Growth = Callable[[Array, Array, Array], Array]
@@ -49,8 +50,7 @@ def made_up(rigid: Callable[[Array], Array], panels: int = 6, period: float = 1.
     values = rigid(times / period)
     means, errors = TimeGrid(times).means(values)
     return CrawlSpeed(
-        mean=float(means[1]),
-        error=float(errors[1]),
+        estimate=Estimate(float(means[1]), float(errors[1])),
         model_error=np.nan,
         converged=True,
         times=times[:-1],
@@ -58,9 +58,7 @@ def made_up(rigid: Callable[[Array], Array], panels: int = 6, period: float = 1.
         seconds=0.0,
         model="made up",
         slip_ratio=0.0,
-        rigid=values[:, :-1],
-        rigid_mean=means,
-        rigid_error=errors,
+        turning=RigidSpeed(values[:, :-1], means, errors),
     )
 
 

@@ -116,7 +116,7 @@ def test_wave_of_harmonics_and_all_options(capsys):
         (["--alpha", "0.1", "--count", "0"], "count = 0"),
         (["--alpha", "0.1", "--rtol", "2"], "rtol = 2"),
         (["--alpha", "0.1", "--speed"], "--speed"),
-        (["--alpha", "1.5", "--growth-law", "linear"], "alpha * growth = -1.5"),
+        (["--alpha", "1.5", "--growth-law", "linear"], "alpha c = -1.5 is not within -1"),
         ([*SPEED, "--length", "40 kg"], "--length '40 kg': is not a length"),
         ([*SPEED, "--length", "40 mmm"], "'mmm' is no unit"),
         ([*SPEED, "--length", "forty mm"], "such as '40 mm'"),

@@ -328,7 +328,7 @@ def test_results_carry_their_cost_and_assumptions():
     assert speed.seconds > 0
     assert speed.model_error > 0  # measured for this wave; see test_model_error.py
     assert "grown" in speed.model
-    assert "coulomb" in speed.model
+    assert "dry friction" in speed.model
     assert speed.velocity.shape == speed.times.shape
     assert np.all(np.diff(speed.times) > 0)
     assert speed.times[-1] - speed.times[0] < 1

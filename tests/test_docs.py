@@ -12,17 +12,24 @@ import linear_theory
 PARTS = {"Bending", "DeadLoad", "Friction", "Gravity", "Ground", "Inertia", "Material", "Membrane"}
 """Of a Scene, shown in its example."""
 
+LAWS = {
+    **dict.fromkeys(("Exp", "Linear", "Metric"), "GrowthLaw"),
+    **dict.fromkeys(("Coulomb", "Tanh", "Viscous"), "FrictionLaw"),
+}
+"""Laws, shown in the example of their base class."""
+
 PUBLIC = {
     name: getattr(package, name)
     for package in (linear_theory, fem_check)
     for name in package.__all__
-    if name not in PARTS
+    if name not in {*PARTS, *LAWS}
 }
 CONSTANTS = {"LAPLACE_LIMIT", "__version__"}
 RESULTS = {  # what the user does not make, and the function that makes it in the example
     "AirySeries": "airy_series",
     "BeyondReachWarning": "crawl_speed",
     "CrawlSpeed": "crawl_speed",
+    "Estimate": "crawl_speed",
     "NotConvergedError": "ritz_field",
     "PlaneStressField": "plane_stress_field",
     "Prediction": "predict",
@@ -77,6 +84,12 @@ def test_example_imports_public_names(name):
 def test_parts_of_a_scene_are_named_by_it(name):
     assert getattr(fem_check, name).__doc__
     assert name in PUBLIC["Scene"].__doc__
+
+
+@pytest.mark.parametrize("name", sorted(LAWS))
+def test_laws_are_named_by_their_base(name):
+    assert getattr(linear_theory, name).__doc__
+    assert name in {node.id for node in _nodes(LAWS[name]) if isinstance(node, ast.Name)}
 
 
 @pytest.mark.parametrize("name", sorted(PUBLIC.keys() - CONSTANTS - RESULTS.keys()))

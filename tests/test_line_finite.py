@@ -416,8 +416,8 @@ def test_result_says_what_it_is():
     strip = line_balance(SineWave(), 0.2, growth_law="metric", body="strip").model
     assert "strip" in strip
     assert "(1 + 2 alpha c)^(1/2)" in strip
-    assert "area" in strip
-    assert "weight conserved" in line_balance(SineWave(), 0.2, "material", growth_law="exp").model
+    assert "current load" in strip
+    assert "material load" in line_balance(SineWave(), 0.2, "material", growth_law="exp").model
     assert "stretch 1 + alpha c" in line_balance(SineWave(), 0.2).model
 
 

@@ -13,6 +13,7 @@ from fem_check.shell.effects.friction import Friction
 from fem_check.shell.effects.gravity import Gravity
 from fem_check.shell.effects.koiter import Membrane
 from fem_check.shell.material import Material
+from fem_check.shell.model import ShellModel
 from fem_check.shell.stepping.simulation import simulate
 from linear_theory import FieldWave, crawl_speed, rigid_path, ritz_field
 from linear_theory.scene.scene import Scene
@@ -112,7 +113,8 @@ def turned(angle: float, shift: tuple[float, float]) -> Callable[[Array, Array],
 
 def test_the_body_frame_follows_rigid_motions_and_no_others() -> None:
     """u as above has no rotation, but a moment about the centre: int x u_y - y u_x != 0."""
-    sheet = scene(unequal, cells=(2, 4), element=skfem.ElementQuadBFS()).discretisation()
+    model = ShellModel(scene(unequal, cells=(2, 4), element=skfem.ElementQuadBFS()))
+    sheet = model.discretisation
     angles, shifts = (0.0, 1.0, 2.5, 4.0), ((0.0, 0.0), (1.0, -2.0), (0.3, 0.1), (0.0, 5.0))
     pairs = zip(angles, shifts, strict=True)
     states = np.stack([sheet.interpolate(turned(a, s)) for a, s in pairs])

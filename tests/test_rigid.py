@@ -5,6 +5,7 @@ import pytest
 
 from linear_theory import Sheet
 from linear_theory.balance.time_grid import first_grid
+from linear_theory.common.tolerance import Tolerance
 from linear_theory.motion.rigid import RigidNorm
 
 SHEET = Sheet(length=3.0, width=0.7)
@@ -38,11 +39,11 @@ def test_a_speed_of_each_component():
 def test_tolerance_is_a_share_of_the_size_or_absolute(mirrored):
     norm = RigidNorm(GYRATION, mirrored)
     error = 1e-3 * MOTION
-    assert norm.meets(MOTION, error, 1.001e-3, 1e-9)
-    assert not norm.meets(MOTION, error, 0.999e-3, 1e-9)
-    assert norm.meets(0 * MOTION, error, 1e-3, 1.001 * norm.size(error))
+    assert norm.meets(MOTION, error, Tolerance(1.001e-3, 1e-9))
+    assert not norm.meets(MOTION, error, Tolerance(0.999e-3, 1e-9))
+    assert norm.meets(0 * MOTION, error, Tolerance(1e-3, 1.001 * norm.size(error)))
     # an error of a component that is small is not measured by that component
-    assert norm.meets([0.0, 1.0, 0.0], norm.each(1e-3), 1.8e-3, 1e-9)
+    assert norm.meets([0.0, 1.0, 0.0], norm.each(1e-3), Tolerance(1.8e-3, 1e-9))
 
 
 def test_time_grid_closes_in_on_the_kinks_of_all_components():

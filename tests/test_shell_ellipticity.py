@@ -19,6 +19,7 @@ from fem_check.shell.kinematics.point_state import PointState
 from fem_check.shell.kinematics.rest_state import grown_state, tensor_state
 from fem_check.shell.kinematics.supports import Supports
 from fem_check.shell.material import Material
+from fem_check.shell.model import ShellModel
 from fem_check.shell.statics.ellipticity import (
     Ellipticity,
     acoustic_reserve,
@@ -242,8 +243,8 @@ def test_a_mesh_fine_enough_knows_the_waves(alpha: float, stable: bool) -> None:
     zone = 0.012 + np.array([0.0, 0.004, 0.01, 0.03, 0.08, 0.2, 0.488])
     y = np.concatenate([-zone[::-1], np.arange(-0.011, 0.0115, 0.001), zone])
     mesh = skfem.MeshQuad.init_tensor(towards(0.5, 1.0, 1e-3), y)
-    fine = scene(alpha, 1.0, mesh=mesh, element=skfem.ElementQuadBFS())
-    sheet = fine.discretisation()
+    fine = ShellModel(scene(alpha, 1.0, mesh=mesh, element=skfem.ElementQuadBFS()))
+    sheet = fine.discretisation
     minimiser = Minimiser(Supports(sheet).anchor(), check_stability=False)
 
     def problem(share: float) -> Potential:

@@ -10,6 +10,7 @@ from fem_check.shell.cycle.contact import Contact
 from fem_check.shell.cycle.frame import gyration, moments
 from fem_check.shell.cycle.shapes import cycle_of_shapes
 from fem_check.shell.kinematics.supports import Supports
+from fem_check.shell.model import ShellModel
 from fem_check.shell.statics.newton import Minimiser
 from fem_check.shell.statics.ramp import ramp
 from linear_theory import Sheet, TravellingWave
@@ -54,8 +55,8 @@ def scene(name, alpha, mesh):
 
 @pytest.mark.parametrize("name", SHAPES)
 def test_any_pair_of_vertices_holds_the_sheet_without_force(name):
-    sheet = scene(name, 0.2, outline(name).mesh(0.3))
-    discretisation, potential = sheet.discretisation(), sheet.potential(sheet.rest(0.1))
+    sheet = ShellModel(scene(name, 0.2, outline(name).mesh(0.3)))
+    discretisation, potential = sheet.discretisation, sheet.potential(sheet.rest(0.1))
     energies, squares = [], []
     for xi in ((0, 0), *discretisation.mesh.p.T[:3]):
         supports = Supports(discretisation).anchor(xi)

@@ -76,7 +76,7 @@ def test_shapes_are_right_to_a_share_of_alpha_squared(alpha: float) -> None:
     The energy of small strains does not show whether the last step went downhill.
     """
     shapes = cycle_of_shapes(small(alpha), 4)
-    solver = _Solver(shapes.scene)
+    solver = _Solver(shapes.model)
     for t, state in zip(shapes.times, shapes.states, strict=True):
         again = solver.shape(float(t), state, state).state
         # 1e-13: unknowns are slopes too, and twists, which differ from values by 1/h^2 = 64

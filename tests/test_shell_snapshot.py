@@ -474,7 +474,9 @@ def test_paraview_reads_what_was_written(tmp_path: Path) -> None:
     moved = trajectory.positions(1.5, points[:, :2].T)
     # XML holds all digits of a double
     np.testing.assert_allclose(points[:, :2].T + data["displacement"].T[:2], moved, atol=1e-14)
-    np.testing.assert_allclose(data["growth"], scene.growth(1.5, *points[:, :2].T), atol=1e-14)
+    np.testing.assert_allclose(
+        data["growth"], trajectory.model.growth(1.5, *points[:, :2].T), atol=1e-14
+    )
 
 
 def test_files_that_are_no_snapshots_and_values_that_are_no_paths(tmp_path: Path) -> None:

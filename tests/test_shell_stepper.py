@@ -205,13 +205,13 @@ def test_a_bending_sheet_balances_its_power(crawling: Trajectory) -> None:
 
 def test_the_ground_carries_the_weight_while_it_crawls(crawling: Trajectory) -> None:
     """The resultant equals the weight at all times; on its bends the sheet sinks deeper."""
-    scene, depth = crawling.scene, np.sqrt(WEIGHT / STIFFNESS)
+    scene, model, depth = crawling.scene, crawling.model, np.sqrt(WEIGHT / STIFFNESS)
     ground, gravity = scene.find(Ground), scene.find(Gravity)
     calm = replace(ground, damping=0.0)
-    points = ShellModel(scene).discretisation.interior
+    points = model.discretisation.interior
     assert crawling.centre[2, 0] == pytest.approx(-depth, rel=1e-9)
     for t in (0.9, 1.3, 2.1):
-        rest = scene.rest(t)
+        rest = model.rest(t)
         state = PointState(points, crawling.shape(t), (0,), rest)
         weight = gravity.normal_load(state).sum()
         # damping carries the vertical motion, 1e-5 times some tenths of a length per period
@@ -318,15 +318,15 @@ def test_what_a_scene_names_decides_its_unknowns() -> None:
     flat, bent = planar(), lying()
     assert flat.planar
     assert not bent.planar
-    assert flat.discretisation().components == 2
-    assert isinstance(flat.discretisation().element, skfem.ElementQuadP)
-    assert isinstance(bent.discretisation().element, skfem.ElementQuadBFS)
+    assert ShellModel(flat).discretisation.components == 2
+    assert isinstance(ShellModel(flat).discretisation.element, skfem.ElementQuadP)
+    assert isinstance(ShellModel(bent).discretisation.element, skfem.ElementQuadBFS)
     pushed = flat.but(effects=(Membrane(MATERIAL), DeadLoad((0.0, 1.0))))
     assert pushed.planar
     assert not flat.but(effects=(Membrane(MATERIAL), DeadLoad((0.0, 0.0, 1.0)))).planar
     triangles = skfem.MeshTri.init_tensor(np.linspace(-0.25, 0.25, 3), np.linspace(-0.5, 0.5, 5))
     argyris = bent.but(cells=None, mesh=triangles)
-    assert isinstance(argyris.discretisation().element, skfem.ElementTriArgyris)
+    assert isinstance(ShellModel(argyris).discretisation.element, skfem.ElementTriArgyris)
 
 
 def test_triangles_crawl_as_rectangles_do(refined: dict[int, Trajectory]) -> None:
@@ -373,12 +373,11 @@ def test_a_sheet_that_buckles_leaves_its_plane_and_says_so() -> None:
         ({"alpha": np.nan}, "alpha contains nan"),
         ({"curvature_coupling": np.inf}, "curvature_coupling contains inf"),
         ({"growth_law": "cubic"}, "growth_law = 'cubic'"),
-        ({"growth_law": "metric", "alpha": 0.6}, r"alpha \* growth = -0.6"),
+        ({"growth_law": "metric", "alpha": 0.6}, r"alpha c = -0.6 is not within -0.5"),
         ({"area": "current"}, "area = 'current'"),
         ({"cells": (0, 3)}, "cells = 0: must be >= 1"),
         ({"cells": (2.5, 3)}, "cells = 2.5: must be an integer"),
         ({"cells": (3,)}, r"cells = \(3,\)"),
-        ({"effects": ()}, "must name Membrane"),
         ({"effects": (Gravity(1.0), Friction(1.0, 1.0))}, "must name Membrane"),
         ({"effects": (Membrane(MATERIAL), Friction(1.0, 1.0))}, "must come with Gravity"),
         (

@@ -20,6 +20,7 @@ from fem_check.shell.cycle.shapes import cycle_of_shapes
 from fem_check.shell.cycle.speed import Cycle
 from fem_check.shell.effects.loads import EdgeMoment
 from fem_check.shell.kinematics.surface import AnnulusSector, Cylinder, Flat, SpherePart, Trapezoid
+from fem_check.shell.model import ShellModel
 from fem_check.shell.statics.equilibrium import Equilibrium
 from fem_check.shell.stepping.run import Progress
 from linear_theory.common.shown import LINES, WIDTH, Shown, in_words, number, with_error
@@ -76,7 +77,7 @@ def field(kind):
         return linear_theory.ritz_field(SHEET, SINE, rtol=1e-3)
     if kind == "PlaneStressField":
         return fem_check.plane_stress_field(SHEET, SINE, degree=2)
-    return linear_theory.deformation.second.field.second_order_field(SHEET, SINE, "exp", "grown", 1e-2)
+    return linear_theory.deformation.second.field.second_order_field(SHEET, SINE, rtol=1e-2)
 
 
 def planar(**arguments):
@@ -89,8 +90,8 @@ def shapes():
 
 
 def potential():
-    scene = planar(cells=(1, 2))
-    return scene.potential(scene.rest(0.1))
+    model = ShellModel(planar(cells=(1, 2)))
+    return model.potential(model.rest(0.1))
 
 
 MADE = {
@@ -98,8 +99,12 @@ MADE = {
     "AirySeries": lambda: field("AirySeries"),
     "AnnulusSector": AnnulusSector,
     "Bending": lambda: fem_check.Bending(MATERIAL),
-    "Blocks": lambda: potential().hessian_blocks(planar(cells=(1, 2)).discretisation().zeros())[0],
+    "Blocks": lambda: potential().hessian_blocks(
+        ShellModel(planar(cells=(1, 2))).discretisation.zeros()
+    )[0],
     "BodyFrame": lambda: BodyFrame.of(shapes()),
+    "Contact": linear_theory.Contact,
+    "Coulomb": linear_theory.Coulomb,
     "Couplings": lambda: fem_check.bilayer(0.2, 0.03),
     "CrawlSpeed": lambda: linear_theory.crawl_speed(SHEET, SINE, alpha=0.25, rtol=1e-2),
     "CrawlSpeed at rest": lambda: linear_theory.crawl_speed(SHEET, SINE, alpha=0.0),
@@ -107,19 +112,24 @@ MADE = {
     "Cycle": lambda: Cycle(planar()),
     "Cylinder": lambda: Cylinder(0.5),
     "DeadLoad": lambda: fem_check.DeadLoad((0.0, 1.0)),
-    "Discretisation": lambda: full_scene().discretisation(),
+    "Discretisation": lambda: ShellModel(full_scene()).discretisation,
     "EdgeMoment": lambda: EdgeMoment(0.1),
     "Equilibrium": lambda: Equilibrium(np.zeros(8), 1.0, 3, 1e-9, 0.1),
     "Equilibrium buckled": lambda: Equilibrium(np.zeros(8), 1.0, 3, 1e-9, 0.1, -0.1, np.ones(8)),
+    "Estimate": lambda: linear_theory.Estimate(0.1, 0.01),
+    "Exp": linear_theory.Exp,
     "FieldWave": lambda: linear_theory.FieldWave(lambda x, y, t: np.sin(y - t), 1.0, name="a & <b>"),
     "Flat": Flat,
     "Friction": lambda: fem_check.Friction(0.7, 0.01),
     "FrictionField": lambda: linear_theory.friction_field(field("AirySeries"), 0.1, [0.1, 0.2], 0, 0.1),
     "Gravity": lambda: fem_check.Gravity(2.5e-4),
     "Ground": lambda: fem_check.Ground(0.5),
+    "Growth": lambda: linear_theory.Growth(0.25),
     "Inertia": lambda: fem_check.Inertia(1.0, MATERIAL),
+    "Linear": linear_theory.Linear,
     "Material": lambda: MATERIAL,
     "Membrane": lambda: MEMBRANE,
+    "Metric": linear_theory.Metric,
     "Motion": lambda: field("PlaneStressField").motion([0.0, 0.1], None, 2),
     "Outline": lambda: fem_check.Outline.trapezoid(0.6, 0.4, 1.0),
     "Outline with a hole": lambda: fem_check.Outline(
@@ -131,8 +141,9 @@ MADE = {
     "Potential": potential,
     "Prediction": lambda: fem_check.predict(SHEET, SINE, alpha=0.05, rtol=0.1),
     "Progress": lambda: Progress(0.1, 2.0, 7, 0, 1.0, 20.0),
-    "Region": lambda: full_scene().discretisation().interior,
-    "RestState": lambda: planar().rest(0.2),
+    "Region": lambda: ShellModel(full_scene()).discretisation.interior,
+    "RestState": lambda: ShellModel(planar()).rest(0.2),
+    "RigidSpeed": lambda: turning().turning,
     "RitzField": lambda: field("RitzField"),
     "Scale": lambda: linear_theory.Scale(0.04, 8.0),
     "Scene": full_scene,
@@ -237,7 +248,7 @@ def test_so_does_what_it_holds(name):
     for attribute in (getattr(value, n, None) for n in names):
         parts = attribute if type(attribute) in (tuple, list) else [attribute]
         for part in (p for p in parts if is_ours(type(p))):
-            assert isinstance(part, Shown) or inspect.ismethod(part), type(part)
+            assert isinstance(part, Shown | str) or inspect.ismethod(part), type(part)
             check_shown(part)
 
 
@@ -264,8 +275,7 @@ def test_value_is_shown_as_its_call():
 
 def test_speed_is_told_in_its_title():
     speed = linear_theory.CrawlSpeed(
-        mean=-0.0983,
-        error=0.0002,
+        estimate=linear_theory.Estimate(-0.0983, 0.0002),
         model_error=np.nan,
         converged=False,
         times=np.linspace(0, 7.9, 64),

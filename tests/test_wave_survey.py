@@ -271,11 +271,11 @@ def test_finer_meshes_are_not_tried_where_they_do_not_help(monkeypatch: pytest.M
     monkeypatch.setattr(cycle, "MOST_PHASES", cycle.FIRST_PHASES)
     asked = []
 
-    def counted(scene: Scene, *arguments: object) -> object:
+    def counted(scene: Scene) -> cycle.Cycle:
         asked.append(scene.cells)
-        return cycle_speed(scene, *arguments)
+        return cycle.Cycle(scene)
 
-    monkeypatch.setattr("fem_check.predict.levels.cycle_speed", counted)
+    monkeypatch.setattr("fem_check.predict.levels.Cycle", counted)
     found = predict(SHEET, trembling(12, share=0.5), ALPHA, method="cycle", rtol=1e-3)
     assert not found.converged
     assert len(asked) < len(MESHES)

@@ -16,7 +16,7 @@ class Load(StrEnum):
 
     CURRENT, of the deformed sheet (J of eq. 11); GROWN, of the grown reference (appendix A.2);
     MATERIAL, of the undeformed sheet: weight is conserved; GROUND: not weight but the reaction of the
-    ground, for sheets in space alone.
+    ground, for sheets in space alone. Raises ValueError for another name.
 
     >>> import numpy as np
     >>> from linear_theory import Load

@@ -26,17 +26,23 @@ from linear_theory.common.shown import Value
 
 Array = NDArray[np.float64]
 
-EXTREME = 100.0
-"""Bound of |e| for exp(e): with e_0 at one end and e at the other, s w/w_0 is e^600, still a double."""
-
 SERIES_TERMS = 19
 """Of exp(x) - 1 - x over x^2 for |x| < 1: the first one left out is 1/21! = 2e-20."""
 
 
 class GrowthLaw(Value, ABC):
-    """A stretch s(e).
+    """A stretch s(e): Exp, Linear, Metric, or a class of one's own.
 
-    name: by which it is called; words: as a formula; lowest, highest: open range of e.
+    name: by which it is called; words: as a formula; lowest, highest: open range of e. `check` raises
+    ValueError where a strain is out of it.
+
+    >>> import numpy as np
+    >>> from linear_theory import Exp, GrowthLaw, Linear, Metric
+    >>> for law in (Exp(), Linear(), Metric()):
+    ...     print(f"{law.words}: {law.stretch(np.array(0.25)):.4f}", isinstance(law, GrowthLaw))
+    exp(alpha c): 1.2840 True
+    1 + alpha c: 1.2500 True
+    (1 + 2 alpha c)^(1/2): 1.2247 True
     """
 
     name: ClassVar[str]
@@ -76,17 +82,22 @@ class GrowthLaw(Value, ABC):
         """k of (g - 1)/2 = e + k e^2 + ..."""
         return float(self.coefficient(2) + Fraction(1, 2))
 
-    def misplaced(self, strain: Array, noise: float = 0.0) -> int | None:
-        """Flat index of the worst strain that is out of range, or within `noise` of it, if any."""
-        if strain.min() <= self.lowest + noise:
+    def bounds(self, extreme: float = inf) -> tuple[float, float]:
+        """Least and largest e, both excluded, and none beyond +-extreme."""
+        return max(self.lowest, -extreme), min(self.highest, extreme)
+
+    def misplaced(self, strain: Array, noise: float = 0.0, extreme: float = inf) -> int | None:
+        """Flat index of the worst strain that is out of bounds, or within `noise` of them, if any."""
+        lowest, highest = self.bounds(extreme)
+        if strain.min() <= lowest + noise:
             return int(strain.argmin())
-        if strain.max() >= self.highest - noise:
+        if strain.max() >= highest - noise:
             return int(strain.argmax())
         return None
 
-    def refusal(self, alpha: float, strain: float, place: str = "") -> ValueError:
+    def refusal(self, alpha: float, strain: float, place: str = "", extreme: float = inf) -> ValueError:
         """What to raise where a piece would have that growth strain, alpha c."""
-        bound = self.lowest if strain < 0 else self.highest
+        bound = self.bounds(extreme)[strain >= 0]
         limit = f"{'<' if alpha > 0 else '>'} {alpha * bound / strain:.6g}"
         at = f" at {place}" if place else ""
         return ValueError(
@@ -108,8 +119,7 @@ class Exp(GrowthLaw):
 
     name: ClassVar[str] = "exp"
     words: ClassVar[str] = "exp(alpha c)"
-    lowest: ClassVar[float] = -EXTREME
-    highest: ClassVar[float] = EXTREME
+    lowest: ClassVar[float] = -inf
 
     def stretch(self, e: Array) -> Array:
         """See GrowthLaw."""

@@ -43,10 +43,12 @@ class Body:
         sign = -1.0 if alpha < 0 else 1.0  # (alpha, c) and (-alpha, -c) are the same growth
         profile, size = Profile.of(wave, sign), abs(alpha)
         strain = alpha * wave.mean + size * profile.values
-        worst = growth.law.misplaced(strain, NOISE * size * (profile.scale + abs(wave.mean)))
+        worst = growth.law.misplaced(
+            strain, NOISE * size * (profile.scale + abs(wave.mean)), growth.extreme
+        )
         if worst is not None:
             place = f"the phase {profile.nodes[worst]:.4g} of the wave"
-            raise growth.law.refusal(alpha, float(strain[worst]), place)
+            raise growth.law.refusal(alpha, float(strain[worst]), place, growth.extreme)
         growth = growth.about(alpha * wave.mean)
         stretch = growth.law.stretch
         return cls(profile.resolved(lambda g: stretch(growth.start + size * g)), growth, size)

@@ -86,7 +86,8 @@ def line_cycle_speed(
     growth = Piece.of(growth_law, load, body)
     unit = validation.wave_count(count) * validation.positive("period", period)
     dry = is_dry(friction)
-    limit = min(-growth.law.lowest, growth.law.highest)
+    lowest, highest = growth.law.bounds(growth.extreme)
+    limit = min(-lowest, highest)
     worst = strength.flat[abs(strength).argmax()] if strength.size else 0.0
     if abs(worst) >= limit:
         raise ValueError(

@@ -11,6 +11,7 @@ All else about a body at finite strain follows from s and w. What is asked for h
 a strain e_0, free of cancellation: w/w_0 - 1 and those of `growth.laws`.
 """
 
+import math
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -21,6 +22,10 @@ from linear_theory.friction.load import Load
 from linear_theory.growth.laws import GrowthLaw, growth_law
 
 Array = NDArray[np.float64]
+
+EXTREME = 100.0
+"""Bound of |e| for a stretch without one, exp(e): with e_0 at one end and e at the other, s w/w_0 is
+e^600, still a double."""
 
 BODIES = {"line": 1, "strip": 2}
 """Powers of the stretch by which length or area, and with it the load, grows."""
@@ -48,6 +53,11 @@ class Piece:
     def curvature(self) -> float:
         """s_2 of s = 1 + e + s_2 e^2 + ..."""
         return float(self.law.coefficient(2))
+
+    @property
+    def extreme(self) -> float:
+        """Bound of |e| beyond those of the law."""
+        return EXTREME if math.isinf(self.law.lowest) else math.inf
 
     def about(self, start: float) -> "Piece":
         """The same, with differences from that strain."""

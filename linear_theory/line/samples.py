@@ -197,11 +197,11 @@ def _on_grid(values: Array, times: Array, y: Array) -> Array:
 
 
 def _check_strain(alpha: float, c: Array, times: Array, y: Array, growth: Piece) -> None:
-    worst = growth.law.misplaced(alpha * c)
+    worst = growth.law.misplaced(alpha * c, extreme=growth.extreme)
     if worst is not None:
         row, column = np.unravel_index(worst, c.shape)
         place = f"S = {y[column] + 0.5:.4g} length, t = {times[row, 0]:.4g}"
-        raise growth.law.refusal(alpha, float(alpha * c[row, column]), place)
+        raise growth.law.refusal(alpha, float(alpha * c[row, column]), place, growth.extreme)
 
 
 def _less_mean(rate: Array) -> Array:

@@ -24,7 +24,13 @@ class _Estimate(NamedTuple):
 
 
 class Estimate(Shown, _Estimate):
-    """A number and the estimate of its numerical error, absolute."""
+    """A number and the estimate of its numerical error, absolute.
+
+    >>> from linear_theory import Sheet, SineWave, crawl_speed
+    >>> found = crawl_speed(Sheet(), SineWave(), alpha=0.25, rtol=1e-2).estimate
+    >>> print(f"{found.value:.2f}", found.error < 1e-2 * found.value)
+    0.11 True
+    """
 
 
 @dataclass(frozen=True, eq=False)
