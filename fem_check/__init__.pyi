@@ -1,8 +1,8 @@
 """What `import fem_check` offers: read by `lazy_loader` as it runs, and by type checkers."""
 
+from .choice.prediction import Prediction, predict
 from .mesh.outline import Outline
 from .plane_stress.field import PlaneStressField, plane_stress_field
-from .predict.prediction import Prediction, predict
 from .scene import Scene, bilayer
 from .shell.cycle.speed import cycle_speed
 from .shell.effects.friction import Friction

@@ -20,9 +20,9 @@ from typing import Any
 
 import numpy as np
 
+from fem_check.choice.levels import LEVELS, finer
+from fem_check.choice.prediction import predict
 from fem_check.command import main
-from fem_check.predict.levels import LEVELS, finer
-from fem_check.predict.prediction import predict
 from fem_check.shell.cycle.motion import UnresolvedError
 from fem_check.shell.cycle.speed import cycle_speed
 from fem_check.shell.statics.equilibrium import ConvergenceError

@@ -12,7 +12,7 @@ from fem_check.answer.block import block
 from fem_check.answer.growth import alpha_of, extremes
 from fem_check.answer.rounding import measured, rounded_up
 from fem_check.answer.units import Units
-from fem_check.predict.prediction import predict
+from fem_check.choice.prediction import predict
 from linear_theory import (
     FieldWave,
     Sheet,

@@ -18,12 +18,12 @@ from typing import get_args, get_type_hints
 import pytest
 
 from fem_check.answer.block import block
+from fem_check.choice.levels import LEVELS
+from fem_check.choice.prediction import METHODS, predict
 from fem_check.command import BAD_ARGUMENTS, CLOSED_PIPE, INTERRUPTED, MET, MISSED, main, screens
 from fem_check.command.options import Options
 from fem_check.command.speed import HINTS
 from fem_check.command.waiting import PATIENCE, Waiting
-from fem_check.predict.levels import LEVELS
-from fem_check.predict.prediction import METHODS, predict
 from linear_theory import Sheet, SineWave, TravellingWave, pulse_wave
 from linear_theory.common.progress import Progress
 from linear_theory.friction.laws import FRICTION_LAWS as LAWS

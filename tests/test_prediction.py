@@ -5,8 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from fem_check.predict.levels import LEVELS, MESHES, TARGET, cycle, finer
-from fem_check.predict.prediction import predict
+from fem_check.choice.levels import LEVELS, MESHES, TARGET, cycle, finer
+from fem_check.choice.prediction import predict
 from fem_check.shell.cycle.speed import cycle_speed
 from linear_theory import (
     Contact,

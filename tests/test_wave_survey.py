@@ -8,7 +8,7 @@ import pytest
 from scipy.interpolate import RectBivariateSpline
 
 from fem_check import Friction, Gravity, Material, Membrane, Scene, cycle_speed, predict, simulate
-from fem_check.predict.levels import MESHES
+from fem_check.choice.levels import MESHES
 from fem_check.shell.cycle import speed as cycle
 from linear_theory import (
     FieldWave,
@@ -275,7 +275,7 @@ def test_finer_meshes_are_not_tried_where_they_do_not_help(monkeypatch: pytest.M
         asked.append(scene.cells)
         return cycle.Cycle(scene)
 
-    monkeypatch.setattr("fem_check.predict.levels.Cycle", counted)
+    monkeypatch.setattr("fem_check.choice.levels.Cycle", counted)
     found = predict(SHEET, trembling(12, share=0.5), ALPHA, method="cycle", rtol=1e-3)
     assert not found.converged
     assert len(asked) < len(MESHES)

@@ -17,7 +17,7 @@ from fem_check.answer.wave_words import arrows, wave_words
 from linear_theory.growth.laws import Exp
 
 if TYPE_CHECKING:
-    from fem_check.predict.prediction import Prediction
+    from fem_check.choice.prediction import Prediction
 
 WIDTH = 80
 """Columns, unless said otherwise."""

@@ -11,7 +11,7 @@ from linear_theory.deformation.field import Wave
 from linear_theory.speed.result import CrawlSpeed
 
 if TYPE_CHECKING:
-    from fem_check.predict.prediction import Prediction
+    from fem_check.choice.prediction import Prediction
 
 
 def heading(wave: Wave, mean: float, error: float) -> str:

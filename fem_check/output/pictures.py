@@ -7,12 +7,12 @@ from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
 from fem_check.answer.units import Units
+from fem_check.choice.prediction import Prediction
 from fem_check.output.crawling import Crawling
 from fem_check.output.look import CM_PER_INCH, COLUMN_CM, styled
 from fem_check.output.moving import Moving
 from fem_check.output.panels import draw_path, draw_sheet, draw_side, draw_speed
 from fem_check.output.simulated import Simulated
-from fem_check.predict.prediction import Prediction
 from fem_check.shell.stepping.trajectory import Trajectory
 from linear_theory.common import validation
 from linear_theory.speed.result import CrawlSpeed

@@ -33,8 +33,8 @@ SERIES_TERMS = 19
 class GrowthLaw(Value, ABC):
     """A stretch s(e): Exp, Linear, Metric, or a class of one's own.
 
-    name: by which it is called; words: as a formula; lowest, highest: open range of e. `check` raises
-    ValueError where a strain is out of it.
+    name: by which it is called; words: as a formula; lowest, highest: open range of e.
+    Raises ValueError where `check` is given a strain beyond it.
 
     >>> import numpy as np
     >>> from linear_theory import Exp, GrowthLaw, Linear, Metric

@@ -32,7 +32,7 @@ PATH = Path(__file__).parents[1] / "data" / "model_error.csv"
 COMMAND = "python -m figures.measure.model_error"
 
 LEVELS = ("strip", "first order", "second order")
-"""Names of the theories, as in `fem_check.predict.levels`, and of columns of the table."""
+"""Names of the theories, as in `fem_check.choice.levels`, and of columns of the table."""
 
 SAFETY = 1.25
 """Factor between points of the table. Of 32 other sheets, waves and growths (widths 0.12 to 0.85 L,

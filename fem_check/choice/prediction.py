@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
 from fem_check.answer.block import block
-from fem_check.predict.levels import LEVELS, TARGET_EFFECTS, distance
+from fem_check.choice.levels import LEVELS, TARGET_EFFECTS, distance
 from fem_check.shell.abilities import left_out, require
 from linear_theory.common import validation
 from linear_theory.common.drawable import Drawable
