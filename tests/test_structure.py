@@ -4,9 +4,12 @@ import ast
 import re
 from collections.abc import Iterator
 from pathlib import Path
+from types import ModuleType
 
 import pytest
 
+import fem_check
+import linear_theory
 from fem_check.shell.effects.effect import Effect
 from linear_theory.friction.laws import FrictionLaw
 from linear_theory.growth.laws import GrowthLaw
@@ -147,3 +150,10 @@ def test_nobody_asks_of_which_class_an_effect_is() -> None:
             text = Path(ROOT, *name.split(".")).with_suffix(".py")
             if text.exists():
                 assert not re.search(rf"isinstance\([^)]*\b({names})\b", text.read_text()), name
+
+
+@pytest.mark.parametrize("package", [linear_theory, fem_check], ids=lambda package: package.__name__)
+def test_no_module_hides_a_public_name(package: ModuleType) -> None:
+    """As `fem_check.predict` would be the folder, not the function, once a module of it is imported."""
+    modules = {name.split(".")[1] for name in MODULES if name.startswith(f"{package.__name__}.")}
+    assert not modules & set(package.__all__)
