@@ -1,6 +1,9 @@
 """A wave of growth c(x, y, t) of any shape, given by a function."""
 
+import copy
+import math
 from collections.abc import Callable, Mapping
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -8,6 +11,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from linear_theory.common import validation
 from linear_theory.common.shown import Value
+from linear_theory.sheet.rectangle import Sheet
+from linear_theory.wave.places import Places
+from linear_theory.wave.sampled import SampledDrive
 
 Array = NDArray[np.float64]
 Growth = Callable[[Any, Any, Any], ArrayLike]
@@ -15,6 +21,10 @@ Growth = Callable[[Any, Any, Any], ArrayLike]
 STEP, HARMONIC = 1 / 512, 10
 """Step of the difference quotient in periods; the k-th harmonic in time is right to about
 (2 pi k STEP)**8 / 630 (4e-11 at k = HARMONIC), roundoff adds 1e-14 of the fundamental's rate."""
+
+FINE_SHARES = 1e-6, 1e-4
+"""Of dc/dt, that may lie in harmonics for which a rate by differences is not made fine enough: the
+first where it is known; a wave with kinks has neither."""
 
 DIFFERENCE = {1: 4 / 5, 2: -1 / 5, 3: 4 / 105, 4: -1 / 280}
 """Weights of (c(t + j h) - c(t - j h))/h in the central difference of eighth order."""
@@ -75,6 +85,10 @@ class FieldWave(Value):
         finer._step = STEP * HARMONIC / harmonic
         return finer
 
+    def on(self, sheet: Sheet, places: Places | None = None) -> "FieldDrive":
+        """The wave on a body within that rectangle; places: of another outline, see `protocol.Wave`."""
+        return FieldDrive(self, sheet, places)
+
     @property
     def period(self) -> float:
         """Units of time."""
@@ -95,6 +109,26 @@ class FieldWave(Value):
             ahead = self.value(x, y, t + j * step)
             total = total + weight * (ahead - self.value(x, y, t - j * step))
         return np.asarray(total / step)
+
+
+class FieldDrive(SampledDrive):
+    """A given wave on a body; made by `FieldWave.on`. A rate by differences is right, if not fine."""
+
+    wave: FieldWave
+
+    @cached_property
+    def fine(self) -> "FieldDrive":
+        """With a rate as fine as the harmonics of the wave ask for, where it is a difference."""
+        if not self.wave.differenced:
+            return self
+        known = [h for h in map(self.rates.highest, FINE_SHARES) if h < math.inf]
+        finer = copy.copy(self)  # with all that was seen of the values, which are the same
+        finer.wave = self.wave.resolving(known[0]) if known else self.wave
+        return finer
+
+    def _check_rate(self) -> None:
+        if not self.wave.differenced:
+            super()._check_rate()
 
 
 def _function(name: str, value: Growth) -> Growth:

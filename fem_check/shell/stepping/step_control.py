@@ -6,8 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fem_check.shell.kinematics.rates import Affine, newmark, two_step
+from linear_theory.wave.protocol import PER_HARMONIC
 from linear_theory.wave.spectrum import Spectrum
-from linear_theory.wave.survey import PER_HARMONIC
 
 Array = NDArray[np.float64]
 
