@@ -10,7 +10,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from linear_theory.common import validation
+from linear_theory.common.errors import Unidentifiable
 from linear_theory.common.shown import Value
+from linear_theory.identity import content_key
 from linear_theory.sheet.rectangle import Sheet
 from linear_theory.wave.places import Places
 from linear_theory.wave.sampled import SampledDrive
@@ -41,6 +43,9 @@ class FieldWave(Value):
     where a wave is to be known again, as in a snapshot of a run, and their code does not tell (see
     `identity.content_key`); another function must have another name.
 
+    Waves are equal where their functions have the same content, or their names are the same, and so are
+    their periods; a function whose content is not known is equal to itself alone.
+
     Raises ValueError for a period that is not finite and positive, a value or rate that cannot be
     called, a name that is no text, and, once they are called, for results that are not finite, real and
     of that shape.
@@ -65,6 +70,20 @@ class FieldWave(Value):
         """What its content key is made of."""
         functions = (self._value, self._rate) if self.name is None else self.name
         return functions, self.period
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, FieldWave):
+            return NotImplemented
+        if self is other:
+            return True
+        try:
+            return hash(self) == hash(other) and content_key(self) == content_key(other)
+        except Unidentifiable:
+            return False
+
+    def __hash__(self) -> int:
+        """Not of the functions, whose content follows the arrays and names that they read."""
+        return hash((self.period, self.name))
 
     def _contents(self) -> Mapping[str, Any]:
         known = {"value": self._value, "period": self.period}
