@@ -32,20 +32,21 @@ export OMP_NUM_THREADS := 1
 export OPENBLAS_NUM_THREADS := 1
 export MKL_NUM_THREADS := 1
 
-FIGURE_OPTIONS = $(if $(OUT),--out "$(OUT)") $(if $(RTOL),--rtol $(RTOL))
+FIGURE_OUT = $(if $(OUT),--out "$(OUT)")
+FIGURE_RTOL = $(if $(RTOL),--rtol $(RTOL))
 
 .PHONY: figures test paper docs cost bench-shell bench-threads tables lock clean distclean
 .DEFAULT_GOAL := figures
 .DELETE_ON_ERROR:
 
 figures: $(STAMP)
-	$(RUN) -m figures.fig3 $(FIGURE_OPTIONS)
-	$(RUN) -m figures.fig7 $(FIGURE_OPTIONS)
-	$(RUN) -m figures.reach $(FIGURE_OPTIONS)
-	$(RUN) -m figures.turning $(FIGURE_OPTIONS)
-	$(RUN) -m figures.cost --draw $(if $(OUT),--out "$(OUT)")
-	$(RUN) -m figures.regimes $(if $(OUT),--out "$(OUT)")
-	$(RUN) -m figures.readme_movie $(if $(OUT),--out "$(OUT)")
+	$(RUN) -m figures.draw.fig3 $(FIGURE_OUT) $(FIGURE_RTOL)
+	$(RUN) -m figures.draw.fig7 $(FIGURE_OUT) $(FIGURE_RTOL)
+	$(RUN) -m figures.draw.turning $(FIGURE_OUT) $(FIGURE_RTOL)
+	$(RUN) -m figures.draw.reach $(FIGURE_OUT)
+	$(RUN) -m figures.draw.cost $(FIGURE_OUT)
+	$(RUN) -m figures.draw.regimes $(FIGURE_OUT)
+	$(RUN) -m figures.draw.readme_movie $(FIGURE_OUT)
 
 test: $(STAMP)
 	$(RUN) -m ruff check .
@@ -54,25 +55,26 @@ test: $(STAMP)
 	$(RUN) -m pytest -n $(WORKERS)
 
 cost: $(STAMP)
-	$(RUN) -m figures.cost
+	$(RUN) -m figures.measure.cost
+	$(RUN) -m figures.draw.cost
 
 bench-shell: $(STAMP)
-	$(RUN) -m figures.bench_shell
+	$(RUN) -m figures.measure.bench.shell
 
 bench-threads: $(STAMP)
-	$(RUN) -m figures.bench_threads
+	$(RUN) -m figures.measure.bench.threads
 
 # In the order in which one reads the other; what is measured in seconds is left to `make cost`.
 tables: $(STAMP)
-	$(RUN) -m figures.second_order_table
-	$(RUN) -m figures.model_error_table
-	$(RUN) -m figures.nonlinear
-	$(RUN) -m figures.reach_table
-	$(RUN) -m figures.regimes_table
-	$(RUN) -m figures.turning_table
+	$(RUN) -m figures.measure.second_order
+	$(RUN) -m figures.measure.model_error
+	$(RUN) -m figures.measure.nonlinear
+	$(RUN) -m figures.measure.reach
+	$(RUN) -m figures.measure.regimes
+	$(RUN) -m figures.measure.turning
 	$(RUN) -m tests.hard_cases_page
-	$(RUN) -m paper.shell_table
-	$(RUN) -m paper.derivations
+	$(RUN) -m paper.numbers.shell
+	$(RUN) -m paper.derive
 	$(RUN) -m paper.numbers
 
 paper: figures
@@ -81,7 +83,7 @@ paper: figures
 # The public names, the effects and the material that scenes are made of.
 docs: $(STAMP)
 	$(RUN) -m pdoc --docformat markdown -o build/docs linear_theory \
-	    fem_check fem_check.output fem_check.shell.effects fem_check.shell.scene.material
+	    fem_check fem_check.output fem_check.shell.effects fem_check.shell.material
 
 # setuptools comes with the lock and build isolation is off: pip fetches nothing that is not pinned.
 $(STAMP): requirements.lock pyproject.toml

@@ -1,1 +1,1 @@
-"""Scripts that make the figures; run as modules, `python -m figures.fig3`."""
+"""What is measured, and the figures drawn of it; run as modules, `python -m figures.draw.fig3`."""

@@ -7,7 +7,6 @@ and nothing is fetched. A file that the text reads and that is missing stops the
 command that makes it. --pages also writes every page as a PNG.
 """
 
-import argparse
 import re
 import sys
 from collections.abc import Iterator, Sequence
@@ -15,7 +14,8 @@ from pathlib import Path
 
 import typst
 
-from figures import output
+from figures.common import output
+from figures.common.command import parser
 
 ROOT = Path(__file__).resolve().parent.parent
 MAIN = ROOT / "paper" / "paper.typ"
@@ -27,13 +27,13 @@ PAGE_PPI = 110.0
 
 COMMANDS = {
     "docs/hard_cases.json": "python -m tests.hard_cases_page",
-    "linear_theory/data/model_error.csv": "python -m figures.model_error_table",
+    "linear_theory/data/model_error.csv": "python -m figures.measure.model_error",
     "paper/generated/numbers.json": "python -m paper.numbers",
-    "paper/generated/derivations.json": "python -m paper.derivations",
-    "paper/generated/shell.csv": "python -m paper.shell_table",
-    "figures/data/second_order.csv": "python -m figures.second_order_table",
-    "figures/data/reach.csv": "python -m figures.reach_table",
-    "figures/data/turning.csv": "python -m figures.turning_table",
+    "paper/generated/derivations.json": "python -m paper.derive",
+    "paper/generated/shell.csv": "python -m paper.numbers.shell",
+    "figures/data/second_order.csv": "python -m figures.measure.second_order",
+    "figures/data/reach.csv": "python -m figures.measure.reach",
+    "figures/data/turning.csv": "python -m figures.measure.turning",
     "figures/data/cost.csv": "make cost",
 }
 """What makes the files that the text reads; `make figures` makes those of FIGURES."""
@@ -107,11 +107,10 @@ def pages(figures: str = FIGURES, ppi: float = PAGE_PPI) -> list[bytes]:
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Set the text; returns 1 where something is missing."""
-    parser = argparse.ArgumentParser(prog="paper.build", description=main.__doc__)
-    parser.add_argument("--out", type=Path, default=PATH, metavar="FILE")
-    parser.add_argument("--pages", type=Path, metavar="FOLDER", help="also write every page as PNG")
-    parser.add_argument("--figures", default=FIGURES, metavar="FOLDER", help="relative to the root")
-    options = parser.parse_args(arguments)
+    settings = {"figures": (FIGURES, "folder of the figures, relative to the root")}
+    made = parser("python -m paper.build", __doc__, PATH, **settings)
+    made.add_argument("--pages", type=Path, metavar="FOLDER", help="also write every page as PNG")
+    options = made.parse_args(arguments)
     try:
         print(output.write_bytes(options.out, pdf(options.figures)))
         for number, page in enumerate(pages(options.figures) if options.pages else [], 1):

@@ -6,19 +6,17 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from figures import (
-    cost,
-    cost_cases,
-    cost_draw,
-    cost_effects,
-    cost_fields,
-    cost_growth,
-    cost_speeds,
-    cost_table,
-    peers,
-)
-from figures.cost_measure import calls, held_memory, machine, timed
-from figures.cost_table import Order, Point
+from figures.draw import cost as cost_draw
+from figures.measure.cost import cases as cost_cases
+from figures.measure.cost import command as cost
+from figures.measure.cost import effects as cost_effects
+from figures.measure.cost import fields as cost_fields
+from figures.measure.cost import growth as cost_growth
+from figures.measure.cost import speeds as cost_speeds
+from figures.measure.cost import tables as cost_table
+from figures.measure.cost.peers import peer as peers
+from figures.measure.cost.tables import Order, Point
+from figures.measure.meters import calls, held_memory, machine, timed
 from linear_theory import Sheet, airy_series, ritz_field
 
 
@@ -152,7 +150,7 @@ def test_tables_are_read_as_they_were_written(tmp_path):
 
 
 def test_absent_tables_are_reported_with_their_command(tmp_path):
-    with pytest.raises(FileNotFoundError, match=r"python -m figures\.cost"):
+    with pytest.raises(FileNotFoundError, match=r"python -m figures\.measure\.cost"):
         cost_table.read(tmp_path / "t.csv", Point)
 
 
@@ -334,24 +332,14 @@ def test_same_table_same_bytes(tmp_path):
 
 def test_a_short_run_from_the_command_line(tmp_path, capsys, monkeypatch):
     monkeypatch.setattr(peers, "find_spec", lambda name: None)
-    cost.main(
-        [
-            "--quick",
-            "--panels",
-            "a",
-            "--out",
-            str(tmp_path),
-            "--data",
-            str(tmp_path),
-            "--formats",
-            "png",
-        ]
-    )
+    folder = str(tmp_path)
+    cost.main(["--quick", "--panels", "a", "--data", folder])
     assert "references" in capsys.readouterr().out
+    cost_draw.main(["--data", folder, "--out", folder, "--formats", "png"])
     assert {p.name for p in tmp_path.iterdir()} == {"cost.csv", "cost_orders.csv", "cost.png"}
     points = cost_table.read(tmp_path / "cost.csv", Point)
     assert all(0 < p.error < 1 for p in points)
-    assert all(p.fastest <= p.seconds <= p.slowest for p in points if p.level != cost.REFERENCE)
+    assert all(p.fastest <= p.seconds <= p.slowest for p in points if p.level != cost_table.REFERENCE)
     assert all(p.error < p.claimed for p in points if p.claimed == p.claimed)
     found = cost_table.read(tmp_path / "cost_orders.csv", Order)
     plain = next(o for o in found if o.level == cost_cases.PLAIN)

@@ -44,6 +44,7 @@ from linear_theory import (
     ritz_field,
     second_order,
 )
+from linear_theory.common.tolerance import Tolerance
 
 PATIENCE = 60
 """Seconds after which a process is taken as lost; the work is none."""
@@ -206,8 +207,8 @@ def test_scenes_and_cycles_are_copied_with_what_they_keep(way):
     nodes = space.discretisation().mesh.p
     np.testing.assert_array_equal(WAYS[way](space).discretisation().mesh.p, nodes)
     cycle = Cycle(planar())
-    before = cycle.speed(rtol=0.1)
-    assert WAYS[way](cycle).speed(rtol=0.1).mean == before.mean
+    before = cycle.speed(Tolerance(0.1))
+    assert WAYS[way](cycle).speed(Tolerance(0.1)).mean == before.mean
 
 
 def test_a_copied_factor_is_made_again_when_it_solves():

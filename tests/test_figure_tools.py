@@ -13,15 +13,17 @@ import pytest
 from matplotlib.image import imread
 
 from fem_check.output import progress
-from figures import output, style
+from figures.common import output, records, style
+from figures.measure import model_error, nonlinear, reach, regimes, second_order, turning
 from linear_theory.speed.si import Scale, speed_si
+from paper.numbers import shell
 
 ROOT = Path(__file__).resolve().parents[1]
 
 DRAWING = """
 import sys
 import numpy as np
-from figures import style
+from figures.common import style
 fig = style.figure(width=style.COLUMN_CM, height=5.0)
 left, right = fig.subplots(1, 2)
 x = np.linspace(0, 1, 50)
@@ -95,16 +97,34 @@ def test_unknown_format_is_refused_before_anything_is_written(tmp_path: Path) ->
 
 def test_csv_text(tmp_path: Path) -> None:
     columns = {"½": [0.1, 1 / 3], "V": np.array([-0.0, np.nan]), "n": [1, 2], "law": ["dry, 1D", "wet"]}
-    path = output.write_csv(tmp_path / "new" / "data.csv", columns)
+    path = records.write_csv(tmp_path / "new" / "data.csv", columns)
     assert path.read_bytes().decode() == '½,V,n,law\n0.1,0,1,"dry, 1D"\n0.333333333,nan,2,wet\n'
 
 
 def test_csv_comes_back_to_the_digits_asked_for(tmp_path: Path) -> None:
     values = np.random.default_rng(1).normal(size=100) * 10.0 ** np.arange(-50, 50)
     for digits in (4, 9, 17):
-        path = output.write_csv(tmp_path / "data.csv", {"v": values}, digits=digits)
+        path = records.write_csv(tmp_path / "data.csv", {"v": values}, digits=digits)
         back = np.loadtxt(path, skiprows=1)
         np.testing.assert_allclose(back, values, rtol=0.51 * 10.0 ** (1 - digits) if digits < 17 else 0)
+
+
+TABLES = [
+    *(module.TABLE for module in (model_error, nonlinear, regimes, second_order, turning, shell)),
+    *(reach.SPEEDS, reach.REACHES),
+]
+
+
+@pytest.mark.parametrize("table", TABLES, ids=lambda table: table.path.stem)
+def test_tables_are_kept_as_their_command_writes_them(table: records.Table, tmp_path: Path) -> None:
+    again = table.write(table.read(), tmp_path / "again.csv")
+    assert again.read_bytes() == table.path.read_bytes()
+
+
+def test_a_table_without_rows_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(ValueError, match=r"rows of none.csv: must be one or more"):
+        nonlinear.TABLE.write([], tmp_path / "none.csv")
+    assert not list(tmp_path.iterdir())
 
 
 @pytest.mark.parametrize(
@@ -113,7 +133,7 @@ def test_csv_comes_back_to_the_digits_asked_for(tmp_path: Path) -> None:
 )
 def test_csv_refuses_what_is_no_table(tmp_path: Path, columns: dict[str, object]) -> None:
     with pytest.raises(ValueError, match="column"):
-        output.write_csv(tmp_path / "data.csv", columns)  # type: ignore[arg-type]
+        records.write_csv(tmp_path / "data.csv", columns)  # type: ignore[arg-type]
     assert not list(tmp_path.iterdir())
 
 

@@ -7,8 +7,13 @@ import json
 import numpy as np
 import pytest
 
-from figures import fig3, fig3_data, fig3_speed, fig7, nonlinear
-from figures.fig3_speed import LABELS
+from figures.draw import fig7
+from figures.draw.fig3 import data as fig3_data
+from figures.draw.fig3 import figure as fig3
+from figures.draw.fig3 import panels as fig3_panels
+from figures.draw.fig3 import speeds as fig3_speed
+from figures.draw.fig3.speeds import LABELS
+from figures.measure import nonlinear
 from linear_theory import (
     Sheet,
     SineWave,
@@ -33,7 +38,7 @@ def small_fig3() -> fig3_data.Fig3Data:
     with pytest.MonkeyPatch.context() as patch:
         for name, value in COARSE.items():
             patch.setattr(fig3_data, name, value)
-        return fig3.compute(rtol=1e-3)
+        return fig3_data.compute(rtol=1e-3)
 
 
 @pytest.fixture(scope="module")
@@ -43,7 +48,7 @@ def speeds():
 
 @pytest.fixture(scope="module")
 def drawn(speeds):
-    return fig3.draw(speeds)
+    return fig3_panels.draw(speeds)
 
 
 @pytest.fixture(scope="module")
@@ -114,7 +119,7 @@ def symbols_of(axes, label: str):
 def test_nonlinear_symbols_and_their_bars_are_those_of_the_table(
     drawn, panel, label, body, friction, power
 ):
-    rows = [r for r in nonlinear.read() if (r.body, r.friction) == (body, friction)]
+    rows = [r for r in nonlinear.TABLE.read() if (r.body, r.friction) == (body, friction)]
     alpha, speed, error = np.array([(r.alpha, r.speed, r.error) for r in rows]).T
     points, bars = symbols_of(drawn.axes[panel], label)
     np.testing.assert_array_equal(points[:, 0], alpha)
@@ -129,18 +134,20 @@ def test_the_table_of_nonlinear_speeds_is_what_its_command_makes():
     for friction in ("coulomb", "mixed"):
         again = nonlinear.sheet_speed(alpha, friction, nonlinear.RTOL)
         kept = next(
-            s for s in nonlinear.read() if (s.body, s.friction, s.alpha) == ("sheet", friction, alpha)
+            s
+            for s in nonlinear.TABLE.read()
+            if (s.body, s.friction, s.alpha) == ("sheet", friction, alpha)
         )
         assert again.speed == pytest.approx(kept.speed, abs=again.error + kept.error)
 
 
 def test_an_absent_or_incomplete_table_is_reported_with_its_command(tmp_path):
     path = tmp_path / "nonlinear.csv"
-    with pytest.raises(FileNotFoundError, match=r"python -m figures\.nonlinear"):
-        nonlinear.read(path)
-    nonlinear.write([s for s in nonlinear.read() if s.body == "sheet"], path)
-    with pytest.raises(ValueError, match=r"no coulomb bar.*python -m figures\.nonlinear"):
-        fig3_speed.nonlinear_speeds(nonlinear.read(path))
+    with pytest.raises(FileNotFoundError, match=r"python -m figures\.measure\.nonlinear"):
+        nonlinear.TABLE.read(path)
+    nonlinear.TABLE.write([s for s in nonlinear.TABLE.read() if s.body == "sheet"], path)
+    with pytest.raises(ValueError, match=r"no coulomb bar.*python -m figures\.measure\.nonlinear"):
+        fig3_speed.nonlinear_speeds(nonlinear.TABLE.read(path))
 
 
 def test_speed_over_alpha_squared_approaches_its_limits(speeds):

@@ -8,8 +8,9 @@ import numpy as np
 import pytest
 
 from fem_check.shell.cycle.speed import cycle_speed
-from figures import cycles, model_error_table
-from figures.model_error_table import BASE, Case
+from figures.common.scenes import planar_scene
+from figures.measure import model_error as model_error_table
+from figures.measure.model_error import BASE, Case
 from linear_theory import (
     FieldWave,
     Sheet,
@@ -64,7 +65,7 @@ HELD_OUT = [
 def test_honest_between_the_points(width, poisson, count, alpha, model):
     """Bounds hold, and say something: none is many times the difference where that keeps its sign."""
     sheet = Sheet(width=width, poisson=poisson)
-    target = cycle_speed(cycles.planar_scene(sheet, count, alpha, *model[:2]), model[2], rtol=1e-3)
+    target = cycle_speed(planar_scene(sheet, count, alpha, *model[:2]), model[2], rtol=1e-3)
     for level in LEVELS:
         speed, error = level_speed(level, sheet, count, alpha, model)
         true = abs(speed - target.mean)
@@ -143,7 +144,7 @@ def test_bad_input(options, words):
 
 
 def test_an_absent_table_is_reported_with_its_command(tmp_path):
-    with pytest.raises(FileNotFoundError, match=r"python -m figures\.model_error_table"):
+    with pytest.raises(FileNotFoundError, match=r"python -m figures\.measure\.model_error"):
         read(tmp_path / "model_error.csv")
 
 
@@ -209,7 +210,7 @@ def test_leading_coefficients_are_reckoned_from_five(law):
 
 def test_a_table_is_written_and_read(tmp_path):
     rows = [ROWS[0], replace(ROWS[1], nonlinear=math.nan)]
-    again = read(model_error_table.write(rows, tmp_path / "table.csv"))
+    again = read(model_error_table.TABLE.write(rows, tmp_path / "table.csv"))
     assert again[0] == rows[0]
     assert math.isnan(again[1].nonlinear)
     assert set(module.table(tmp_path / "table.csv")) == {

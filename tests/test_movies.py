@@ -10,7 +10,7 @@ from fem_check.output import Units, movies, writers
 from fem_check.output.panels import GROWTH_MAP
 from fem_check.output.pictures import checked_units, moving_of
 from fem_check.output.stage import LEFT, RIGHT, TOP, Stage
-from figures import readme_movie
+from figures.draw import readme_movie
 from linear_theory import Sheet, SineWave, crawl_speed, line_balance
 
 SMALL = {"periods": 2, "frames": 5, "width": 421}

@@ -10,8 +10,9 @@ import pytest
 
 import fem_check
 import linear_theory
-from figures import reach_table, regimes, regimes_table
-from linear_theory.common.records import read_rows
+from figures.draw import regimes
+from figures.measure import reach as reach_table
+from figures.measure import regimes as regimes_table
 
 ROOT = Path(__file__).parents[1]
 EQUATIONS = ROOT / "docs" / "equations.md"
@@ -112,7 +113,8 @@ def test_symbols_are_names_of_the_code():
         for kind in (linear_theory.Sheet, linear_theory.SineWave, fem_check.Scene, fem_check.Friction)
         for name in kind.__dataclass_fields__
     }
-    kinds = {**vars(fem_check), "RestState": found("fem_check.shell.kinematics.rest_state.RestState")}
+    kinds = {name: getattr(fem_check, name) for name in fem_check.__all__}
+    kinds |= {"RestState": found("fem_check.shell.kinematics.rest_state.RestState")}
     assert len(named) == 13
     for name in named:
         kind, _, field = name.rpartition(".")
@@ -121,13 +123,9 @@ def test_symbols_are_names_of_the_code():
 
 def test_numbers_of_the_conventions_are_those_of_the_tables():
     text = " ".join(CONVENTIONS.read_text().split())
-    (reach,) = (
-        r
-        for r in read_rows(reach_table.DATA / reach_table.REACHES, reach_table.Reach, "make tables")
-        if (r.width, r.poisson) == (0.5, 0.5)
-    )
+    (reach,) = (r for r in reach_table.REACHES.read() if (r.width, r.poisson) == (0.5, 0.5))
     assert f"with growth exp(alpha c) 1.75, {reach.second:.2f} and 0.75" in text
-    _, viscous = regimes.boundaries(regimes_table.read())
+    _, viscous = regimes.boundaries(regimes_table.TABLE.read())
     assert f"for periods above {viscous:.2f} alpha L/v0" in text
     near = linear_theory.crawl_speed(linear_theory.Sheet(), linear_theory.SineWave(), 1e-3, rtol=1e-3)
     near = near.mean / 1e-6

@@ -9,10 +9,14 @@ import pytest
 import sympy as sp
 import typst
 
-from figures import regimes_table, second_order_table
-from paper import build, derivations, numbers, numbers_field
-from paper.proof import ProofError, proved
-from paper.typst_math import typst as formula
+from figures.measure import regimes as regimes_table
+from figures.measure import second_order as second_order_table
+from paper import build
+from paper.derive import appendix as derivations
+from paper.derive.proof import ProofError, proved
+from paper.derive.typst_math import typst as formula
+from paper.numbers import field as numbers_field
+from paper.numbers import groups as numbers
 
 SOURCES = build.sources()
 TEXTS = {path.name: path.read_text() for path in SOURCES}
@@ -114,7 +118,7 @@ def test_orders_of_the_truncation_are_as_the_text_says(key, power):
     ],
 )
 def test_both_ends_of_friction_are_approached_by_the_powers_of_the_text(model, end, low, high, power):
-    values = {r.slip: r.coefficient for r in regimes_table.read() if r.model == model}
+    values = {r.slip: r.coefficient for r in regimes_table.TABLE.read() if r.model == model}
     chosen = [s for s in values if low < s < high]
     assert len(chosen) > 1
     found = slope(chosen, [values[s] - values[end] for s in chosen])
@@ -122,7 +126,7 @@ def test_both_ends_of_friction_are_approached_by_the_powers_of_the_text(model, e
 
 
 def test_small_strain_gives_the_viscous_coefficient():
-    ends = {r.model: r for r in regimes_table.read() if r.slip == np.inf}
+    ends = {r.model: r for r in regimes_table.TABLE.read() if r.slip == np.inf}
     pair = [ends[name] for name in ("linear", "second order")]
     # "linear" is V/alpha^2 at alpha = 0.1, which viscous friction and an even dilation do not change
     assert abs(pair[0].coefficient - pair[1].coefficient) <= pair[0].error + pair[1].error
@@ -131,7 +135,7 @@ def test_small_strain_gives_the_viscous_coefficient():
 def test_the_second_coefficient_is_linear_in_the_growth_law():
     table = {
         (r.growth_law, r.area, r.load): r
-        for r in second_order_table.read()
+        for r in second_order_table.TABLE.read()
         if (r.width, r.poisson, r.wave) == (0.5, 0.5, "sine")
     }
     for area, load in {key[1:] for key in table}:

@@ -8,12 +8,12 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from figures import reach, reach_table
-from figures.reach_table import COMMAND, DATA, REACHES, SHARES, SPEEDS, Point, Reach
+from figures.draw import reach
+from figures.measure import reach as reach_table
+from figures.measure.reach import REACHES, SHARES, SPEEDS, Point
 from linear_theory import Sheet, SineWave, crawl_speed, line_cycle_speed
-from linear_theory.common.records import read_rows
 
-POINTS, ROWS = read_rows(DATA / SPEEDS, Point, COMMAND), read_rows(DATA / REACHES, Reach, COMMAND)
+POINTS, ROWS = SPEEDS.read(), REACHES.read()
 
 
 def sheet_of(ratio, theory=None, error: float = 0.0, alphas=(0, *reach_table.ALPHAS)) -> list[Point]:
@@ -127,7 +127,7 @@ def test_the_figure_writes_the_same_bytes(tmp_path):
 
 
 def test_an_absent_table_is_reported_with_its_command(tmp_path):
-    with pytest.raises(FileNotFoundError, match=r"python -m figures\.reach_table"):
-        read_rows(tmp_path / SPEEDS, Point, COMMAND)
-    again = read_rows(reach_table.write(POINTS[:3], tmp_path / SPEEDS), Point, COMMAND)
+    with pytest.raises(FileNotFoundError, match=r"python -m figures\.measure\.reach"):
+        SPEEDS.read(tmp_path / "none.csv")
+    again = SPEEDS.read(SPEEDS.write(POINTS[:3], tmp_path / "some.csv"))
     assert again == POINTS[:3]

@@ -10,9 +10,11 @@ import pytest
 
 from fem_check.command import main
 from fem_check.shell.statics.ellipticity import edge_limit
-from figures import nonlinear, reach_table, regimes, regimes_table
+from figures.draw import regimes
+from figures.measure import nonlinear
+from figures.measure import reach as reach_table
+from figures.measure import regimes as regimes_table
 from linear_theory import Sheet, SineWave, crawl_speed
-from linear_theory.common.records import read_rows
 
 ROOT = Path(__file__).parents[1]
 README, CONVENTIONS = ROOT / "README.md", ROOT / "docs" / "conventions.md"
@@ -56,18 +58,16 @@ def test_gallery_is_there():
 
 def test_numbers_in_the_text_are_those_of_the_tables():
     text = " ".join(f"{README.read_text()} {CONVENTIONS.read_text()}".split())
-    (reach,) = (
-        r
-        for r in read_rows(reach_table.DATA / reach_table.REACHES, reach_table.Reach, "make tables")
-        if (r.width, r.poisson) == (0.5, 0.5)
-    )
+    (reach,) = (r for r in reach_table.REACHES.read() if (r.width, r.poisson) == (0.5, 0.5))
     shares = [f"{alpha:.2f}" for alpha in (reach.second_order_1, reach.second_order_5)]
     assert f"up to alpha = {', '.join(shares)} and {reach.second_order_10:.2f}." in text
     assert f"with growth exp(alpha c) 1.75, {reach.second:.2f} and 0.75" in text
     assert f"compressed to {edge_limit(0.5):.2f} of its grown length" in text
-    _, viscous = regimes.boundaries(regimes_table.read())
+    _, viscous = regimes.boundaries(regimes_table.TABLE.read())
     assert f"for periods above {viscous:.2f} alpha L/v0" in text
-    sheet = {r.alpha: r.speed for r in nonlinear.read() if (r.body, r.friction) == ("sheet", "coulomb")}
+    sheet = {
+        r.alpha: r.speed for r in nonlinear.TABLE.read() if (r.body, r.friction) == ("sheet", "coulomb")
+    }
     far = crawl_speed(Sheet(), SineWave(), 0.25, rtol=1e-3).mean / sheet[0.25] - 1
     near = crawl_speed(Sheet(), SineWave(), 1e-3, rtol=1e-3).mean / 1e-6
     assert f"the paper's sheet {near:.2f}, a 1D body 1" in text

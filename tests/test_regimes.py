@@ -12,7 +12,8 @@ from fem_check.shell.cycle.speed import cycle_speed
 from fem_check.shell.effects.inertia import Inertia
 from fem_check.shell.effects.koiter import Membrane
 from fem_check.shell.stepping.simulation import simulate
-from figures import regimes, regimes_table
+from figures.draw import regimes
+from figures.measure import regimes as regimes_table
 from linear_theory import (
     CrawlSpeed,
     FieldWave,
@@ -253,7 +254,7 @@ def test_motion_without_friction_has_no_regime() -> None:
 
 @pytest.fixture(scope="module")
 def table() -> list[regimes_table.Row]:
-    return regimes_table.read()
+    return regimes_table.TABLE.read()
 
 
 @pytest.mark.parametrize("model", regimes_table.MODELS)
@@ -344,14 +345,14 @@ def test_the_figure_is_made_of_the_table_and_always_the_same(
 
 
 def test_a_missing_table_is_reported_with_its_command(tmp_path) -> None:
-    with pytest.raises(FileNotFoundError, match=r"python -m figures\.regimes_table"):
-        regimes_table.read(tmp_path / "none.csv")
-    with pytest.raises(ValueError, match=r"no line.*python -m figures\.regimes_table"):
+    with pytest.raises(FileNotFoundError, match=r"python -m figures\.measure\.regimes"):
+        regimes_table.TABLE.read(tmp_path / "none.csv")
+    with pytest.raises(ValueError, match=r"no line.*python -m figures\.measure\.regimes"):
         regimes.select([], "line")
 
 
 def test_written_rows_are_read_back(table: list[regimes_table.Row], tmp_path) -> None:
-    again = regimes_table.read(regimes_table.write(table, tmp_path / "regimes.csv"))
+    again = regimes_table.TABLE.read(regimes_table.TABLE.write(table, tmp_path / "regimes.csv"))
     assert again == table
 
 

@@ -121,7 +121,9 @@ def test_the_key_is_the_same_in_another_process() -> None:
         "print(*(scene.key() for scene in SCENES.values()))"
     )
     root = str(Path(__file__).parents[1])
-    done = subprocess.run([sys.executable, "-c", code, root], capture_output=True, text=True, check=True)
+    done = subprocess.run(
+        [sys.executable, "-c", code, root], capture_output=True, text=True, check=True
+    )
     assert done.stdout.split() == [scene.key() for scene in SCENES.values()]
 
 
@@ -199,8 +201,9 @@ def test_every_level_reads_the_same_scene() -> None:
     grown = {**options, "growth_law": "linear"}
     plain = Sheet(width=0.4), SineWave(), 0.1
     for order in (1, 2):
-        one, other = crawl_speed(scene, rtol=1e-2, order=order), crawl_speed(
-            *plain, rtol=1e-2, order=order, **grown
+        one, other = (
+            crawl_speed(scene, rtol=1e-2, order=order),
+            crawl_speed(*plain, rtol=1e-2, order=order, **grown),
         )
         assert (one.mean, one.error, one.model) == (other.mean, other.error, other.model)
     assert predict(scene, rtol=0.3).mean == predict(*plain, rtol=0.3, **grown).mean

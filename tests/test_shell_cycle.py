@@ -25,6 +25,9 @@ from linear_theory import (
     crawl_speed,
     line_speed,
 )
+from linear_theory.common.tolerance import Tolerance
+from linear_theory.friction.contact import Contact
+from linear_theory.friction.load import Load
 from linear_theory.line.finite import line_cycle_speed
 from linear_theory.scene.scene import Scene
 
@@ -61,7 +64,7 @@ def test_small_strain_is_the_linear_theory_with_an_error_of_order_alpha() -> Non
     field = airy_series(PAPER, SINE, rtol=1e-6)
     errors = []
     for alpha in (0.02, 0.04):
-        motion = CycleMotion(cycle_of_shapes(planar(alpha), 8), "current", 5, True)
+        motion = CycleMotion(cycle_of_shapes(planar(alpha), 8), Load.CURRENT, 5, True)
         time = np.array([0.13])
         reference = motion.region.reference[0].reshape(2, -1, 5, 5)
         found = motion.at(time)
@@ -254,7 +257,7 @@ def test_a_shape_that_has_left_the_ground_is_refused() -> None:
     lifted = replace(shapes, states=shapes.states.copy())
     lifted.states.reshape(4, -1, 4, 3)[:, :, 0, 2] += 0.1  # values at vertices, not their slopes
     with pytest.raises(UnresolvedError, match="bears no load"):
-        CycleMotion(lifted, "ground", 4, False).at(np.zeros(1))
+        CycleMotion(lifted, Load.GROUND, 4, False).at(np.zeros(1))
 
 
 def test_no_growth_no_motion() -> None:
@@ -336,7 +339,7 @@ def test_one_cycle_of_shapes_serves_all_loads_and_frictions() -> None:
     scene = planar(0.2)
     shared = Cycle(scene)
     for load, friction in (("current", "coulomb"), ("material", "coulomb"), ("grown", "viscous")):
-        found = shared.speed(load, friction, rtol=1e-2)
+        found = shared.speed(Tolerance(1e-2), Contact(load, friction))
         alone = cycle_speed(scene, load, friction, rtol=1e-2)
         # the same numbers in the same order, but for shapes interpolated from more phases
         assert found.mean == pytest.approx(alone.mean, rel=1e-9)

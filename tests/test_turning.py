@@ -7,7 +7,8 @@ import pathlib
 import numpy as np
 import pytest
 
-from figures import turning, turning_table
+from figures.draw import turning
+from figures.measure import turning as turning_table
 
 
 @pytest.fixture(scope="module")
@@ -48,13 +49,12 @@ def test_the_figure_writes_what_it_shows(tracks: list[turning.Track], tmp_path: 
 
 
 def test_the_table_of_stepped_sheets(tmp_path: pathlib.Path) -> None:
-    rows = turning_table.read()
+    rows = turning_table.TABLE.read()
     assert {row.wave for row in rows} == set(turning_table.WAVES)
-    assert (
-        turning_table.write(rows, tmp_path / "again.csv").read_text() == turning_table.PATH.read_text()
-    )
-    with pytest.raises(FileNotFoundError, match=r"figures\.turning_table"):
-        turning_table.read(tmp_path / "none.csv")
+    again = turning_table.TABLE.write(rows, tmp_path / "again.csv")
+    assert again.read_text() == turning_table.TABLE.path.read_text()
+    with pytest.raises(FileNotFoundError, match=r"figures\.measure\.turning"):
+        turning_table.TABLE.read(tmp_path / "none.csv")
     first = turning_table.stepped("unequal", 1, turning_table.STEPS)
     row = next(row for row in rows if (row.wave, row.period) == ("unequal", 1))
     # six digits are written; minimisations leave 1e-3 of the slip speed

@@ -9,6 +9,7 @@ arguments, 130 after Ctrl-C, 141 where the reader of the answer has gone (`sheet
 Warnings go to stderr, a line each. What takes time to load is loaded when it is needed.
 """
 
-from fem_check.command.program import BAD_ARGUMENTS, CLOSED_PIPE, INTERRUPTED, MET, MISSED, main
+from fem_check.command.program import main
+from fem_check.command.status import BAD_ARGUMENTS, CLOSED_PIPE, INTERRUPTED, MET, MISSED
 
 __all__ = ["BAD_ARGUMENTS", "CLOSED_PIPE", "INTERRUPTED", "MET", "MISSED", "main"]

@@ -6,9 +6,7 @@ import sys
 from collections.abc import Sequence
 from typing import NoReturn
 
-MET, MISSED, BAD_ARGUMENTS = 0, 1, 2
-INTERRUPTED, CLOSED_PIPE = 130, 141
-"""As shells report a program that SIGINT or SIGPIPE has ended."""
+from fem_check.command.status import BAD_ARGUMENTS, CLOSED_PIPE, INTERRUPTED, MET, MISSED
 
 
 def main(arguments: Sequence[str] | None = None) -> NoReturn:

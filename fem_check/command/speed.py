@@ -11,8 +11,8 @@ from fem_check.answer.block import block, why
 from fem_check.answer.units import Units
 from fem_check.command.files import check_files
 from fem_check.command.options import Options
-from fem_check.command.program import MET, MISSED
 from fem_check.command.quantities import Asked, asked
+from fem_check.command.status import MET, MISSED
 from fem_check.command.text import printable
 from fem_check.command.waiting import Waiting
 from fem_check.predict.prediction import Prediction, predict

@@ -17,8 +17,8 @@ class Contact(Value):
     and numbers that are not finite.
 
     >>> from linear_theory import Contact, Tanh
-    >>> print(Contact("grown", Tanh(0.01)).model)
-    grown load, tanh friction
+    >>> print(Contact("grown", Tanh(0.01)))
+    Contact(load=grown, friction=Tanh(slip_speed=0.01), slope=0)
     """
 
     load: Load = Load.CURRENT
@@ -37,8 +37,3 @@ class Contact(Value):
         """From names or objects; None for the defaults, "current" load and "coulomb" friction."""
         kind = Load.CURRENT if load is None else Load.named(load)
         return cls(kind, friction_law("coulomb" if friction is None else friction, slip_speed))
-
-    @property
-    def model(self) -> str:
-        """What is assumed, in words."""
-        return f"{self.load} load, {self.friction.name} friction"

@@ -66,8 +66,3 @@ class Growth(Value):
         The inverse rest metric in the elasticity makes -4, the grown area 2 more.
         """
         return -2.0 if self.energy_area is Reference.GROWN else -4.0
-
-    @property
-    def model(self) -> str:
-        """What is assumed, in words."""
-        return f"growth law {self.law.name}, energy per {self.energy_area} area"

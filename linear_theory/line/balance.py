@@ -13,13 +13,14 @@ from linear_theory.friction.load import Load
 from linear_theory.friction.regime import warn_if_viscous
 from linear_theory.growth.laws import GrowthLaw
 from linear_theory.line.piece import Piece
-from linear_theory.line.result import Balance
+from linear_theory.line.result import LineMotion
 from linear_theory.line.samples import sampled_balance
 from linear_theory.line.travelling import travelling_balance
 from linear_theory.scene import arguments
 from linear_theory.scene.scene import Scene
 from linear_theory.sheet.rectangle import Sheet
 from linear_theory.speed.result import CrawlSpeed, Estimate
+from linear_theory.speed.words import model_words
 from linear_theory.wave.places import on_axis
 from linear_theory.wave.protocol import Wave
 from linear_theory.wave.sampled import drive
@@ -108,7 +109,7 @@ def line_crawl(scene: Scene, tolerance: Tolerance, body: str) -> CrawlSpeed:
         second_order=length * answer.second,
         sticks=answer.sticks and answer.fastest > 0,
         seconds=time.perf_counter() - start,
-        model=_words(law, piece, body),
+        model=_words(scene, body),
     )
 
 
@@ -124,7 +125,7 @@ def _checked_length(length: float | None, wave: Wave) -> float:
     )
 
 
-def _in_lengths(scene: Scene, piece: Piece, tolerance: Tolerance) -> Balance:
+def _in_lengths(scene: Scene, piece: Piece, tolerance: Tolerance) -> LineMotion:
     """The balance in units of the length of the body, those of the tolerance."""
     law, series = scene.contact.friction.scaled(scene.sheet.length), scene.drive.series
     if series is not None:
@@ -133,10 +134,8 @@ def _in_lengths(scene: Scene, piece: Piece, tolerance: Tolerance) -> Balance:
     return sampled_balance(on_line, scene.alpha, law, piece, tolerance)
 
 
-def _words(law: FrictionLaw, piece: Piece, body: str) -> str:
+def _words(scene: Scene, body: str) -> str:
     shape = {"line": "body on a line", "strip": "narrow strip that grows both ways"}[body]
-    load = {0: "weight conserved", 1: "load on the current length", 2: "load on the current area"}
-    return (
-        f"{shape}, stretch {piece.law.words}, quasi-static, shape not affected by friction; "
-        f"{law.words}, {load[piece.power]}"
-    )
+    stretch = f"stretch {scene.growth.law.words}"
+    remarks = stretch, "quasi-static", "shape not affected by friction"
+    return model_words(shape, None, scene.contact, *remarks)

@@ -33,12 +33,14 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from linear_theory.common import validation
+from linear_theory.friction.laws import Coulomb, Viscous
 from linear_theory.line.piece import Piece
 from linear_theory.line.roots import bracketed_newton
 
 Array = NDArray[np.float64]
 
-FRICTIONS = ("coulomb", "viscous")
+FRICTIONS = {law.name: law for law in (Coulomb(), Viscous())}
+"""Laws of friction that have a speed in closed form."""
 
 POINTS = 32
 """Gauss points between phase 0 and the median, where stretches are >= 1 and hence smooth functions of
@@ -83,7 +85,7 @@ def line_cycle_speed(
     strength = validation.real_array("alpha", alpha)
     growth = Piece.of(growth_law, load, body)
     unit = validation.wave_count(count) * validation.positive("period", period)
-    dry = validation.choice("friction", friction, FRICTIONS) == "coulomb"
+    dry = is_dry(friction)
     limit = min(-growth.law.lowest, growth.law.highest)
     worst = strength.flat[abs(strength).argmax()] if strength.size else 0.0
     if abs(worst) >= limit:
@@ -95,6 +97,11 @@ def line_cycle_speed(
     solve = _dry if dry else _viscous
     blocks = [solve(size[i : i + BLOCK], growth) for i in range(0, size.size, BLOCK)]
     return np.asarray(np.concatenate([*blocks, size[:0]]).reshape(strength.shape) / unit)
+
+
+def is_dry(friction: str) -> bool:
+    """Whether a law of FRICTIONS, by its name, is Coulomb's. Raises ValueError for other names."""
+    return FRICTIONS[validation.choice("friction", friction, FRICTIONS)] == Coulomb()
 
 
 def _dry(alpha: Array, growth: Piece) -> Array:

@@ -15,7 +15,7 @@ from math import comb, factorial
 from typing import TYPE_CHECKING
 
 from linear_theory.common import validation
-from linear_theory.line.finite import FRICTIONS
+from linear_theory.line.finite import is_dry
 from linear_theory.line.piece import Piece
 
 if TYPE_CHECKING:
@@ -48,8 +48,7 @@ def line_cycle_series(
 
     size = validation.integer("order", order, 0) + 1
     growth = Piece.of(growth_law, load, body)
-    dry = validation.choice("friction", friction, FRICTIONS) == "coulomb"
-    speed = _dry(size, growth) if dry else _viscous(size, growth)
+    speed = _dry(size, growth) if is_dry(friction) else _viscous(size, growth)
     return tuple(Rational(c.numerator, c.denominator) for c in speed)
 
 

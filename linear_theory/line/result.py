@@ -28,7 +28,7 @@ class Level(NamedTuple):
     error: float
 
 
-class Balance(NamedTuple):
+class LineMotion(NamedTuple):
     """Speeds of a balanced body: mean and its error, V(t), the largest speed against the ground.
 
     times, velocity: (T,); first, second: coefficients of alpha and alpha^2; sticks: see `CrawlSpeed`.

@@ -27,7 +27,7 @@ from linear_theory.common import validation
 from linear_theory.common.tolerance import Tolerance
 from linear_theory.friction.laws import FrictionLaw
 from linear_theory.line.piece import Piece
-from linear_theory.line.result import REST_PART, REST_SPEED, Balance
+from linear_theory.line.result import REST_PART, REST_SPEED, LineMotion
 from linear_theory.line.roots import EPS, bracketed_newton
 from linear_theory.line.tanh_level import NARROWEST
 from linear_theory.wave.protocol import Drive
@@ -66,7 +66,7 @@ class Snapshot(NamedTuple):
 
 def sampled_balance(
     drive: Drive, alpha: float, law: FrictionLaw, growth: Piece, tolerance: Tolerance
-) -> Balance:
+) -> LineMotion:
     """Speed of a general wave, the length of the body being 1 in the law, the tolerance and the result.
 
     Raises ValueError if a sampled strain is out of the range of the law, and for a wave that does not
@@ -98,7 +98,7 @@ def sampled_balance(
                 break
         cells, times = cells << more_cells, times << more_times
     fastest = float(fine.fastest.max())
-    return Balance(
+    return LineMotion(
         mean=mean,
         error=in_space + in_time + 16 * EPS * fastest,
         times=instants,

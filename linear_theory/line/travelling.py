@@ -28,7 +28,7 @@ from numpy.typing import NDArray
 from linear_theory.friction.laws import FrictionLaw
 from linear_theory.line.body import Body
 from linear_theory.line.piece import Piece
-from linear_theory.line.result import REST_PART, REST_SPEED, Balance, Level
+from linear_theory.line.result import REST_PART, REST_SPEED, Level, LineMotion
 from linear_theory.line.roots import EPS, bracketed_newton
 from linear_theory.line.tanh_level import tanh_level
 from linear_theory.wave.travelling import TravellingWave
@@ -36,7 +36,9 @@ from linear_theory.wave.travelling import TravellingWave
 Array = NDArray[np.float64]
 
 
-def travelling_balance(wave: TravellingWave, alpha: float, law: FrictionLaw, growth: Piece) -> Balance:
+def travelling_balance(
+    wave: TravellingWave, alpha: float, law: FrictionLaw, growth: Piece
+) -> LineMotion:
     """Speed of a travelling wave.
 
     Raises ValueError if a strain alpha c is beyond the range of the growth law at some phase.
@@ -46,7 +48,7 @@ def travelling_balance(wave: TravellingWave, alpha: float, law: FrictionLaw, gro
     level, rests = _level(body, _width(law, abs(unit)))
     small = replace(body, growth=growth, size=0.0)
     first, second = _coefficients(small, sign * wave.mean, law)
-    return Balance(
+    return LineMotion(
         mean=unit * level.value,
         error=abs(unit) * (level.error + 4 * EPS * abs(level.value)),
         times=np.array([0.0, wave.period]),

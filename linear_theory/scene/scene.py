@@ -335,14 +335,14 @@ def _contact(effects: Iterable[NamedEffect], components: int, said: Contact | No
     """What the effects say of load, friction and slope, and `said`, which must agree, of the rest."""
     presses = [load for effect in effects if (load := effect.pressed_by(components)) is not None]
     rubs = [effect for effect in effects if effect.law is not None]
+    if said is not None and said.load is Load.GROUND and Load.GROUND not in presses:
+        raise ValueError("load = 'ground': the scene must name the effect Ground")
     load = presses[-1] if presses else (Load.CURRENT if said is None else said.load)
     law = rubs[0].law if rubs else None
     if law is None:
         found = Contact(load) if said is None else replace(said, load=load)
     else:
         found = Contact(load, law, _slope(effects, rubs[0].mu))
-    if load is Load.GROUND and not presses:
-        raise ValueError("load = 'ground': the scene must name the effect Ground")
     if said is not None and said.load != load:
         raise ValueError(
             f"load = {str(said.load)!r}: must be None or {str(load)!r}, as the effects of the scene say"

@@ -32,6 +32,7 @@ from linear_theory.speed.model_error import LEVELS, model_error
 from linear_theory.speed.reach import judged, too_large_growth, warn_if_beyond
 from linear_theory.speed.result import CrawlSpeed, Estimate, RigidSpeed
 from linear_theory.speed.second_order import second_order_speed
+from linear_theory.speed.words import model_words
 from linear_theory.wave.protocol import Wave
 
 Array = NDArray[np.float64]
@@ -177,7 +178,7 @@ def _field_speed(
     """`field_speed` without its warnings."""
     start, law = time.perf_counter(), contact.friction
     tolerance = tolerance.of_speed(alpha, field.sheet.length / field.drive.period)
-    model = f"small strain ({type(field).__name__}), {contact.model}"
+    model = model_words(f"small strain ({type(field).__name__})", None, contact)
     deformation = LinearDeformation(lambda: field, alpha, contact)
     if alpha == 0:
         still = CrawlSpeed.steady(0.0, model, law.slip_ratio(0.0), field.seconds)

@@ -2,7 +2,7 @@
 
 The target is the planar nonlinear sheet of a growth law, area measure and load, under dry friction and
 too stiff for it to change its shape. Theories of three levels were compared with it for sine waves (see
-`figures/model_error_table.py`): a narrow strip at finite strain, small strain (order = 1 of
+`figures/measure/model_error.py`): a narrow strip at finite strain, small strain (order = 1 of
 `crawl_speed`) and the second order in alpha (order = 2). With V of order alpha^2 the distances are
 
     |V - V_target| = D alpha^2,                 the second order: D alpha^4,
@@ -28,7 +28,7 @@ from linear_theory.scene.scene import Scene
 Array = NDArray[np.float64]
 
 PATH = Path(__file__).parents[1] / "data" / "model_error.csv"
-COMMAND = "python -m figures.model_error_table"
+COMMAND = "python -m figures.measure.model_error"
 
 LEVELS = ("strip", "first order", "second order")
 """Names of the theories, as in `fem_check.predict.levels`, and of columns of the table."""

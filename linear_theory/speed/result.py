@@ -75,7 +75,7 @@ class CrawlSpeed(Drawable, Tabular):
     >>> print(f"V = {speed.mean:.3f} L/T along the wave, converged {speed.converged}")
     V = 0.106 L/T along the wave, converged True
     >>> print(f"friction is {speed.regime}; {speed.model}")
-    friction is dry; small strain (AirySeries), current load, coulomb friction
+    friction is dry; small strain (AirySeries), current load, dry friction
     """
 
     estimate: Estimate

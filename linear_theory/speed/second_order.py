@@ -47,6 +47,7 @@ from linear_theory.scene.scene import Scene
 from linear_theory.sheet.rectangle import Sheet
 from linear_theory.speed.reach import judged, too_large_growth, too_large_term
 from linear_theory.speed.result import CrawlSpeed, RigidSpeed
+from linear_theory.speed.words import model_words
 from linear_theory.wave.protocol import Wave
 
 Array = NDArray[np.float64]
@@ -206,7 +207,7 @@ def coefficients(
         first_error=float(first_error[1]),
         second_error=float(second_error[1]),
         seconds=time.perf_counter() - start,
-        model=f"second order in alpha, {field.growth.model}, {contact.model}",
+        model=model_words("second order in alpha", field.growth, contact),
         rigid_first=first,
         rigid_second=second,
         rigid_first_error=first_error,
@@ -244,7 +245,7 @@ def second_order_speed(scene: Scene, tolerance: Tolerance) -> CrawlSpeed:
     field = second_order_field(scene.sheet, scene.wave, scene.growth, field_tolerance(rtol))
     scene.growth.law.check(alpha, scene.drive.growths(*_points(scene.sheet)))
     period = leading_period(field, per_alpha, rtol)
-    both = coefficients(field, period, per_alpha, start)
+    both = coefficients(field, period, contact, start)
     norm = RigidNorm(field.gyration, field.mirrored)
     fastest = abs(alpha) * period.fastest / TINY_ALPHA
     found = replace(

@@ -46,7 +46,7 @@ TIME_SHARE, HIDDEN = 0.3, 0.1
 of the wave may go unseen by it."""
 
 
-class Period(NamedTuple):
+class PairedPeriod(NamedTuple):
     """Balanced motion through one period, V in length per time.
 
     grid: times of one quarter or half of the period; leading: (2, times, 3), V_x, V_y, Omega at the
@@ -117,7 +117,7 @@ class CycleBalance:
         scene = self.shapes.scene
         return scene.speed_per_rate(self.contact.slope != 0 or not scene.drive.changes_sign)
 
-    def average(self, tolerance: Tolerance) -> Period:
+    def average(self, tolerance: Tolerance) -> PairedPeriod:
         """Mean motion over a period at as many times as the tolerance needs and the noise allows."""
         grid, most = self._first_grid(), TIMES_PER_PHASE * len(self.shapes.states)
         found = self.balance(grid.times)
@@ -134,7 +134,7 @@ class CycleBalance:
         roundoff = self.norm.each(1e-12 * found.fastest + self.noise)
         error = time_error + self._quadrature_error(grid, found.leading) + roundoff
         sticks = bool(found.rest.max() > STICKING)
-        return Period(grid, found.leading, mean, error, found.fastest, sticks)
+        return PairedPeriod(grid, found.leading, mean, error, found.fastest, sticks)
 
     def balance(self, times: Array) -> RigidMotion:
         """Motion at times and half a period later, leading and remainder (2, times, 3)."""
@@ -166,7 +166,7 @@ class CycleBalance:
         """Mean V_x, V_y, Omega (3,) of motions (2, times, 3) at the times of the grid and later."""
         return grid.means(_paired(leading))[0]
 
-    def whole_period(self, period: Period) -> tuple[Array, Array]:
+    def whole_period(self, period: PairedPeriod) -> tuple[Array, Array]:
         """Times (T,) of one period in rising order from about 0 on, and V_x, V_y, Omega, (3, T)."""
         length = self.shapes.scene.period
         times, rigid = self._with_partners(period.grid.times), period.leading.reshape(-1, 3).T

@@ -11,11 +11,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from fem_check.shell.depth import laid_down
 from fem_check.shell.effects.effect import Effect
-from fem_check.shell.effects.gravity import Gravity
 from fem_check.shell.effects.ground import Ground
 from fem_check.shell.effects.koiter import Membrane
 from fem_check.shell.kinematics.discretisation import Discretisation
+from fem_check.shell.kinematics.extrapolation import extrapolated
 from fem_check.shell.kinematics.supports import Supports
 from fem_check.shell.model import ShellModel
 from fem_check.shell.statics.ellipticity import Ellipticity
@@ -196,7 +197,7 @@ class _Solver:
             return Potential(self.discretisation, self.effects, self.model.rest(0.0, share))
 
         push = PUSH * self.scene.sheet.length if self.may_buckle else 0.0
-        start = static_depth(self.model)
+        start = laid_down(self.model)
         return self._count(
             ramp(self.minimiser, problem, start, follow=push, report=self._require_at_start)
         ).state
@@ -205,7 +206,7 @@ class _Solver:
         """Shapes at `count` phases from the first one on."""
         states = [state]
         for t in track("shapes through the period", phases(self.scene.period, count)[1:].tolist()):
-            states.append(self.shape(t, extrapolated(states[-EXTRAPOLATED:]), states[-1]).state)
+            states.append(self.shape(t, _next(states[-EXTRAPOLATED:]), states[-1]).state)
         return self.shapes(np.array(states))
 
     def shapes(self, states: Array, known: Shapes | None = None) -> Shapes:
@@ -220,14 +221,14 @@ class _Solver:
         """The shape at time t next to a guess, or to the one before where the guess does not serve."""
         potential = Potential(self.discretisation, self.effects, self.model.rest(t))
         try:
-            result = self._left(potential, self._next(potential, guess, before))
+            result = self._left(potential, self._found(potential, guess, before))
         except ConvergenceError as error:
             text = f"t = {t:g}: no shape next to the one before, as where a sheet snaps over: {error}"
             raise ConvergenceError(text, error.state, t) from error
         self._require_stable(result.state, t)
         return self._count(result)
 
-    def _next(self, potential: Potential, guess: Array, before: Array) -> Equilibrium:
+    def _found(self, potential: Potential, guess: Array, before: Array) -> Equilibrium:
         try:
             return self.minimiser.minimise(potential, guess)
         except ConvergenceError:
@@ -271,28 +272,6 @@ def working_effects(model: ShellModel) -> tuple[Effect, ...]:
     return tuple(e for e in effects if not (model.planar and e.pressed_by(2)))
 
 
-def static_depth(model: ShellModel) -> Array:
-    """The undeformed sheet, lowered on a flat ground to where that carries the weight, (size,)."""
-    ground, gravity = model.find(Ground), model.find(Gravity)
-    if ground is None:
-        return model.discretisation.zeros()
-    depth = np.sqrt(gravity.weight / ground.stiffness)
-
-    def jets(x: Array, y: Array) -> Array:
-        out = np.zeros((6, 3, x.size))
-        out[0, 2] = -depth
-        return out
-
-    return model.discretisation.interpolate(jets)
-
-
-def extrapolated(states: list[Array]) -> Array:
+def _next(states: list[Array]) -> Array:
     """The polynomial through equidistant states, one step on."""
-    count = len(states)
-    signs = np.array([(-1.0) ** (count - 1 - i) for i in range(count)])
-    weights = signs * [_binomial(count, i) for i in range(count)]
-    return np.asarray(weights @ np.array(states))
-
-
-def _binomial(n: int, k: int) -> float:
-    return float(np.prod([(n - j) / (j + 1) for j in range(k)]))
+    return extrapolated(np.arange(float(len(states))), states, float(len(states)))

@@ -17,7 +17,7 @@ import skfem
 from numpy.typing import NDArray
 
 from fem_check.shell.abilities import CYCLE, require
-from fem_check.shell.cycle.balance import CycleBalance, Period
+from fem_check.shell.cycle.balance import CycleBalance, PairedPeriod
 from fem_check.shell.cycle.contact import creep, held_contact
 from fem_check.shell.cycle.deformation import CycleDeformation
 from fem_check.shell.cycle.motion import UnresolvedError, is_mirrored
@@ -34,6 +34,7 @@ from linear_theory.friction.contact import Contact
 from linear_theory.friction.regime import warn_if_viscous
 from linear_theory.scene.scene import Scene
 from linear_theory.speed.result import CrawlSpeed, Estimate, RigidSpeed
+from linear_theory.speed.words import model_words
 
 Array = NDArray[np.float64]
 
@@ -154,7 +155,7 @@ class Cycle(Shown):
         mesh, gain = other_mesh(self._shapes.model.discretisation.mesh)
         return KeptShapes(ShellModel(self.scene.but(cells=None, mesh=mesh))), gain
 
-    def _mesh_error(self, balance: CycleBalance, period: Period) -> Array:
+    def _mesh_error(self, balance: CycleBalance, period: PairedPeriod) -> Array:
         """What the mesh does to the mean motion, from the speed on another mesh at the same times."""
         kept, gain = self._compared
         shapes = kept.at(len(balance.shapes.states))
@@ -185,7 +186,7 @@ class KeptShapes:
 
 def _with_enough_phases(
     kept: KeptShapes, contact: Contact, tolerance: Tolerance
-) -> tuple[CycleBalance, Period, Array]:
+) -> tuple[CycleBalance, PairedPeriod, Array]:
     """Double the phases until the interpolation between them takes its share of the tolerance.
 
     Or until it is below the noise of the shapes, which more phases do not reduce; or at once where the
@@ -208,7 +209,7 @@ def _with_enough_phases(
         count *= 2
 
 
-def _phase_error(balance: CycleBalance, period: Period) -> Array:
+def _phase_error(balance: CycleBalance, period: PairedPeriod) -> Array:
     """What the interpolation between phases does to the mean motion, (3,).
 
     The change by leaving out every second phase, reduced by the ratio of the harmonics beyond the
@@ -274,17 +275,14 @@ def _is_target(scene: Scene) -> bool:
 
 
 def _starts_at_second_order(scene: Scene, contact: Contact) -> bool:
-    """Whether it is known that c(t + T/2) = -c(t), on level ground: the first order then has no mean."""
+    """Whether c(t + T/2) = -c(t) is known, on level ground: the first order then has no mean."""
     drive = scene.drive
     return contact.slope == 0 and drive.series is not None and drive.changes_sign
 
 
 def _words(scene: Scene, contact: Contact) -> str:
     where = "in the plane" if scene.planar else "in space"
-    slope = f", on a slope of {contact.slope:g} of its friction" if contact.slope else ""
     weak = friction_over_growth(scene)
     ratio = f" (its strain is {weak:.1g} of that by growth)" if 0 < weak < math.inf else ""
-    return (
-        f"nonlinear sheet {where}{slope}, {scene.growth.model}, "
-        f"static shapes not affected by friction{ratio}; {contact.model}"
-    )
+    static = f"static shapes not affected by friction{ratio}"
+    return model_words(f"nonlinear sheet {where}", scene.growth, contact, static)

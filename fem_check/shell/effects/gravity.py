@@ -1,6 +1,6 @@
 """Weight."""
 
-from dataclasses import dataclass
+from dataclasses import InitVar, dataclass
 from typing import ClassVar
 
 import numpy as np
@@ -29,21 +29,22 @@ class Gravity(Value, Effect):
     """The force -weight e_z per area, on level ground or on an incline.
 
     weight: the rho g of the paper (2.5e-4 E), a force per area > 0. load: the area by which
-    it is counted, a `Load` or its name: "grown", "current" or "material". incline: angle in radians by
-    which the ground rises towards +y; the axes stay those of the ground, and the weight points along
-    (0, -sin, -cos). In a planar scene on level ground it does no work and is only the load that
-    friction is proportional to. Raises ValueError for a weight <= 0 and for an incline that is not
-    within a right angle.
+    it is counted, a `Load` or its name: "grown", "current" or "material"; area is its former name.
+    incline: angle in radians by which the ground rises towards +y; the axes stay those of the ground,
+    and the weight points along (0, -sin, -cos). In a planar scene on level ground it does no work and
+    is only the load that friction is proportional to. Raises ValueError for a weight <= 0 and for an
+    incline that is not within a right angle.
     """
 
     weight: float
     load: Load = Load.GROWN
     incline: float = 0.0
+    area: InitVar[Load | str | None] = None
     entries: ClassVar[Entries] = (0,)
 
-    def __post_init__(self) -> None:
+    def __post_init__(self, area: Load | str | None) -> None:
         validation.positive("weight", self.weight)
-        object.__setattr__(self, "load", Load.named(self.load))
+        object.__setattr__(self, "load", Load.named(self.load if area is None else area))
         if abs(validation.real("incline", self.incline)) >= np.pi / 2:
             raise ValueError(f"incline = {self.incline:g}: must be in (-pi/2, pi/2)")
 
@@ -93,8 +94,8 @@ class Gravity(Value, Effect):
         check_area(self.load, step)
 
     def beyond_theory(self, scene: Scene) -> str:
-        """Nothing, in the plane: it is the load of friction."""
-        return "" if scene.planar else type(self).__name__
+        """Nothing, in the plane and on level ground: there it is the load of friction."""
+        return "" if scene.planar and not self.incline else type(self).__name__
 
     def beyond_cycle(self, scene: Scene) -> str:
         """An incline in space, or one on which nothing holds the sheet; current areas in space."""

@@ -1,6 +1,6 @@
 """The ground: a repulsion that grows with the square of the penetration, and contact damping."""
 
-from dataclasses import dataclass, replace
+from dataclasses import InitVar, dataclass, replace
 from typing import Any, ClassVar
 
 import numpy as np
@@ -31,9 +31,9 @@ class Ground(Value, Effect):
     length^4. damping: beta >= 0, force times time per length^3; v is the rate of the gap. form:
     "clipped", the pressure is never negative; "printed": as eq. 2 stands, damping pulls at a sheet
     that leaves. load: the area in which the
-    pressure is counted, a `Load` or its name: "grown", "current" or "material". height: None is the
-    plane z = 0; else a function z = f(x, y), one that returns f with its derivatives, a sympy
-    expression in x and y, or a `Terrain` of one of these, which it becomes.
+    pressure is counted, a `Load` or its name: "grown", "current" or "material"; area is its former
+    name. height: None is the plane z = 0; else a function z = f(x, y), one that returns f with its
+    derivatives, a sympy expression in x and y, or a `Terrain` of one of these, which it becomes.
     Raises ValueError for a stiffness <= 0, a damping < 0, other names and as `Terrain` does.
     """
 
@@ -42,15 +42,16 @@ class Ground(Value, Effect):
     load: Load = Load.GROWN
     height: Any = None
     form: str = "clipped"
+    area: InitVar[Load | str | None] = None
     entries: ClassVar[Entries] = (0,)
     needs_space: ClassVar[bool] = True
     stored_as: ClassVar[str] = "ground"
 
-    def __post_init__(self) -> None:
+    def __post_init__(self, area: Load | str | None) -> None:
         validation.positive("stiffness", self.stiffness)
         if validation.real("damping", self.damping) < 0:
             raise ValueError(f"damping = {self.damping:g}: must be >= 0")
-        object.__setattr__(self, "load", Load.named(self.load))
+        object.__setattr__(self, "load", Load.named(self.load if area is None else area))
         validation.choice("form", self.form, FORMS)
         if self.height is not None and not isinstance(self.height, Terrain):
             object.__setattr__(self, "height", Terrain(self.height))

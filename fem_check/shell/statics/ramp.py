@@ -12,6 +12,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from fem_check.shell.kinematics.extrapolation import extrapolated
 from fem_check.shell.statics.equilibrium import ConvergenceError, Equilibrium
 from fem_check.shell.statics.newton import Minimiser
 from fem_check.shell.statics.potential import Potential
@@ -58,7 +59,9 @@ def ramp(
     while done < 1:
         target = min(1.0, done + increment) if done + 1.01 * increment < 1 else 1.0
         try:
-            result = _increment(minimiser, problem(target), _extrapolated(path, target), state)
+            places, states = zip(*path, strict=True)
+            guess = extrapolated(places, states, target)
+            result = _increment(minimiser, problem(target), guess, state)
             if result.buckled and follow > 0:
                 result = follow_mode(minimiser, problem(target), result, follow)
         except ConvergenceError as error:
@@ -85,15 +88,6 @@ def _increment(minimiser: Minimiser, potential: Potential, guess: Array, state: 
     if not orientation.keeps(orientation.directors(state), orientation.directors(guess)):
         guess = state
     return minimiser.minimise(potential, guess)
-
-
-def _extrapolated(path: list[tuple[float, Array]], target: float) -> Array:
-    """The polynomial through the last states (up to three), at the next parameter."""
-    total = np.zeros_like(path[0][1])
-    for i, (place, state) in enumerate(path):
-        others = [other for j, (other, _) in enumerate(path) if j != i]
-        total += np.prod([(target - o) / (place - o) for o in others]) * state
-    return total
 
 
 def follow_mode(

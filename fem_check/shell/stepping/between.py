@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fem_check.shell.kinematics.discretisation import Discretisation
+from fem_check.shell.kinematics.extrapolation import extrapolated
 from fem_check.shell.kinematics.region import Region
-from fem_check.shell.stepping.step_control import extrapolated
 
 Array = NDArray[np.float64]
 

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from fem_check.shell.effects.gravity import Gravity
+from fem_check.shell.depth import laid_down
 from fem_check.shell.effects.ground import Ground
 from fem_check.shell.kinematics.discretisation import Discretisation
 from fem_check.shell.kinematics.rates import Affine, Step
@@ -27,14 +27,11 @@ def translation(discretisation: Discretisation, shift: ArrayLike) -> Array:
 
 def resting_state(stepper: Stepper) -> Array:
     """The ungrown sheet, (size,): as it was made, or sunk into the ground under its weight."""
-    model, discretisation = stepper.model, stepper.model.discretisation
-    ground: Ground | None = model.find(Ground)
-    if ground is None:
-        return discretisation.zeros()
+    model, state = stepper.model, laid_down(stepper.model)
+    if model.find(Ground) is None:
+        return state
     rest = stepper.rest(0.0)
-    depth = float(np.sqrt(model.find(Gravity).weight / ground.stiffness))
-    state = sunk(discretisation, ground, depth)
-    minimiser = Minimiser(Supports(discretisation).anchor(motions="xy"))
+    minimiser = Minimiser(Supports(model.discretisation).anchor(motions="xy"))
     for _ in range(3):  # a weight per current area is that of the state before
         step = Step(area=stepper.area(state)) if stepper.holds_area else None
         potential = model.potential(rest, step, model.static_effects)
@@ -42,22 +39,6 @@ def resting_state(stepper: Stepper) -> Array:
         if step is None:
             break
     return state
-
-
-def sunk(discretisation: Discretisation, ground: Ground, depth: float) -> Array:
-    """Unknowns (size,) of a flat sheet that was laid on the ground and pressed in by `depth`."""
-    state = translation(discretisation, (0.0, 0.0, -depth))
-    if ground.height is None:
-        return state
-    height = ground.height
-
-    def jets(x: Array, y: Array) -> Array:
-        out = np.zeros((6, 3, x.size))
-        # The ground's derivatives come as x, y, xx, yy, xy, as those of a surface do.
-        out[:, 2] = height(x, y)
-        return out
-
-    return state + discretisation.interpolate(jets)
 
 
 def first_history(stepper: Stepper, dt: float, velocity: ArrayLike | None) -> History:

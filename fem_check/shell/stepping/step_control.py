@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from fem_check.shell.kinematics.extrapolation import extrapolated
 from fem_check.shell.kinematics.rates import Affine, newmark, two_step
 from linear_theory.wave.protocol import PER_HARMONIC
 from linear_theory.wave.spectrum import Spectrum
@@ -104,15 +105,6 @@ class History:
         if acceleration is None:
             return after
         return replace(after, velocity=velocity(state), acceleration=acceleration(state))
-
-
-def extrapolated(times: Array, states: Array, target: float) -> Array:
-    """The polynomial through states (n, size) at times (n,), at another time."""
-    weights = [
-        np.prod([(target - o) / (t - o) for j, o in enumerate(times) if j != i])
-        for i, t in enumerate(times)
-    ]
-    return np.asarray(weights @ states)
 
 
 @dataclass

@@ -24,6 +24,7 @@ from linear_theory.friction.regime import Regime, regime_of
 from linear_theory.scene.scene import Scene
 from linear_theory.speed.path import Poses
 from linear_theory.speed.result import CrawlSpeed, Estimate, speed_in_words
+from linear_theory.speed.words import model_words
 
 Array = NDArray[np.float64]
 
@@ -255,9 +256,12 @@ class Trajectory(Drawable, Tabular):
         """
         last, errors = self._last(1), self.errors
         snaps = bool(self.buckled[last].any())
-        model = f"Koiter shell stepped in time, {self.scene.growth.law.name} growth"
-        if np.isnan(errors.mesh):
-            model += "; mesh error not estimated"
+        unknown = "mesh error not estimated" if np.isnan(errors.mesh) else ""
+        snapped = "snaps over" if snaps else ""
+        shape, scene = "Koiter shell stepped in time", self.scene
+        rubs = any(effect.law for effect in self.model.effects)
+        contact = scene.contact if rubs else None
+        model = model_words(shape, scene.growth, contact, unknown, snapped)
         mean = float(self.period_speeds[-1])
         error = float(np.nansum([errors.step, errors.spread, errors.mesh]))
         times = self.times[last]
@@ -269,7 +273,7 @@ class Trajectory(Drawable, Tabular):
             times=times,
             velocity=velocity,
             seconds=self.seconds,
-            model=f"{model}; snaps over" if snaps else model,
+            model=model,
             slip_ratio=self.slip_ratio,
         )
 

@@ -1,0 +1,1 @@
+"""What all scripts share: files and tables, options, the look, the sheets that are simulated."""

@@ -1,0 +1,1 @@
+"""Benchmarks that are printed and kept nowhere."""

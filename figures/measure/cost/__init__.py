@@ -1,0 +1,1 @@
+"""Error against time of every level of the theory, and the price of each effect."""

@@ -1,0 +1,1 @@
+"""Other finite element codes, for comparison where they are installed."""

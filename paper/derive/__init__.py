@@ -1,0 +1,1 @@
+"""The appendix of the write-up: formulas that are proved before they are printed."""
