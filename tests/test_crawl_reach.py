@@ -24,7 +24,7 @@ from linear_theory import (
     ritz_field,
     second_order,
 )
-from linear_theory.speed.reach import LARGEST_GROWTH, growths
+from linear_theory.speed.reach import LARGEST_GROWTH
 
 PAPER, SINE = Sheet(), SineWave()
 K = 2 * np.pi
@@ -48,7 +48,8 @@ PEAKS = [
 @pytest.mark.parametrize(("wave", "peak"), PEAKS)
 def test_the_largest_growth_is_found(wave, peak):
     x = y = np.linspace(-0.5, 0.5, 33)
-    assert abs(growths(wave, x, y, 1.0)).max() == pytest.approx(peak, rel=2e-3)  # (pi/64)^2/2: times
+    growths = wave.on(Sheet()).growths(x, y)
+    assert abs(growths).max() == pytest.approx(peak, rel=2e-3)  # (pi/64)^2/2: times
 
 
 @pytest.mark.parametrize(("wave", "peak"), PEAKS[:3])
@@ -106,7 +107,7 @@ def test_a_second_order_above_all_speeds_of_the_sheet_says_so():
     # k = 1, 3, 5 of a square wave, its slope where c = 0 is 3 times that of a sine
     steep = TravellingWave(np.zeros(5), 0.93 * np.array([1, 0, 1 / 3, 0, 1 / 5]))
     narrow, alpha = Sheet(width=0.05), 0.3
-    assert alpha * abs(growths(steep, np.zeros(1), np.zeros(1), 1.0)).max() < LARGEST_GROWTH
+    assert alpha * abs(steep.on(Sheet()).growths(np.zeros(1), np.zeros(1))).max() < LARGEST_GROWTH
     with pytest.warns(BeyondReachWarning, match="largest speed of the points"):
         found = crawl_speed(narrow, steep, alpha, order=2, rtol=0.1)
     strip = line_balance(steep, alpha, growth_law="exp", body="strip")

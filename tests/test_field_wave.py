@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from linear_theory.wave.given import FieldWave
+from linear_theory import FieldWave, Scene, Sheet
 
 
 def test_values_broadcast_and_constants_are_spread():
@@ -53,3 +53,35 @@ def test_bad_arguments(arguments, message):
 def test_bad_results(function, message):
     with pytest.raises(ValueError, match=message):
         FieldWave(function, 1.0).value(np.zeros(3), 0, 0)
+
+
+def wave(scale=1.0, period=2.0, **arguments):
+    return FieldWave(lambda x, y, t: scale * np.sin(y - np.pi * t) + 0 * x, period, **arguments)
+
+
+def still(x, y, t):
+    return 0 * x
+
+
+def test_waves_of_the_same_content_are_equal():
+    assert wave() == wave()
+    assert hash(wave()) == hash(wave())
+    assert len({wave(), wave(), wave(2.0)}) == 2
+    assert Sheet() != wave() != "wave"
+    others = wave(2.0), wave(period=1.0), wave(rate=still), wave(name="a")
+    assert all(wave() != other for other in others)
+    assert wave(1.0, name="a") == wave(2.0, name="a")  # a name stands for the functions
+    assert wave(rate=still) == wave(rate=still)
+    assert Scene(Sheet(), wave(), 0.1) == Scene(Sheet(), wave(), 0.1)
+
+
+def test_a_wave_whose_content_is_not_known_equals_itself_alone():
+    numbers = iter(range(3))
+
+    def made():
+        return FieldWave(lambda x, y, t: next(numbers) + 0 * x, 1.0)
+
+    one = made()
+    assert one == one
+    assert one != made()
+    assert one in {one}

@@ -100,7 +100,7 @@ def test_growth_is_judged_where_the_sheet_is():
     )
     for shift, expected in ((0, True), (3, False)):
         field = plane_stress_field(Outline(CORNERS + np.array([shift, 0])), wave, size=0.5, degree=2)
-        assert field.survey.changes_sign is expected
+        assert field.drive.changes_sign is expected
 
 
 def test_corners_far_away_are_points_of_the_sheet():

@@ -63,7 +63,7 @@ def test_time_left_is_at_the_pace_so_far(monkeypatch):
 def test_levels_and_meshes_are_named():
     seen = []
     predict(Sheet(), SineWave(), 0.1, rtol=0.1, method="cycle", progress=seen.append)
-    across, along = default_cells(Sheet(), SineWave(), planar=True)  # enough for this tolerance
+    across, along = default_cells(SineWave().on(Sheet()), planar=True)  # enough for this tolerance
     assert all(one.task.startswith(f"cycle, {across} x {along} elements: ") for one in seen)
     assert any("shapes" in one.task for one in seen)
     assert any("friction" in one.task for one in seen)

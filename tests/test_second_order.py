@@ -204,7 +204,7 @@ def test_error_estimate_is_honest(sheet, wave, options):
 def test_error_of_coarse_polynomials_is_honest():
     exact = leading_period(second_order_field(PAPER, SINE, rtol=1e-6), Contact(), 1e-3)
     for degree in ((5, 9), (7, 11), (9, 15)):
-        field = SecondOrderField(RitzField(SINE, RitzSolver(PAPER, degree)))
+        field = SecondOrderField(RitzField(SINE.on(PAPER), RitzSolver(PAPER, degree)))
         found = leading_period(field, Contact(), 1e-3)
         assert abs(found.mean - exact.mean) <= found.error + exact.error
 

@@ -18,7 +18,6 @@ from linear_theory.friction.laws import Coulomb, Viscous
 from linear_theory.growth.growth import Growth
 from linear_theory.scene.scene import Scene
 from linear_theory.speed.second_order import TINY_ALPHA, _Coefficients
-from linear_theory.wave.survey import WaveSurvey
 
 SHEET, K = Sheet(width=0.5, poisson=0.3), 2 * np.pi
 SINE = SineWave()
@@ -188,11 +187,11 @@ def test_both_orders_of_theory_have_the_same_first_order():
 
 
 def test_a_wave_that_changes_sign_is_seen():
-    assert WaveSurvey.on_sheet(WAVES["oblique"], SHEET).changes_sign
-    assert WaveSurvey.on_sheet(SINE, SHEET).changes_sign
-    assert not WaveSurvey.on_sheet(WAVES["unequal"], SHEET).changes_sign
+    assert WAVES["oblique"].on(SHEET).changes_sign
+    assert SINE.on(SHEET).changes_sign
+    assert not WAVES["unequal"].on(SHEET).changes_sign
     shifted = FieldWave(lambda x, y, t: oblique(x, y, t) + 1e-6, 1.0)
-    assert not WaveSurvey.on_sheet(shifted, SHEET).changes_sign
+    assert not shifted.on(SHEET).changes_sign
 
 
 def test_slip_speed_of_coefficients_is_per_unit_alpha():

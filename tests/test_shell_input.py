@@ -214,10 +214,10 @@ def test_good_meshes_are_accepted() -> None:
 
 def test_the_default_mesh_is_bounded() -> None:
     """A strip a millionth as wide as long has elements as long as growth asks for."""
-    assert default_cells(Sheet(width=1e-6), SineWave(), True) == (2, 256)
-    assert default_cells(Sheet(), SineWave(), True) == (2, 4)
+    assert default_cells(SineWave().on(Sheet(width=1e-6)), True) == (2, 256)
+    assert default_cells(SineWave().on(Sheet()), True) == (2, 4)
     with pytest.raises(ValueError, match=r"cells = \(2, 400000\): 800000 elements are too many"):
-        default_cells(Sheet(), SineWave(100_000), True)
+        default_cells(SineWave(100_000).on(Sheet()), True)
     for cells, words in (
         ((2, 10**9), "2000000000 elements"),
         (np.array(5), "two integers"),

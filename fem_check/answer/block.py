@@ -52,7 +52,7 @@ def block(
     after what is left out and after the cost.
     """
     q = found.scene
-    units = units or Units.of_sheet(q.sheet.length, q.wave.period)
+    units = units or Units.of_sheet(q.sheet.length, q.period)
     lines = [*_asked(found, units), *_answer(found, units), *_assumed(found, units, hints)]
     return "\n".join(_wrapped(label, text, width) for label, text in lines if text)
 
@@ -60,11 +60,11 @@ def block(
 def _asked(found: "Prediction", units: Units) -> Iterator[Line]:
     """The sheet, its wave and its growth."""
     q = found.scene
-    wave, sheet = arrows(q.wave, found.mean if abs(found.mean) > _error(found) else 0.0)
+    wave, sheet = arrows(q.drive, found.mean if abs(found.mean) > _error(found) else 0.0)
     sizes = (units.of_length(size) for size in (q.sheet.length, q.sheet.width, q.sheet.thickness))
-    period = units.of_time(q.wave.period)
-    asked = f"{' × '.join(map(plain, sizes))} {units.length}, {wave_words(q.wave)}"
-    own = units == Units.of_sheet(q.sheet.length, q.wave.period)
+    period = units.of_time(q.period)
+    asked = f"{' × '.join(map(plain, sizes))} {units.length}, {wave_words(q.drive)}"
+    own = units == Units.of_sheet(q.sheet.length, q.period)
     yield wave, asked + (_own_units(units) if own else f", T = {plain(period, 6)} {units.time}")
     most = extremes(q)
     growth = f"growth {plain(100 * most.crest)} % of length at the crest"
@@ -85,9 +85,9 @@ def _answer(found: "Prediction", units: Units) -> Iterator[Line]:
     """Speed, direction, the other motions, and whether the tolerance is met."""
     error = _error(found)
     shown = measured(units.of_speed(found.mean), units.of_speed(error))
-    way = heading(found.scene.wave, found.mean, error)
+    way = heading(found.scene.drive, found.mean, error)
     yield "speed", f"{shown.with_unit(units.speed)}, {way}; {per_period(found, units, error)}"
-    yield from sideways_and_turning(found.speed, found.scene.wave, units)
+    yield from sideways_and_turning(found.speed, found.scene.period, units)
     if found.speed.beyond_reach:
         yield "NO ANSWER", found.speed.reach
     elif not found.converged:

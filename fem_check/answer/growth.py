@@ -5,11 +5,11 @@ from typing import NamedTuple
 import numpy as np
 
 from linear_theory.common import validation
-from linear_theory.deformation.field import Wave
 from linear_theory.growth.laws import GrowthLaw, growth_law
 from linear_theory.scene.scene import Scene
 from linear_theory.sheet.rectangle import Sheet
-from linear_theory.speed.reach import growths
+from linear_theory.wave.protocol import Drive, Wave
+from linear_theory.wave.sampled import drive
 
 POINTS = 33
 """Each way, at which growth of any shape is looked at."""
@@ -24,7 +24,7 @@ class Extremes(NamedTuple):
 
 def extremes(scene: Scene) -> Extremes:
     """Of a scene, over the sheet and a period."""
-    c = scene.alpha * _growth(scene.wave, scene.sheet)
+    c = scene.alpha * _growth(scene.drive)
     stretch = scene.growth.law.stretch(np.array([c.max(), c.min()]))
     return Extremes(float(stretch[0] - 1), float(stretch[1] - 1))
 
@@ -42,13 +42,14 @@ def alpha_of(crest: float, wave: Wave, sheet: Sheet, law: GrowthLaw | str = "exp
     0.113328685307 0.113328685307
     """
     crest = validation.positive("growth", crest)
-    largest = float(_growth(wave, sheet).max())
+    largest = float(_growth(drive(wave, sheet)).max())
     if largest <= 0:
         raise ValueError(f"growth = {crest:g}: the wave has no crest, its largest c is {largest:g}")
     return growth_law(law).strain(crest) / largest
 
 
-def _growth(wave: Wave, sheet: Sheet) -> np.ndarray[tuple[int, ...], np.dtype[np.float64]]:
+def _growth(drive: Drive) -> np.ndarray[tuple[int, ...], np.dtype[np.float64]]:
     """c at places and times that leave out no extreme by much."""
-    x, y = (s * np.linspace(-0.5, 0.5, POINTS) for s in (sheet.width, sheet.length))
-    return np.asarray(growths(wave, np.repeat(x, POINTS), np.tile(y, POINTS), sheet.length))
+    width, length = drive.sheet.width, drive.sheet.length
+    x, y = (s * np.linspace(-0.5, 0.5, POINTS) for s in (width, length))
+    return drive.growths(np.repeat(x, POINTS), np.tile(y, POINTS))

@@ -7,20 +7,20 @@ from typing import TYPE_CHECKING
 from fem_check.answer.rounding import measured
 from fem_check.answer.units import Units
 from fem_check.answer.wave_words import direction
-from linear_theory.deformation.field import Wave
 from linear_theory.speed.result import CrawlSpeed
+from linear_theory.wave.protocol import Drive
 
 if TYPE_CHECKING:
     from fem_check.choice.prediction import Prediction
 
 
-def heading(wave: Wave, mean: float, error: float) -> str:
+def heading(drive: Drive, mean: float, error: float) -> str:
     """Along or against the wave; for a wave without a direction of its own, towards +y or -y."""
     if mean == 0 and error == 0:
         return "at rest"
     if not abs(mean) > error:
         return "direction not known"
-    way = direction(wave)
+    way = direction(drive)
     if way == 0:
         return "towards +y" if mean > 0 else "towards −y"
     return "along the wave" if way * mean > 0 else "against the wave"
@@ -29,15 +29,15 @@ def heading(wave: Wave, mean: float, error: float) -> str:
 def per_period(found: "Prediction", units: Units, error: float) -> str:
     """The way of one period, in the unit of length, or as a share of the length L of the sheet."""
     scene = found.scene
-    way, wrong = (size * scene.wave.period for size in (found.mean, error))
-    if units == Units.of_sheet(scene.sheet.length, scene.wave.period):
+    way, wrong = (size * scene.period for size in (found.mean, error))
+    if units == Units.of_sheet(scene.sheet.length, scene.period):
         share = (100 / scene.sheet.length * size for size in (abs(way), wrong))
         return f"{measured(*share).value} % of L per period"
     shown = measured(units.of_length(abs(way)), units.of_length(wrong))
     return f"{shown.value} {units.length} per period"
 
 
-def sideways_and_turning(speed: CrawlSpeed, wave: Wave, units: Units) -> Iterator[tuple[str, str]]:
+def sideways_and_turning(speed: CrawlSpeed, period: float, units: Units) -> Iterator[tuple[str, str]]:
     """Lines for a motion that is not mirror symmetric, none for others. Errors are of the numbers."""
     if speed.turning is None:
         return
@@ -45,7 +45,7 @@ def sideways_and_turning(speed: CrawlSpeed, wave: Wave, units: Units) -> Iterato
     shown = measured(units.of_speed(across), units.of_speed(across_error))
     side = _side(across, across_error, "towards +x", "towards −x")
     yield "sideways", f"{shown.with_unit(units.speed)}{side} (numerical error)"
-    turn = math.degrees(wave.period)
+    turn = math.degrees(period)
     shown = measured(turn * rate, turn * rate_error)
     side = _side(rate, rate_error, "anticlockwise", "clockwise")
     yield "turning", f"{shown.with_unit('degrees per period')}{side} (numerical error)"

@@ -2,8 +2,7 @@
 
 import numpy as np
 
-from linear_theory.deformation.field import Wave
-from linear_theory.speed.model_error import is_sine
+from linear_theory.wave.protocol import Drive
 from linear_theory.wave.travelling import TravellingWave
 
 PULSE = 0.4
@@ -12,25 +11,27 @@ PULSE = 0.4
 PHASES = 4096
 
 
-def direction(wave: Wave) -> int:
+def direction(drive: Drive) -> int:
     """1 for a wave that runs towards +y, -1 towards -y, 0 where that is not said by a number."""
-    return int(np.sign(wave.count)) if isinstance(wave, TravellingWave) and wave.moves else 0
+    series = drive.series
+    return 0 if series is None or not series.moves else int(np.sign(series.count))
 
 
-def arrows(wave: Wave, speed: float) -> tuple[str, str]:
+def arrows(drive: Drive, speed: float) -> tuple[str, str]:
     """The wave and the sheet with the way they go, +y to the right."""
     ways = {1: "{} ──▶", -1: "◀── {}", 0: "{}"}
-    return ways[direction(wave)].format("wave"), ways[int(np.sign(speed))].format("sheet")
+    return ways[direction(drive)].format("wave"), ways[int(np.sign(speed))].format("sheet")
 
 
-def wave_words(wave: Wave) -> str:
+def wave_words(drive: Drive) -> str:
     """How many waves of what form are on the sheet."""
-    if not isinstance(wave, TravellingWave):
+    wave = drive.series
+    if wave is None:
         return "a wave c(x, y, t)"
     if not wave.moves:
         return "growth that stands still"
     count = abs(wave.count)
-    if is_sine(wave):
+    if wave.sine_amplitude is not None:
         return f"{_counted(count, 'sine wave')} on the sheet"
     width = above_half(wave)
     if width < PULSE:

@@ -39,7 +39,7 @@ Level = Callable[[Scene, Tolerance], CrawlSpeed]
 
 def strip(scene: Scene, tolerance: Tolerance) -> CrawlSpeed:
     """The narrow strip, as long as the sheet; ValueError for a wave that depends on x."""
-    if scene.survey.depends_on_x:
+    if scene.drive.depends_on_x:
         raise ValueError("method = 'strip': cannot represent a wave that depends on x, 'cycle' can")
     found, distance = line_crawl(scene, tolerance, "strip"), model_error("strip", scene)
     return replace(found, model_error=distance, deformation=drawn_deformation(scene))
@@ -71,7 +71,7 @@ def cycle(scene: Scene, tolerance: Tolerance) -> CrawlSpeed:
 
 def finer(scene: Scene, factor: int) -> Scene:
     """A planar scene with `factor` times its cells each way."""
-    across, along = scene.cells or default_cells(scene.sheet, scene.wave, planar=True)
+    across, along = scene.cells or default_cells(scene.drive, planar=True)
     return scene.but(cells=(factor * across, factor * along))
 
 

@@ -31,7 +31,7 @@ from linear_theory.scene.scene import Scene
 from linear_theory.sheet.rectangle import Sheet
 from linear_theory.speed.reach import warn_if_beyond
 from linear_theory.speed.result import CrawlSpeed, speed_in_words
-from linear_theory.wave.travelling import Wave
+from linear_theory.wave.protocol import Wave
 
 METHODS = ("auto", *LEVELS)
 

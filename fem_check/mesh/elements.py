@@ -13,8 +13,7 @@ from fem_check.mesh.shown import MeshShown
 from linear_theory.common import validation
 from linear_theory.common.shown import Value
 from linear_theory.sheet.rectangle import Sheet
-from linear_theory.wave.survey import waves_along
-from linear_theory.wave.travelling import Wave
+from linear_theory.wave.protocol import Drive
 
 PLANAR_CELLS, SHELL_CELLS = 2, 6
 """Elements across the width by default, of degree 5 in the plane and of BFS in space; along the
@@ -91,13 +90,13 @@ def from_data(data: Mapping[str, Any]) -> dict[str, Any]:
     return found
 
 
-def default_cells(sheet: Sheet, wave: Wave, planar: bool) -> tuple[int, int]:
+def default_cells(drive: Drive, planar: bool) -> tuple[int, int]:
     """Elements across and along: about square, and several to a wavelength, up to LONGEST each.
 
     Raises ValueError where that would be too many elements.
     """
     across = PLANAR_CELLS if planar else SHELL_CELLS
-    waves = waves_along(wave)
+    sheet, waves = drive.sheet, drive.waves_along
     square = min(across * sheet.length / sheet.width, LONGEST * waves)
     return _two_integers((across, max(round(square), 2 * across * waves)))
 

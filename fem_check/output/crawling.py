@@ -37,12 +37,12 @@ class Crawling:
     @property
     def period(self) -> float:
         """Of the wave; that of V(t) as far as it is known where there is no wave."""
-        return self._deformation.wave.period if self.has_shape else _period(self.speed)
+        return self._deformation.drive.period if self.has_shape else _period(self.speed)
 
     @property
     def length(self) -> float:
         """Of the sheet."""
-        return self._deformation.length if self.has_shape else 1.0
+        return self._deformation.drive.sheet.length if self.has_shape else 1.0
 
     @property
     def words(self) -> str:
@@ -52,7 +52,7 @@ class Crawling:
     @property
     def direction(self) -> int:
         """See Moving."""
-        return direction(self._deformation.wave) if self.has_shape else 0
+        return direction(self._deformation.drive) if self.has_shape else 0
 
     @cached_property
     def components(self) -> int:

@@ -48,7 +48,7 @@ class Simulated:
     @property
     def direction(self) -> int:
         """See Moving."""
-        return direction(self._scene.wave)
+        return direction(self._scene.drive)
 
     def covering(self) -> tuple[Array, Integers]:
         """See Moving."""

@@ -22,13 +22,15 @@ from fem_check.mesh.shown import MeshShown
 from fem_check.plane_stress.solver import ELEMENTS, PlaneStressSolver
 from linear_theory.common import validation
 from linear_theory.common.threads import one_blas_thread
-from linear_theory.deformation.field import LinearField, Wave
+from linear_theory.deformation.field import LinearField
 from linear_theory.deformation.load_cases import SAMPLES, LoadCases, load_cases, mixed_norms
 from linear_theory.motion.motion import CellGrid
 from linear_theory.scene import arguments
 from linear_theory.sheet.rectangle import Sheet
 from linear_theory.wave.phases import phases
-from linear_theory.wave.survey import WaveSurvey, waves_along
+from linear_theory.wave.places import among
+from linear_theory.wave.protocol import Drive, Wave
+from linear_theory.wave.sampled import drive
 
 Array = NDArray[np.float64]
 
@@ -104,7 +106,7 @@ def _sheet(outline: Sheet | Outline | MeshTri, poisson: float | None) -> Sheet:
 def _size(sheet: Sheet, wave: Wave, size: float | None) -> float:
     if size is not None:
         return validation.positive("size", size)
-    return min(sheet.width, sheet.length / waves_along(wave)) / CELLS_PER_WIDTH
+    return min(sheet.width, sheet.length / drive(wave, sheet).waves_along) / CELLS_PER_WIDTH
 
 
 def _coarse_mesh(outline: Sheet | Outline | MeshTri, size: float) -> MeshTri:
@@ -155,7 +157,7 @@ class PlaneStressField(LinearField):
         self.sheet, self.wave, self.degree = sheet, wave, degree
         self._coarse, self._gain = coarse, gain
         self._solver = solver or PlaneStressSolver(coarse.refined(), degree, sheet.poisson)
-        self._cases = cases or load_cases(wave, sheet.length)
+        self._cases = cases or load_cases(self.drive)
         self._solution = self._solved(self._solver)
         self.seconds = time.perf_counter() - start
 
@@ -188,9 +190,9 @@ class PlaneStressField(LinearField):
         return covering(self.mesh)
 
     @cached_property
-    def survey(self) -> WaveSurvey:
-        """How the wave depends on time, at points of the body."""
-        return WaveSurvey.at_some(self.wave, self.sheet, self._solver.x, self._solver.y)
+    def drive(self) -> Drive:
+        """The wave on the body."""
+        return drive(self.wave, self.sheet, among(self._solver.x, self._solver.y))
 
     @cached_property
     @one_blas_thread
@@ -209,7 +211,7 @@ class PlaneStressField(LinearField):
 
     def _missed(self, solver: PlaneStressSolver) -> float:
         """Share of the growth that the triangles do not resolve, at the worst of some phases."""
-        times = phases(self.wave.period, SAMPLES)
+        times = phases(self.drive.period, SAMPLES)
         cases = self._cases.at(times)
         growths, amplitudes = cases.growths(solver.x, solver.y), cases.amplitudes(times)
         size = mixed_norms(growths * np.sqrt(solver.weights), amplitudes)

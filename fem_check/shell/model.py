@@ -62,7 +62,7 @@ class ShellModel(Shown):
         scene, elements = self.scene, self.scene.elements
         mesh = scene.mesh
         if mesh is None:
-            cells = scene.cells or default_cells(scene.sheet, scene.wave, self.planar)
+            cells = scene.cells or default_cells(scene.drive, self.planar)
             mesh = grid(scene.sheet, cells)
         element = None if elements is None else elements.element
         element = default_element(mesh, self.planar) if element is None else element
@@ -72,7 +72,7 @@ class ShellModel(Shown):
     def growth(self, t: float, x: ArrayLike, y: ArrayLike) -> Array:
         """c at points of the undeformed sheet."""
         scene = self.scene
-        return np.asarray(scene.wave.value(x, y, t, scene.sheet.length))
+        return np.asarray(scene.drive.value(x, y, t))
 
     def rest(self, t: float, amplitude: float = 1.0, region: Region | None = None) -> RestState:
         """Rest state at time t of `amplitude` times the wave, at interior points unless given."""

@@ -12,10 +12,10 @@ from fem_check.shell.effects.friction import Friction
 from fem_check.shell.effects.gravity import Gravity
 from fem_check.shell.effects.koiter import Membrane
 from fem_check.shell.material import Material
-from linear_theory.deformation.field import Wave
 from linear_theory.friction.load import Load
 from linear_theory.scene.scene import Scene
 from linear_theory.sheet.rectangle import Sheet
+from linear_theory.wave.protocol import Wave
 from linear_theory.wave.travelling import SineWave
 
 ACROSS = ((0.15, 2), (0.6, 4), (1.2, 8), (math.inf, 12))

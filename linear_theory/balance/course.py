@@ -1,9 +1,9 @@
 """The motion of a sheet at chosen times, and what can hide between them.
 
 The quadrature in time judges itself by differences of the motion on its grid. A harmonic of the wave
-that the grid does not tell from a lower one is not seen there, but is known from a survey of the wave.
-Where such harmonics can matter, the motion is found at random times, too: what it is off the
-polynomials of the grid has the error of the grid's mean as its expectation, whatever the wave.
+that the grid does not tell from a lower one is not seen there, but is known from the wave. Where
+such harmonics can matter, the motion is found at random times, too: what it is off the polynomials of
+the grid has the error of the grid's mean as its expectation, whatever the wave.
 """
 
 import math
@@ -76,9 +76,9 @@ class Course:
         if self.checks is not None:
             errors = np.maximum(errors, self._off(orders, _orders(self.checks)))
         else:
-            survey = self.crawl.survey
-            rate = survey.hidden(self.grid.longest_step)
-            speeds = (rate * survey.speed_per_rate(1.0, leading) for leading in (True, False))
+            drive = self.crawl.drive
+            rate = drive.hidden(self.grid.longest_step)
+            speeds = (rate * drive.speed_per_rate(1.0, leading) for leading in (True, False))
             errors = errors + np.stack([self.crawl.norm.each(speed) for speed in speeds])
         if self.crawl.starts_at_second_order:
             means[0] = errors[0] = 0.0
@@ -101,7 +101,7 @@ class Course:
         if norm.size(course._between) <= goal:
             return course, None
         times = self._times(goal)
-        step = crawl.field.wave.period / times if math.isfinite(times) else self.grid.longest_step / 2
+        step = crawl.drive.period / times if math.isfinite(times) else self.grid.longest_step / 2
         return course, self.grid.with_steps(step)
 
     def _within_reach(self, tolerance: float) -> float:
@@ -114,7 +114,7 @@ class Course:
     def _times(self, tolerance: float) -> float:
         """Equidistant times per period from which harmonics of no consequence hide; inf if unknown."""
         unit = self.crawl.speed_per_rate
-        return self.crawl.survey.times_for(HIDDEN * tolerance / unit if unit > 0 else math.inf)
+        return self.crawl.drive.times_for(HIDDEN * tolerance / unit if unit > 0 else math.inf)
 
     def on(self, grid: TimeGrid) -> "Course":
         """On a grid with more times."""
@@ -132,7 +132,7 @@ class Course:
     @property
     def _hidden(self) -> float:
         """Largest V of the harmonics of the wave that the grid does not tell from lower ones."""
-        return self.crawl.speed_per_rate * self.crawl.survey.hidden(self.grid.longest_step)
+        return self.crawl.speed_per_rate * self.crawl.drive.hidden(self.grid.longest_step)
 
     @property
     def _between(self) -> Array:

@@ -19,8 +19,7 @@ from linear_theory.friction.contact import Contact
 from linear_theory.friction.load import Load
 from linear_theory.motion.motion import CellGrid, Motion
 from linear_theory.motion.rigid import RigidNorm
-from linear_theory.wave.survey import WaveSurvey
-from linear_theory.wave.travelling import TravellingWave
+from linear_theory.wave.protocol import Drive
 
 Array = NDArray[np.float64]
 
@@ -101,14 +100,14 @@ class Crawl:
     resolution: Resolution
 
     @property
-    def survey(self) -> WaveSurvey:
-        """What is known of the wave."""
-        return self.field.survey
+    def drive(self) -> Drive:
+        """The wave on the sheet."""
+        return self.field.drive
 
     @property
     def starts_at_second_order(self) -> bool:
         """Whether c(t + T/2) = -c(t), so that the leading q_0 has exactly no mean."""
-        return self.survey.changes_sign
+        return self.drive.changes_sign
 
     @property
     def counts_leading(self) -> bool:
@@ -130,8 +129,7 @@ class Crawl:
     @property
     def reversal_time(self) -> float | None:
         """t_0 with V(t_0 - t) = V(t), where the wave and the sheet have that symmetry."""
-        wave = self.field.wave
-        return wave.reversal_time if isinstance(wave, TravellingWave) and self.field.mirrored else None
+        return self.drive.reversal_time if self.field.mirrored else None
 
     @cached_property
     def work(self) -> int:
@@ -149,7 +147,7 @@ class Crawl:
     @property
     def speed_per_rate(self) -> float:
         """Largest counted V that dc/dt of root mean square 1 makes."""
-        return self.survey.speed_per_rate(self.alpha, self.counts_leading)
+        return self.drive.speed_per_rate(self.alpha, self.counts_leading)
 
     @property
     def norm(self) -> RigidNorm:
@@ -186,7 +184,7 @@ class Crawl:
 
     def _motion(self, times: Array) -> Motion:
         field, r = self.field, self.resolution
-        across, along = self.survey.short_waves
+        across, along = self.drive.short_waves
         grid = CellGrid.graded(field.sheet, along, r.density, field.mirrored, across)
         return field.motion(times, grid, r.order)
 
@@ -204,7 +202,7 @@ def average(crawl: Crawl, tolerance: Tolerance) -> Period:
     What would be too much work is left out, which shows in the error. Raises ValueError for a wave that
     does not repeat after its period, or whose rate is not its derivative.
     """
-    crawl.survey.check()
+    crawl.drive.check()
     grid = _first_grid(crawl)
     crawl, motion, (quadrature_error, quadrature_errors) = _with_fine_cells(
         crawl, grid.times, tolerance
@@ -255,7 +253,7 @@ def _with_fine_cells(
 
 def _first_grid(crawl: Crawl) -> TimeGrid:
     """A period, or the half of one that tells the rest where V(t_0 - t) = V(t)."""
-    period, reversal = crawl.field.wave.period, crawl.reversal_time
+    period, reversal = crawl.drive.period, crawl.reversal_time
     if reversal is None:
         return first_grid(0.0, period, 5)
     return first_grid(reversal / 2, reversal / 2 + period / 2, 3)

@@ -22,8 +22,8 @@ from linear_theory.common.threads import one_blas_thread
 from linear_theory.motion.motion import CellGrid, Motion
 from linear_theory.sheet import hooke
 from linear_theory.sheet.rectangle import Sheet
-from linear_theory.wave.survey import WaveSurvey
-from linear_theory.wave.travelling import Wave as Wave
+from linear_theory.wave.protocol import Drive, Wave
+from linear_theory.wave.sampled import drive
 
 Array = NDArray[np.float64]
 
@@ -110,9 +110,9 @@ class LinearField(Shown, ABC):
         """Strain of each basis function, (basis functions, 3, *broadcast(x, y).shape)."""
 
     @cached_property
-    def survey(self) -> WaveSurvey:
-        """How the wave depends on time."""
-        return WaveSurvey.on_sheet(self.wave, self.sheet)
+    def drive(self) -> Drive:
+        """The wave on the body."""
+        return drive(self.wave, self.sheet)
 
     def _for_times(self, t: Array) -> "LinearField":
         """The field whose basis spans the motion at times t: itself, if its basis does so always."""
@@ -142,8 +142,7 @@ class LinearField(Shown, ABC):
     def stress(self, x: ArrayLike, y: ArrayLike, t: ArrayLike) -> Array:
         """(xx, yy, xy) of the stress, (3, ...), units of Young's modulus."""
         strain = self.strain(x, y, t)
-        growth = self.wave.value(x, y, t, self.sheet.length)
-        return hooke.stress(strain, growth, self.sheet.poisson)
+        return hooke.stress(strain, self.drive.value(x, y, t), self.sheet.poisson)
 
     @one_blas_thread
     def motion(self, times: ArrayLike, grid: CellGrid, order: int) -> Motion:
@@ -160,7 +159,7 @@ class LinearField(Shown, ABC):
             area=area,
             velocity=np.moveaxis(np.tensordot(field._amplitude_rates(t).T, displacements, 1), 1, 0),
             dilation=np.tensordot(field._amplitudes(t).T, dilations, 1),
-            growth=self.wave.value(position[0], position[1], growth_time, self.sheet.length),
+            growth=self.drive.value(position[0], position[1], growth_time),
             mirrored=self.mirrored and grid.half,
             centre=self.centre,
         )

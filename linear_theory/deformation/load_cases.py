@@ -2,17 +2,15 @@
 
     c(x, y, t) = sum_j amplitude_j(t) growth_j(x, y)
 
-Waves that travel along y have few growths that serve all times (`Harmonics`); for any other wave
-the growths are c and dc/dt themselves at the times that are asked for (`Snapshots`).
+Waves that are a series of y and t have few growths that serve all times (`Harmonics`); for any other
+wave the growths are c and dc/dt themselves at the times that are asked for (`Snapshots`).
 """
-
-from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
-from linear_theory.deformation.field import Wave
 from linear_theory.wave.phases import phases
+from linear_theory.wave.protocol import Drive
 from linear_theory.wave.travelling import TravellingWave
 
 Array = NDArray[np.float64]
@@ -24,63 +22,37 @@ MOST_TIMES = 512
 """Different times of a general wave that one call may ask for."""
 
 
-class LoadCases(Protocol):
-    """Growths and their amplitudes."""
-
-    def amplitudes(self, t: Array) -> Array:
-        """Of c, (cases, *t.shape)."""
-
-    def rates(self, t: Array) -> Array:
-        """Of dc/dt, (cases, *t.shape)."""
-
-    def growths(self, x: Array, y: Array) -> Array:
-        """Growth of each case, (cases, *broadcast(x, y).shape)."""
-
-    def samples(self) -> Array:
-        """Amplitudes at phases that cover a period, (cases, phases)."""
-
-    def at(self, t: Array) -> "LoadCases":
-        """The cases that serve these times."""
-
-
-def load_cases(wave: Wave, length: float) -> LoadCases:
-    """Those of a wave on a sheet of that length."""
-    if isinstance(wave, TravellingWave):
-        return Harmonics(wave, length)
-    return Snapshots(wave, length, phases(wave.period, SAMPLES))
-
-
 class Harmonics:
     """cos(2 pi r y/L) of all harmonics, sin(2 pi r y/L) of all, and 1 if the wave has a mean."""
 
-    def __init__(self, wave: TravellingWave, length: float) -> None:
-        self.wave, self.length = wave, length
+    def __init__(self, series: TravellingWave, length: float) -> None:
+        self.series, self.length = series, length
 
     def amplitudes(self, t: Array) -> Array:
         """Of c, (cases, *t.shape)."""
-        return self._with_mean(*self.wave.factors(t), self.wave.mean)
+        return self._with_mean(*self.series.factors(t), self.series.mean)
 
     def rates(self, t: Array) -> Array:
         """Of dc/dt, (cases, *t.shape)."""
-        return self._with_mean(*self.wave.factor_rates(t), 0.0)
+        return self._with_mean(*self.series.factor_rates(t), 0.0)
 
     def growths(self, x: Array, y: Array) -> Array:
         """Growth of each case, (cases, *broadcast(x, y).shape)."""
         _, y = np.broadcast_arrays(x, y)
-        angle = np.multiply.outer(2 * np.pi / self.length * self.wave.orders, y)
+        angle = np.multiply.outer(2 * np.pi / self.length * self.series.orders, y)
         return self._with_mean(np.cos(angle), np.sin(angle), 1.0)
 
     def samples(self) -> Array:
         """At eight phases to a period of the highest harmonic, 256 at most, (cases, phases)."""
-        count = max(SAMPLES, min(8 * len(self.wave.orders), 256))
-        return self.amplitudes(phases(self.wave.period, count))
+        count = max(SAMPLES, min(8 * len(self.series.orders), 256))
+        return self.amplitudes(phases(self.series.period, count))
 
     def at(self, t: Array) -> "Harmonics":
         """Itself: the cases serve all times."""
         return self
 
     def _with_mean(self, even: Array, odd: Array, value: float) -> Array:
-        last = [np.full((1, *even.shape[1:]), value)] if self.wave.mean else []
+        last = [np.full((1, *even.shape[1:]), value)] if self.series.mean else []
         return np.concatenate([even, odd, *last])
 
 
@@ -90,8 +62,8 @@ class Snapshots:
     times: (T,), different.
     """
 
-    def __init__(self, wave: Wave, length: float, times: Array) -> None:
-        self.wave, self.length, self.times = wave, length, times
+    def __init__(self, drive: Drive, times: Array) -> None:
+        self.drive, self.times = drive, times
 
     def amplitudes(self, t: Array) -> Array:
         """Of c, (2 T, *t.shape); t must be among the times."""
@@ -105,12 +77,12 @@ class Snapshots:
 
     def growths(self, x: Array, y: Array) -> Array:
         """Growth of each case, (2 T, *broadcast(x, y).shape)."""
-        rates = [self.wave.rate(x, y, t, self.length) for t in self.times]
+        rates = [self.drive.rate(x, y, t) for t in self.times]
         return np.concatenate([self.values(x, y), np.stack(rates)])
 
     def values(self, x: Array, y: Array) -> Array:
         """c at each of the times, (T, *broadcast(x, y).shape); rates may cost much more."""
-        return np.stack([self.wave.value(x, y, t, self.length) for t in self.times])
+        return np.stack([self.drive.value(x, y, t) for t in self.times])
 
     def samples(self) -> Array:
         """Amplitudes at the times, (2 T, T)."""
@@ -121,10 +93,21 @@ class Snapshots:
         times = np.unique(t)
         if times.size > MOST_TIMES:
             raise ValueError(f"t has {times.size} different times: must be <= {MOST_TIMES} in one call")
-        return Snapshots(self.wave, self.length, times)
+        return Snapshots(self.drive, times)
 
     def _picked(self, t: Array) -> Array:
         return np.asarray(self.times.reshape(-1, *(1,) * t.ndim) == t, float)
+
+
+LoadCases = Harmonics | Snapshots
+"""Growths and their amplitudes."""
+
+
+def load_cases(drive: Drive) -> LoadCases:
+    """Those of a wave on a sheet."""
+    if drive.series is not None:
+        return Harmonics(drive.series, drive.sheet.length)
+    return Snapshots(drive, phases(drive.period, SAMPLES))
 
 
 def mixed_norms(parts: Array, amplitudes: Array) -> Array:

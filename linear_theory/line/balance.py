@@ -3,12 +3,10 @@
 import time
 
 import numpy as np
-from numpy.typing import NDArray
 
 from linear_theory.common import validation
 from linear_theory.common.threads import one_blas_thread
 from linear_theory.common.tolerance import Tolerance
-from linear_theory.deformation.field import Wave
 from linear_theory.friction.contact import Contact
 from linear_theory.friction.laws import FrictionLaw
 from linear_theory.friction.load import Load
@@ -23,10 +21,9 @@ from linear_theory.scene.scene import Scene
 from linear_theory.sheet.rectangle import Sheet
 from linear_theory.speed.result import CrawlSpeed, Estimate
 from linear_theory.speed.words import model_words
-from linear_theory.wave.given import FieldWave
-from linear_theory.wave.travelling import TravellingWave
-
-Array = NDArray[np.float64]
+from linear_theory.wave.places import on_axis
+from linear_theory.wave.protocol import Wave
+from linear_theory.wave.sampled import drive
 
 
 def line_balance(
@@ -45,7 +42,7 @@ def line_balance(
     """Speed of the body |y| <= length/2 driven by any wave c(y, t).
 
     wave: a `TravellingWave` (solved to rounding, V is constant) or anything with `period`, `value`
-    and `rate` as in `field.Wave`, evaluated at x = 0 (sampled until the error meets rtol).
+    and `rate` as in `protocol.Wave`, evaluated at x = 0 (sampled until the error meets rtol).
     length: of the body, in the unit of length that all speeds are in. 1 unless given for a
     TravellingWave, which is a function of y/length; any other wave is a function of y, and has no
     length of its own: it must be given.
@@ -120,7 +117,7 @@ def _checked_length(length: float | None, wave: Wave) -> float:
     """That of the body. Raises ValueError where it is neither given nor without effect."""
     if length is not None:
         return validation.positive("length", length)
-    if isinstance(wave, TravellingWave):
+    if drive(wave, Sheet()).series is not None:
         return 1.0
     raise ValueError(
         f"length = None: must be given, > 0, for wave = {wave!r}, a function of y in some unit of "
@@ -130,24 +127,11 @@ def _checked_length(length: float | None, wave: Wave) -> float:
 
 def _in_lengths(scene: Scene, piece: Piece, tolerance: Tolerance) -> LineMotion:
     """The balance in units of the length of the body, those of the tolerance."""
-    wave, length = scene.wave, scene.sheet.length
-    law = scene.contact.friction.scaled(length)
-    if isinstance(wave, TravellingWave):
-        return travelling_balance(wave, scene.alpha, law, piece)
-    return sampled_balance(_on_unit(wave, length), scene.alpha, law, piece, tolerance)
-
-
-def _on_unit(wave: Wave, length: float) -> FieldWave:
-    """A wave on a body of that length as one on a body of length 1; its rate is found as before."""
-
-    def value(x: Array, y: Array, t: Array) -> Array:
-        return wave.value(length * x, length * y, t, length)
-
-    def rate(x: Array, y: Array, t: Array) -> Array:
-        return wave.rate(length * x, length * y, t, length)
-
-    differenced = isinstance(wave, FieldWave) and wave.differenced
-    return FieldWave(value, wave.period, None if differenced else rate)
+    law, series = scene.contact.friction.scaled(scene.sheet.length), scene.drive.series
+    if series is not None:
+        return travelling_balance(series, scene.alpha, law, piece)
+    on_line = drive(scene.wave, scene.sheet, on_axis(scene.sheet.length))
+    return sampled_balance(on_line, scene.alpha, law, piece, tolerance)
 
 
 def _words(scene: Scene, body: str) -> str:

@@ -25,13 +25,12 @@ from numpy.typing import NDArray
 
 from linear_theory.common import validation
 from linear_theory.common.tolerance import Tolerance
-from linear_theory.deformation.field import Wave
 from linear_theory.friction.laws import FrictionLaw
 from linear_theory.line.piece import Piece
 from linear_theory.line.result import REST_PART, REST_SPEED, LineMotion
 from linear_theory.line.roots import EPS, bracketed_newton
 from linear_theory.line.tanh_level import NARROWEST
-from linear_theory.wave.survey import WaveSurvey
+from linear_theory.wave.protocol import Drive
 
 Array = NDArray[np.float64]
 
@@ -66,18 +65,16 @@ class Snapshot(NamedTuple):
 
 
 def sampled_balance(
-    wave: Wave, alpha: float, law: FrictionLaw, growth: Piece, tolerance: Tolerance
+    drive: Drive, alpha: float, law: FrictionLaw, growth: Piece, tolerance: Tolerance
 ) -> LineMotion:
-    """Speed of a general wave on |y| <= 1/2, the length of the body being 1.
+    """Speed of a general wave, the length of the body being 1 in the law, the tolerance and the result.
 
     Raises ValueError if a sampled strain is out of the range of the law, and for a wave that does not
     repeat after its period or whose rate is not its derivative.
     """
-    survey = WaveSurvey.on_line(wave)
-    survey.check()
-    sampled = partial(_snapshots, survey.fine_wave, alpha, law, growth)
-    period = float(wave.period)
-    cells, times = _first_cells(survey, tolerance.rtol), FEWEST
+    drive.check()
+    sampled, period = partial(_snapshots, drive.fine, alpha, law, growth), drive.period
+    cells, times = _first_cells(drive, tolerance.rtol), FEWEST
     space = time = math.inf
     while True:
         instants: Array = period / times * np.arange(float(times))
@@ -92,7 +89,7 @@ def sampled_balance(
         more_cells = room and in_space > goal / 2 and cells < MOST_CELLS
         more_times = room and in_time > goal / 2 and times < MOST_TIMES
         if in_space + in_time <= goal or not (more_cells or more_times):
-            if survey.hidden(period / times, PER_HARMONIC) * abs(alpha) / 2 <= HIDDEN * goal:
+            if drive.hidden(period / times, PER_HARMONIC) * abs(alpha) / 2 <= HIDDEN * goal:
                 break
             checks = _Checks(fine.velocity, period, partial(sampled, cells=2 * cells))
             in_time = max(in_time, checks.error(goal - in_space))
@@ -113,9 +110,9 @@ def sampled_balance(
     )
 
 
-def _first_cells(survey: WaveSurvey, rtol: float) -> int:
+def _first_cells(drive: Drive, rtol: float) -> int:
     """A power of two, enough for all but rtol of the wave where that is known: pi to a short wave."""
-    degree = survey.along.highest(rtol)
+    degree = drive.degree_along(rtol)
     return FEWEST if math.isinf(degree) else max(FEWEST, 1 << math.ceil(math.log2(degree)))
 
 
@@ -159,21 +156,22 @@ class _Checks(NamedTuple):
 
 
 def _snapshots(
-    wave: Wave, alpha: float, law: FrictionLaw, growth: Piece, times: Array, cells: int
+    drive: Drive, alpha: float, law: FrictionLaw, growth: Piece, times: Array, cells: int
 ) -> Snapshot:
     step = max(1, BLOCK // cells)
     parts = [
-        _snapshot(wave, alpha, law, growth, times[i : i + step, None], cells)
+        _snapshot(drive, alpha, law, growth, times[i : i + step, None], cells)
         for i in range(0, times.size, step)
     ]
     return Snapshot(*(np.concatenate(column) for column in zip(*parts, strict=True)))
 
 
 def _snapshot(
-    wave: Wave, alpha: float, law: FrictionLaw, growth: Piece, times: Array, cells: int
+    drive: Drive, alpha: float, law: FrictionLaw, growth: Piece, times: Array, cells: int
 ) -> Snapshot:
     y = np.linspace(-0.5, 0.5, cells + 1)
-    c, rate = (_on_grid(f(0.0, y, times), times, y) for f in (wave.value, wave.rate))
+    place = drive.sheet.length * y
+    c, rate = (_on_grid(f(0.0, place, times), times, y) for f in (drive.value, drive.rate))
     _check_strain(alpha, c, times, y, growth)
     g = _less_mean(growth.slope(alpha * c) * rate)
     weight = (1 + _middle(growth.gain(alpha * c))) / cells

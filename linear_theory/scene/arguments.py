@@ -3,11 +3,12 @@
 from typing import Any
 
 from linear_theory.common import validation
-from linear_theory.deformation.field import LinearField, Wave
+from linear_theory.deformation.field import LinearField
 from linear_theory.sheet.rectangle import Sheet
+from linear_theory.wave.protocol import Wave
 
 WAVE_PARTS = ("period", "value", "rate")
-"""What makes an object a wave, see `field.Wave`."""
+"""What makes an object a wave, see `protocol.Wave`."""
 
 
 def sheet(value: object, name: str = "sheet") -> Sheet:
@@ -23,7 +24,7 @@ def sheet(value: object, name: str = "sheet") -> Sheet:
 
 
 def wave(value: Any, name: str = "wave") -> Wave:
-    """`value`, which must have what `field.Wave` asks for. Raises ValueError otherwise."""
+    """`value`, which must have what `protocol.Wave` asks for. Raises ValueError otherwise."""
     if _is_wave(value):
         validation.positive(f"{name}.period", value.period)
         return value

@@ -26,8 +26,9 @@ from linear_theory.scene import arguments
 from linear_theory.scene.effect import NamedEffect
 from linear_theory.sheet.rectangle import Sheet
 from linear_theory.wave.phases import phases
-from linear_theory.wave.survey import WaveSurvey
-from linear_theory.wave.travelling import Wave
+from linear_theory.wave.places import among
+from linear_theory.wave.protocol import Drive, Wave
+from linear_theory.wave.sampled import drive
 
 Array = NDArray[np.float64]
 
@@ -192,19 +193,18 @@ class Scene(Shown):
         return next((effect for effect in self.effects if isinstance(effect, kind)), None)
 
     @cached_property
-    def survey(self) -> WaveSurvey:
-        """How the wave depends on time, at points of the sheet."""
-        if self.mesh is None:
-            return WaveSurvey.on_sheet(self.wave, self.sheet)
-        return WaveSurvey.at_some(self.wave, self.sheet, *self.mesh.p[:, self.mesh.t].mean(1))
+    def drive(self) -> Drive:
+        """The wave on the sheet, or on the body that the mesh covers."""
+        centres = None if self.mesh is None else among(*self.mesh.p[:, self.mesh.t].mean(1))
+        return drive(self.wave, self.sheet, centres)
 
     def speed_per_rate(self, leading: bool) -> float:
-        """Largest V that dc/dt of root mean square 1 makes, see `WaveSurvey.speed_per_rate`.
+        """Largest V that dc/dt of root mean square 1 makes, see `Drive.speed_per_rate`.
 
         Curvature c times its coupling tilts the sheet by as much, over a wavelength/(2 pi).
         """
         bent = abs(self.curvature_coupling) * self.sheet.length / (2 * np.pi)
-        return self.survey.speed_per_rate(abs(self.alpha) + bent, leading)
+        return self.drive.speed_per_rate(abs(self.alpha) + bent, leading)
 
     def key(self) -> str:
         """64 hexadecimal digits that are the same for every scene of this content, in every process.
@@ -317,8 +317,8 @@ class Scene(Shown):
     def extremes(self) -> Array:
         """c on a grid of places and times, to find growth that no rest state can have."""
         x, y = np.array([-0.5, 0, 0.5]) * self.sheet.width, np.linspace(-0.5, 0.5, 33)
-        times, length = np.append(phases(self.period, 64), 0.0), self.sheet.length
-        return np.stack([self.wave.value(x[:, None], length * y[None], t, length) for t in times])
+        x, y, times = x[:, None], self.sheet.length * y, np.append(phases(self.period, 64), 0.0)
+        return np.stack([self.drive.value(x, y, t) for t in times])
 
 
 def _grown(growth: Growth | None, said: dict[str, Any]) -> Growth:

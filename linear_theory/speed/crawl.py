@@ -33,7 +33,7 @@ from linear_theory.speed.reach import judged, too_large_growth, warn_if_beyond
 from linear_theory.speed.result import CrawlSpeed, Estimate, RigidSpeed
 from linear_theory.speed.second_order import second_order_speed
 from linear_theory.speed.words import model_words
-from linear_theory.wave.travelling import TravellingWave, Wave
+from linear_theory.wave.protocol import Wave
 
 Array = NDArray[np.float64]
 
@@ -162,13 +162,12 @@ def field_speed(
 
 def _field(scene: Scene, rtol: float, method: str) -> LinearField:
     """Deformation of first order for a speed that is right to rtol."""
-    sheet, wave = scene.sheet, scene.wave
-    travelling = isinstance(wave, TravellingWave)
-    if method == "airy" and not travelling:
+    sheet, wave, series = scene.sheet, scene.wave, scene.drive.series
+    if method == "airy" and series is None:
         raise ValueError("method = 'airy': must be 'ritz' for a wave that depends on x")
     field_rtol = max(0.1 * rtol, validation.SMALLEST_RTOL)
-    if method != "ritz" and isinstance(wave, TravellingWave):
-        return airy_series(sheet, wave, rtol=field_rtol)
+    if method != "ritz" and series is not None:
+        return airy_series(sheet, series, rtol=field_rtol)
     return ritz_field(sheet, wave, rtol=field_rtol)
 
 
@@ -178,7 +177,7 @@ def _field_speed(
 ) -> CrawlSpeed:
     """`field_speed` without its warnings."""
     start, law = time.perf_counter(), contact.friction
-    tolerance = tolerance.of_speed(alpha, field.sheet.length / field.wave.period)
+    tolerance = tolerance.of_speed(alpha, field.sheet.length / field.drive.period)
     model = model_words(f"small strain ({type(field).__name__})", None, contact)
     deformation = LinearDeformation(lambda: field, alpha, contact)
     if alpha == 0:
@@ -206,8 +205,8 @@ def _field_speed(
 
 def beyond_reach(field: LinearField, alpha: float) -> str:
     """Why small strain says nothing at this alpha, in words; empty if it does."""
-    x = y = np.zeros(1)  # a travelling wave shows all its phases at any point
-    if alpha and not isinstance(field.wave, TravellingWave):
+    x = y = np.zeros(1)  # a series shows all its phases at any point
+    if alpha and field.drive.series is None:
         grid = CellGrid.uniform(field.sheet, 4, 8, half=False)
         x, y = field.motion(np.zeros(1), grid, order=5).position
-    return too_large_growth(field.wave, alpha, x, y, field.sheet.length)
+    return too_large_growth(field.drive, alpha, x, y)

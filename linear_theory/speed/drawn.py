@@ -11,9 +11,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linear_theory.common.shown import Shown
-from linear_theory.deformation.field import LinearField, Wave
+from linear_theory.deformation.field import LinearField
 from linear_theory.friction.contact import Contact
 from linear_theory.friction.laws import FrictionLaw
+from linear_theory.wave.protocol import Drive
 
 Array = NDArray[np.float64]
 Integers = NDArray[np.int64]
@@ -42,12 +43,8 @@ class Deformation(Protocol):
     words: str
 
     @property
-    def wave(self) -> Wave:
-        """The wave that drives it."""
-
-    @property
-    def length(self) -> float:
-        """Of the sheet along y."""
+    def drive(self) -> Drive:
+        """The wave on the sheet."""
 
     @property
     def centre(self) -> Array:
@@ -91,14 +88,9 @@ class LinearDeformation(Shown):
         return self._find()
 
     @property
-    def wave(self) -> Wave:
+    def drive(self) -> Drive:
         """See Deformation."""
-        return self.field.wave
-
-    @property
-    def length(self) -> float:
-        """See Deformation."""
-        return self.field.sheet.length
+        return self.field.drive
 
     @property
     def centre(self) -> Array:
@@ -116,7 +108,7 @@ class LinearDeformation(Shown):
 
     def growth(self, points: Array, times: Array) -> Array:
         """See Deformation."""
-        value = self.wave.value(points[0], points[1], np.reshape(times, (-1, 1)), self.length)
+        value = self.drive.value(points[0], points[1], np.reshape(times, (-1, 1)))
         return np.broadcast_to(value, (np.size(times), points.shape[1]))
 
     def contact(self, points: Array, t: float) -> Touch:

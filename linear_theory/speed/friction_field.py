@@ -72,7 +72,7 @@ def _friction_field(
     rigid = np.stack([v_x - omega * (y - field.centre[1]), v_y + omega * (x - field.centre[0])])
     slip = alpha * field.velocity(x, y, t) + rigid
     speed = np.hypot(*slip)
-    growth = field.wave.value(x, y, t, field.sheet.length)
+    growth = field.drive.value(x, y, t)
     rate = contact.load.rate(field.strain(x, y, t)[:2].sum(0), growth)
     weight = 1 + alpha * rate
     with np.errstate(divide="ignore", invalid="ignore"):

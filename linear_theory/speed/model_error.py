@@ -24,7 +24,6 @@ from linear_theory.common.records import read_rows
 from linear_theory.common.shown import Shown
 from linear_theory.friction.laws import Coulomb
 from linear_theory.scene.scene import Scene
-from linear_theory.wave.travelling import TravellingWave
 
 Array = NDArray[np.float64]
 
@@ -92,23 +91,18 @@ def model_error(level: str, scene: Scene) -> float:
     not exist and FileNotFoundError where the table is missing.
     """
     validation.choice("level", level, LEVELS)
-    wave, growth, contact = scene.wave, scene.growth, scene.contact
-    if growth.alpha == 0 or (isinstance(wave, TravellingWave) and not wave.moves):
+    sheet, series, growth, contact = scene.sheet, scene.drive.series, scene.growth, scene.contact
+    if growth.alpha == 0 or (series is not None and not series.moves):
         return 0.0  # the sheet is at rest in every theory
-    if contact.friction != Coulomb() or not isinstance(wave, TravellingWave) or not is_sine(wave):
+    if contact.friction != Coulomb() or series is None or series.sine_amplitude is None:
         return math.nan
-    model = growth.law.name, str(growth.energy_area), str(contact.load), abs(wave.count)
+    model = growth.law.name, str(growth.energy_area), str(contact.load), abs(series.count)
     grid = table().get(model)
     if grid is None:
         return math.nan
-    sheet, strength = scene.sheet, abs(growth.alpha) * float(np.hypot(wave.cosine[0], wave.sine[0]))
+    strength = abs(growth.alpha) * series.sine_amplitude
     bound = _bound(grid, level, (sheet.width / sheet.length, sheet.poisson, strength))
     return bound * scene.unit
-
-
-def is_sine(wave: TravellingWave) -> bool:
-    """Whether the wave is one sine of any amplitude and phase, c = a sin(2 pi n y/L - 2 pi t/T + b)."""
-    return wave.mean == 0 and not np.any(wave.cosine[1:]) and not np.any(wave.sine[1:])
 
 
 def _bound(grid: _Grid, level: str, point: tuple[float, float, float]) -> float:

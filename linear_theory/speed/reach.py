@@ -14,7 +14,6 @@ ends: V_1 alpha + V_2 alpha^2 is a number at any alpha. Two bounds come from the
   This ends the second order of waves that are steep where c is near its median.
 """
 
-import math
 import warnings
 from dataclasses import replace
 
@@ -22,37 +21,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linear_theory.common.errors import BeyondReachWarning
-from linear_theory.deformation.field import Wave
 from linear_theory.speed.result import CrawlSpeed
-from linear_theory.wave.phases import phases
-from linear_theory.wave.travelling import TravellingWave
+from linear_theory.wave.protocol import Drive
 
 Array = NDArray[np.float64]
 
 LARGEST_GROWTH = 0.5
 """Of |alpha c|, see the module's head."""
 
-PHASES = 256
-"""Phases per harmonic at which growth is looked at."""
 
-POINTS, TIMES = 2000, 64
-"""Points, at most about so many, and times at which growth of any shape is looked at."""
-
-
-def growths(wave: Wave, x: Array, y: Array, length: float) -> Array:
-    """c at phases, or at points x, y and times; they leave out no extreme of a smooth wave by much."""
-    if isinstance(wave, TravellingWave):
-        count = PHASES * wave.cosine.size
-        spectrum = np.concatenate([[2 * wave.mean], wave.cosine - 1j * wave.sine]) * (count / 2)
-        return np.fft.irfft(spectrum, count)
-    some = slice(None, None, math.ceil(x.size / POINTS))
-    times = phases(wave.period, TIMES)
-    return wave.value(x.ravel()[some], y.ravel()[some], times[:, None], length)
-
-
-def too_large_growth(wave: Wave, alpha: float, x: Array, y: Array, length: float) -> str:
+def too_large_growth(drive: Drive, alpha: float, x: Array, y: Array) -> str:
     """What is beyond reach in this growth, in words; empty if nothing is. x, y: points of the sheet."""
-    largest = abs(alpha) * float(abs(growths(wave, x, y, length)).max())
+    largest = abs(alpha) * float(abs(drive.growths(x, y)).max())
     if largest <= LARGEST_GROWTH:
         return ""
     return f"growth |alpha c| reaches {largest:.3g}, the theory ends at {LARGEST_GROWTH:g}"

@@ -35,7 +35,6 @@ from linear_theory.common import validation
 from linear_theory.common.shown import Shown, with_error
 from linear_theory.common.threads import one_blas_thread
 from linear_theory.common.tolerance import Tolerance
-from linear_theory.deformation.field import Wave
 from linear_theory.deformation.second.field import SecondOrderField, second_order_field
 from linear_theory.friction.contact import Contact
 from linear_theory.friction.laws import FrictionLaw
@@ -46,9 +45,10 @@ from linear_theory.motion.rigid import RigidNorm
 from linear_theory.scene.level import THEORY
 from linear_theory.scene.scene import Scene
 from linear_theory.sheet.rectangle import Sheet
-from linear_theory.speed.reach import growths, judged, too_large_growth, too_large_term
+from linear_theory.speed.reach import judged, too_large_growth, too_large_term
 from linear_theory.speed.result import CrawlSpeed, RigidSpeed
 from linear_theory.speed.words import model_words
+from linear_theory.wave.protocol import Wave
 
 Array = NDArray[np.float64]
 
@@ -184,7 +184,7 @@ def leading_period(field: SecondOrderField, contact: Contact, rtol: float) -> Pe
 
     contact: with a law of friction for speeds per unit alpha.
     """
-    unit = field.sheet.length / field.wave.period
+    unit = field.sheet.length / field.drive.period
     tolerance = Tolerance(rtol, 1e-2 * rtol * TINY_ALPHA**2 * unit)
     resolution = first_resolution(rtol)
     resolution = replace(resolution, halvings=resolution.halvings + MORE_HALVINGS)
@@ -221,7 +221,7 @@ def field_errors(field: SecondOrderField, period: Period) -> Array:
     Nothing where symmetry makes them 0.
     """
     fastest = period.fastest / TINY_ALPHA
-    first = 0.0 if field.survey.changes_sign else FIRST_SHARE * field.error * fastest
+    first = 0.0 if field.drive.changes_sign else FIRST_SHARE * field.error * fastest
     norm = RigidNorm(field.gyration, field.mirrored)
     return np.stack([norm.each(first), norm.each(_second_field_error(field, fastest))])
 
@@ -243,7 +243,7 @@ def second_order_speed(scene: Scene, tolerance: Tolerance) -> CrawlSpeed:
     per_alpha = replace(contact, friction=law.scaled(abs(alpha) or 1.0))
     rtol = tolerance.rtol
     field = second_order_field(scene.sheet, scene.wave, scene.growth, field_tolerance(rtol))
-    scene.growth.law.check(alpha, growths(scene.wave, *_points(scene.sheet), scene.sheet.length))
+    scene.growth.law.check(alpha, scene.drive.growths(*_points(scene.sheet)))
     period = leading_period(field, per_alpha, rtol)
     both = coefficients(field, period, contact, start)
     norm = RigidNorm(field.gyration, field.mirrored)
@@ -254,7 +254,7 @@ def second_order_speed(scene: Scene, tolerance: Tolerance) -> CrawlSpeed:
         slip_ratio=law.slip_ratio(fastest),
         seconds=time.perf_counter() - start,
     )
-    beyond = too_large_growth(scene.wave, alpha, *_points(scene.sheet), scene.sheet.length)
+    beyond = too_large_growth(scene.drive, alpha, *_points(scene.sheet))
     return judged(found, beyond or too_large_term(alpha**2 * both.second, fastest))
 
 

@@ -1,1 +1,1 @@
-"""Waves of growth: travelling ones, given functions, and how fast they change in time."""
+"""Waves of growth, travelling or given, and what drives a body: a wave on it (`protocol.Drive`)."""

@@ -1,13 +1,21 @@
 """A wave of growth c(x, y, t) of any shape, given by a function."""
 
+import copy
+import math
 from collections.abc import Callable, Mapping
+from functools import cached_property
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from linear_theory.common import validation
+from linear_theory.common.errors import Unidentifiable
 from linear_theory.common.shown import Value
+from linear_theory.identity import content_key
+from linear_theory.sheet.rectangle import Sheet
+from linear_theory.wave.places import Places
+from linear_theory.wave.sampled import SampledDrive
 
 Array = NDArray[np.float64]
 Growth = Callable[[Any, Any, Any], ArrayLike]
@@ -15,6 +23,10 @@ Growth = Callable[[Any, Any, Any], ArrayLike]
 STEP, HARMONIC = 1 / 512, 10
 """Step of the difference quotient in periods; the k-th harmonic in time is right to about
 (2 pi k STEP)**8 / 630 (4e-11 at k = HARMONIC), roundoff adds 1e-14 of the fundamental's rate."""
+
+FINE_SHARES = 1e-6, 1e-4
+"""Of dc/dt, that may lie in harmonics for which a rate by differences is not made fine enough: the
+first where it is known; a wave with kinks has neither."""
 
 DIFFERENCE = {1: 4 / 5, 2: -1 / 5, 3: 4 / 105, 4: -1 / 280}
 """Weights of (c(t + j h) - c(t - j h))/h in the central difference of eighth order."""
@@ -30,6 +42,9 @@ class FieldWave(Value):
     its period, and a rate that is not the derivative of value. name: what the functions are known by
     where a wave is to be known again, as in a snapshot of a run, and their code does not tell (see
     `identity.content_key`); another function must have another name.
+
+    Waves are equal where their functions have the same content, or their names are the same, and so are
+    their periods; a function whose content is not known is equal to itself alone.
 
     Raises ValueError for a period that is not finite and positive, a value or rate that cannot be
     called, a name that is no text, and, once they are called, for results that are not finite, real and
@@ -56,6 +71,20 @@ class FieldWave(Value):
         functions = (self._value, self._rate) if self.name is None else self.name
         return functions, self.period
 
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, FieldWave):
+            return NotImplemented
+        if self is other:
+            return True
+        try:
+            return hash(self) == hash(other) and content_key(self) == content_key(other)
+        except Unidentifiable:
+            return False
+
+    def __hash__(self) -> int:
+        """Not of the functions, whose content follows the arrays and names that they read."""
+        return hash((self.period, self.name))
+
     def _contents(self) -> Mapping[str, Any]:
         known = {"value": self._value, "period": self.period}
         if self._rate is not None:
@@ -74,6 +103,10 @@ class FieldWave(Value):
         finer = FieldWave(self._value, self._period, name=self.name)
         finer._step = STEP * HARMONIC / harmonic
         return finer
+
+    def on(self, sheet: Sheet, places: Places | None = None) -> "FieldDrive":
+        """The wave on a body within that rectangle; places: of another outline, see `protocol.Wave`."""
+        return FieldDrive(self, sheet, places)
 
     @property
     def period(self) -> float:
@@ -95,6 +128,26 @@ class FieldWave(Value):
             ahead = self.value(x, y, t + j * step)
             total = total + weight * (ahead - self.value(x, y, t - j * step))
         return np.asarray(total / step)
+
+
+class FieldDrive(SampledDrive):
+    """A given wave on a body; made by `FieldWave.on`. A rate by differences is right, if not fine."""
+
+    wave: FieldWave
+
+    @cached_property
+    def fine(self) -> "FieldDrive":
+        """With a rate as fine as the harmonics of the wave ask for, where it is a difference."""
+        if not self.wave.differenced:
+            return self
+        known = [h for h in map(self.rates.highest, FINE_SHARES) if h < math.inf]
+        finer = copy.copy(self)  # with all that was seen of the values, which are the same
+        finer.wave = self.wave.resolving(known[0]) if known else self.wave
+        return finer
+
+    def _check_rate(self) -> None:
+        if not self.wave.differenced:
+            super()._check_rate()
 
 
 def _function(name: str, value: Growth) -> Growth:

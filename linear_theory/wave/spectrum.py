@@ -49,6 +49,12 @@ class Spectrum(Shown):
         """The term beyond which no more than that share is left; inf where it is not known."""
         return self.needed(share * self.total)
 
+    def of_rates(self, period: float) -> "Spectrum":
+        """That of the time derivative, the terms being harmonics of that period."""
+        frequency, harmonics = 2 * np.pi / period, np.arange(1, self.sizes.size + 1)
+        missed = frequency * (self.sizes.size + 1) * self.missed
+        return Spectrum(frequency * harmonics * self.sizes, missed)
+
     @cached_property
     def _beyond(self) -> Array:
         """Above term 0, 1, ..., K, (K + 1,)."""

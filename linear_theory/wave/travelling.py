@@ -15,32 +15,20 @@ a_r = delta_1r cos wt, b_s = delta_1s sin wt) belong to cos(2 pi y/L - wt), not 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any, NamedTuple, Protocol
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from linear_theory.common import validation
 from linear_theory.common.shown import Shown, Value
+from linear_theory.sheet.rectangle import Sheet
+from linear_theory.wave.places import Places
+from linear_theory.wave.travelling_drive import TravellingDrive
 
 Array = NDArray[np.float64]
 
-
 EPS = float(np.finfo(float).eps)
-
-
-class Wave(Protocol):
-    """What a solution needs to know of c(x, y, t): its values, its rate and its period."""
-
-    @property
-    def period(self) -> float:
-        """Units of time."""
-
-    def value(self, x: ArrayLike, y: ArrayLike, t: ArrayLike, length: float = 1.0) -> Array:
-        """Growth c on a sheet of that length."""
-
-    def rate(self, x: ArrayLike, y: ArrayLike, t: ArrayLike, length: float = 1.0) -> Array:
-        """Its time derivative."""
 
 
 class _Factors(NamedTuple):
@@ -153,6 +141,17 @@ class TravellingWave(Value):
         if self.is_half_period_antisymmetric and not np.any(self.cosine):
             return self.period / 2
         return None
+
+    @property
+    def sine_amplitude(self) -> float | None:
+        """a of a wave that is one sine, c = a sin(2 pi n y/L - 2 pi t/T + b), else None."""
+        if self.mean != 0 or np.any(self.cosine[1:]) or np.any(self.sine[1:]):
+            return None
+        return float(np.hypot(self.cosine[0], self.sine[0]))
+
+    def on(self, sheet: Sheet, places: Places | None = None) -> TravellingDrive:
+        """The wave on a body within that rectangle, whatever its outline: see `protocol.Drive`."""
+        return TravellingDrive(self, sheet)
 
     def profile(self, phase: ArrayLike) -> Array:
         """f(phi) of c = f(2 pi (n y/L - t/T)), same shape as `phase` (radians)."""

@@ -13,8 +13,8 @@ from linear_theory import (
     line_speed,
     second_order,
 )
-from linear_theory.deformation.field import Wave
 from linear_theory.friction.contact import Contact
+from linear_theory.wave.protocol import Wave
 from tests import reference_balance
 from tests.problems.line import samples, stopping
 from tests.problems.problem import Outcome, Problem, case, family, of_speed

@@ -10,7 +10,8 @@ from fem_check.mesh.outline import Outline
 from fem_check.plane_stress.field import plane_stress_field
 from linear_theory import FieldWave, Sheet, SineWave, TravellingWave, airy_series, ritz_field
 from linear_theory.common.errors import NotConvergedError
-from linear_theory.deformation.field import LinearField, Wave
+from linear_theory.deformation.field import LinearField
+from linear_theory.wave.protocol import Wave
 from tests.problems.line import samples
 from tests.problems.problem import Outcome, Problem, case, family
 

@@ -23,8 +23,7 @@ from linear_theory.common.progress import track
 from linear_theory.common.tolerance import Tolerance
 from linear_theory.friction.contact import Contact
 from linear_theory.motion.rigid import RigidNorm
-from linear_theory.wave.survey import PER_HARMONIC
-from linear_theory.wave.travelling import TravellingWave
+from linear_theory.wave.protocol import PER_HARMONIC
 
 Array = NDArray[np.float64]
 
@@ -107,16 +106,16 @@ class CycleBalance:
         Only in the plane, where a shape does not depend on those before; on a slope, too, since the
         velocity along y at (y, t) is that at (-y, t_0 - t).
         """
-        wave = self.shapes.scene.wave
-        if not isinstance(wave, TravellingWave) or not self.mirrored:
+        reversal = self.shapes.scene.drive.reversal_time
+        if reversal is None or not self.mirrored:
             return None
-        return wave.reversal_time if is_mirrored(self.shapes, axis=1) else None
+        return reversal if is_mirrored(self.shapes, axis=1) else None
 
     @property
     def speed_per_rate(self) -> float:
         """Largest mean V that dc/dt of root mean square 1 makes."""
         scene = self.shapes.scene
-        return scene.speed_per_rate(self.contact.slope != 0 or not scene.survey.changes_sign)
+        return scene.speed_per_rate(self.contact.slope != 0 or not scene.drive.changes_sign)
 
     def average(self, tolerance: Tolerance) -> PairedPeriod:
         """Mean motion over a period at as many times as the tolerance needs and the noise allows."""
@@ -185,7 +184,7 @@ class CycleBalance:
             return grid.refined(speeds, goal)[0]
         scene = self.shapes.scene
         rate = HIDDEN * goal / self.speed_per_rate if self.speed_per_rate else math.inf
-        harmonic = min(scene.survey.rates.needed(rate), self._highest)
+        harmonic = min(scene.drive.rates.needed(rate), self._highest)
         finer = grid.with_steps(scene.period / (PER_HARMONIC * harmonic))
         return finer if finer.times.size > grid.times.size else None
 

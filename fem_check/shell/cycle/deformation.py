@@ -14,11 +14,11 @@ from fem_check.shell.cycle.shapes import Shapes, time_factors
 from fem_check.shell.effects.gravity import Gravity
 from fem_check.shell.kinematics.region import Region
 from linear_theory.common.shown import Shown
-from linear_theory.deformation.field import Wave
 from linear_theory.friction.contact import Contact
 from linear_theory.friction.load import Load
 from linear_theory.motion.rigid import centre_and_gyration
 from linear_theory.speed.drawn import Touch
+from linear_theory.wave.protocol import Drive
 
 Array = NDArray[np.float64]
 Integers = NDArray[np.int64]
@@ -37,14 +37,9 @@ class CycleDeformation(Shown):
         return {"words": self.words, "alpha": self.alpha, "load": self._load, "law": self.law}
 
     @property
-    def wave(self) -> Wave:
+    def drive(self) -> Drive:
         """See Deformation."""
-        return self.shapes.scene.wave
-
-    @property
-    def length(self) -> float:
-        """See Deformation."""
-        return self.shapes.scene.sheet.length
+        return self.shapes.scene.drive
 
     @cached_property
     def centre(self) -> Array:

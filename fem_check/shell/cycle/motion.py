@@ -18,7 +18,6 @@ from fem_check.shell.kinematics.region import Region
 from linear_theory.common.errors import SheetcrawlError
 from linear_theory.friction.load import Load
 from linear_theory.motion.motion import Motion
-from linear_theory.wave.travelling import TravellingWave
 
 Array = NDArray[np.float64]
 
@@ -31,13 +30,13 @@ def is_mirrored(shapes: Shapes, axis: int = 0) -> bool:
     """Whether mesh and wave make one half of the sheet move as the mirror image of the other half.
 
     axis: 0 for mirror symmetry in x, at every time; 1 for symmetry in y with time reversed. That is so
-    in the plane for waves that do not depend on x; a sheet in space may buckle to one side.
+    in the plane for waves that are known to be mirrored; a sheet in space may buckle to one side.
     """
     scene, mesh = shapes.scene, shapes.discretisation.mesh
     mirror = np.where(np.arange(2) == axis, -1.0, 1.0)[:, None]
     return (
         scene.planar
-        and isinstance(scene.wave, TravellingWave)
+        and scene.drive.mirrored
         and all(_same_points(p, mirror * p) for p in (mesh.p, _centres(mesh)))
     )
 

@@ -35,7 +35,6 @@ from linear_theory.friction.regime import warn_if_viscous
 from linear_theory.scene.scene import Scene
 from linear_theory.speed.result import CrawlSpeed, Estimate, RigidSpeed
 from linear_theory.speed.words import model_words
-from linear_theory.wave.travelling import TravellingWave
 
 Array = NDArray[np.float64]
 
@@ -128,7 +127,7 @@ class Cycle(Shown):
         start = time.perf_counter()
         scene = self.scene if contact is None else self.scene.but(contact=contact)
         contact, tolerance = held_contact(scene), tolerance.of_speed(scene.alpha, scene.unit)
-        scene.survey.check_period()
+        scene.drive.check_period()
         if scene.alpha == 0 and (scene.planar or scene.curvature_coupling == 0):
             return _without_growth(scene, contact)
         balance, period, phase_error = _with_enough_phases(self._shapes, contact, tolerance)
@@ -227,7 +226,7 @@ def _hidden(balance: CycleBalance, count: int) -> float:
 
     Less what `_phase_error` has for them, twice the highest ones among the phases.
     """
-    rates, highest = balance.shapes.scene.survey.rates, count // 2 - 1
+    rates, highest = balance.shapes.scene.drive.rates, count // 2 - 1
     seen = 2 * float(rates.sizes[max(highest - 2, 0) : highest].max(initial=0.0))
     return balance.speed_per_rate * max(rates.beyond(highest) - seen, 0.0)
 
@@ -276,10 +275,9 @@ def _is_target(scene: Scene) -> bool:
 
 
 def _starts_at_second_order(scene: Scene, contact: Contact) -> bool:
-    """Whether c(t + T/2) = -c(t) on level ground, so that the terms of first order have no mean."""
-    wave = scene.wave
-    antisymmetric = isinstance(wave, TravellingWave) and wave.is_half_period_antisymmetric
-    return antisymmetric and contact.slope == 0
+    """Whether c(t + T/2) = -c(t) is known, on level ground: the first order then has no mean."""
+    drive = scene.drive
+    return contact.slope == 0 and drive.series is not None and drive.changes_sign
 
 
 def _words(scene: Scene, contact: Contact) -> str:

@@ -85,8 +85,8 @@ class Run:
     def __init__(self, scene: Scene, settings: Settings) -> None:
         self.scene, self.settings, period = scene, settings, scene.period
         self.model = ShellModel(scene)
-        scene.survey.check_period()
-        self.size = step_size(period, settings.rtol, settings.steps, scene.survey.rates)
+        scene.drive.check_period()
+        self.size = step_size(period, settings.rtol, settings.steps, scene.drive.rates)
         self.size.scale = abs(scene.alpha) * scene.sheet.length / period
         self.start = settings.ramp * period
         self.stepper = Stepper(self.model, self.start, self.size.dt)

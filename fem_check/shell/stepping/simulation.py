@@ -143,7 +143,7 @@ def coarser(scene: Scene) -> Scene:
     """
     if scene.mesh is not None:
         raise ValueError("mesh_error = True: must be False for a scene with a mesh of its own")
-    across, along = scene.cells or default_cells(scene.sheet, scene.wave, scene.planar)
+    across, along = scene.cells or default_cells(scene.drive, scene.planar)
     if min(across, along) < 2:
         raise ValueError(f"cells = {scene.cells}: must be at least 2 each way where mesh_error = True")
     return scene.but(cells=(round(across / 1.5), round(along / 1.5)))

@@ -7,8 +7,8 @@ from numpy.typing import NDArray
 
 from fem_check.shell.kinematics.extrapolation import extrapolated
 from fem_check.shell.kinematics.rates import Affine, newmark, two_step
+from linear_theory.wave.protocol import PER_HARMONIC
 from linear_theory.wave.spectrum import Spectrum
-from linear_theory.wave.survey import PER_HARMONIC
 
 Array = NDArray[np.float64]
 

@@ -22,6 +22,8 @@ from linear_theory.scene import arguments
 from linear_theory.sheet import hooke
 from linear_theory.sheet.rectangle import Sheet
 from linear_theory.wave.phases import phases
+from linear_theory.wave.protocol import Wave
+from linear_theory.wave.sampled import drive
 from linear_theory.wave.travelling import TravellingWave
 
 Array = NDArray[np.float64]
@@ -49,7 +51,7 @@ class AiryAmplitudes(Shown, _Amplitudes):
 @one_blas_thread
 def airy_series(
     sheet: Sheet,
-    wave: TravellingWave,
+    wave: Wave,
     rtol: float = 1e-6,
     modes: int | None = None,
     tail: bool = True,
@@ -57,6 +59,7 @@ def airy_series(
 ) -> "AirySeries":
     """Small-strain deformation of a rectangular sheet by a wave c(y, t), per unit alpha.
 
+    wave: a `TravellingWave`, or one whose drive is a series (see `protocol.Drive`).
     rtol: relative L2 error of the displacement at the worst phase, from which the numbers of modes
     along both sides follow; modes: use this many of each family instead (20 in the paper), whatever
     the error. tail: sum the slowly decaying tails of the amplitudes; tail=False is the paper's plain
@@ -77,19 +80,20 @@ def airy_series(
     printed = validation.choice("form", form, FORMS) == "printed"
     rtol = validation.tolerance(rtol)
     sheet = arguments.sheet(sheet)
-    if not isinstance(arguments.wave(wave), TravellingWave):
+    series = drive(arguments.wave(wave), sheet).series
+    if series is None:
         shown = validation.shown(wave)
         raise ValueError(f"wave = {shown}: must be a TravellingWave; ritz_field takes any c(x, y, t)")
     if printed and not math.isclose(sheet.width, sheet.length / 2):
         raise ValueError(f"width = {sheet.width:g}: must be length/2 for form='printed'")
     tail = tail and not printed
     if modes is None:
-        return _with_enough_modes(sheet, wave, rtol, tail, printed)
-    modes, lowest = validation.integer("modes", modes, 1), int(wave.orders[-1])
+        return _with_enough_modes(sheet, series, rtol, tail, printed)
+    modes, lowest = validation.integer("modes", modes, 1), int(series.orders[-1])
     if not lowest <= modes <= math.isqrt(MOST_COUPLINGS):
         limit = math.isqrt(MOST_COUPLINGS)
         raise ValueError(f"modes = {modes}: must be in [{lowest}, {limit}] for this wave")
-    return AirySeries(sheet, wave, (modes, modes), tail, printed)
+    return AirySeries(sheet, series, (modes, modes), tail, printed)
 
 
 def balanced_modes(sheet: Sheet, wave: TravellingWave, cutoff: float) -> tuple[int, int]:

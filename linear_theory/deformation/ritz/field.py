@@ -20,15 +20,15 @@ from numpy.typing import NDArray
 from linear_theory.common import validation
 from linear_theory.common.errors import NotConvergedError
 from linear_theory.common.threads import one_blas_thread
-from linear_theory.deformation.field import LinearField, Wave
+from linear_theory.deformation.field import LinearField
 from linear_theory.deformation.load_cases import Harmonics, LoadCases, Snapshots, load_cases
 from linear_theory.deformation.ritz import error as ritz_error
 from linear_theory.deformation.ritz import legendre
 from linear_theory.deformation.ritz.solver import RitzSolver, matrix_size
 from linear_theory.scene import arguments
 from linear_theory.sheet.rectangle import Sheet
-from linear_theory.wave.survey import WaveSurvey
-from linear_theory.wave.travelling import TravellingWave
+from linear_theory.wave.protocol import Drive, Wave
+from linear_theory.wave.sampled import drive
 
 Array = NDArray[np.float64]
 Pair = tuple[int, int]
@@ -58,13 +58,13 @@ def ritz_field(
     True False
     """
     sheet, wave = arguments.sheet(sheet), arguments.wave(wave)
+    driven = drive(wave, sheet)
     if degree is None:
         rtol = DEFAULT_RTOL if rtol is None else validation.tolerance(rtol)
-        return _with_enough_degrees(sheet, wave, rtol)
+        return _with_enough_degrees(driven.fine, rtol)
     if rtol is not None:
         raise ValueError(f"degree = {degree}, rtol = {rtol}: must be one of the two, not both")
-    wave = WaveSurvey.on_sheet(wave, sheet).fine_wave
-    return RitzField(wave, RitzSolver(sheet, _checked_degree(degree)))
+    return RitzField(driven.fine, RitzSolver(sheet, _checked_degree(degree)))
 
 
 def _checked_degree(degree: int | Pair) -> Pair:
@@ -77,24 +77,23 @@ def _checked_degree(degree: int | Pair) -> Pair:
     return across, along
 
 
-def _with_enough_degrees(sheet: Sheet, wave: Wave, rtol: float) -> "RitzField":
+def _with_enough_degrees(drive: Drive, rtol: float) -> "RitzField":
     """Raise the degrees until the error estimate meets rtol."""
     start, best = time.perf_counter(), None
-    wave = WaveSurvey.on_sheet(wave, sheet).fine_wave
-    degree = ritz_error.first_degrees(sheet, shortest_order(wave), rtol)
+    degree = ritz_error.first_degrees(drive.sheet, shortest_order(drive), rtol)
     while True:
         if matrix_size(degree) > MOST_NUMBERS:
             raise NotConvergedError(f"rtol = {rtol:g}: would need degrees {degree} or more", best)
-        best = RitzField(wave, RitzSolver(sheet, degree))
+        best = RitzField(drive, RitzSolver(drive.sheet, degree))
         if best.error <= rtol:
             best.seconds = time.perf_counter() - start
             return best
         degree = ritz_error.raised_degrees(degree, best.tails, best.aliased, rtol)
 
 
-def shortest_order(wave: Wave) -> int:
+def shortest_order(drive: Drive) -> int:
     """Waves on the sheet at most; 1 where nothing is known, more shows in the error estimate."""
-    return int(wave.orders[-1]) if isinstance(wave, TravellingWave) else 1
+    return 1 if drive.series is None else int(drive.series.orders[-1])
 
 
 class RitzField(LinearField):
@@ -109,13 +108,14 @@ class RitzField(LinearField):
     (15, 21) [-0.06152 -0.11559]
     """
 
-    def __init__(self, wave: Wave, solver: RitzSolver, cases: LoadCases | None = None) -> None:
+    def __init__(self, drive: Drive, solver: RitzSolver, cases: LoadCases | None = None) -> None:
         start = time.perf_counter()
-        self.sheet, self.wave, self.degree = solver.sheet, wave, solver.degree
-        self.solver = solver
-        self._cases = cases or load_cases(wave, solver.sheet.length)
-        self.mirrored = isinstance(self._cases, Harmonics)
-        self.numbers = 0 if self.mirrored else 2 * (self.degree[0] + 1) * (self.degree[1] + 1)
+        self.sheet, self.wave, self.drive = solver.sheet, drive.wave, drive
+        self.solver, self.degree = solver, solver.degree
+        self._cases = cases or load_cases(drive)
+        self.mirrored = drive.mirrored
+        if isinstance(self._cases, Snapshots):
+            self.numbers = 2 * (self.degree[0] + 1) * (self.degree[1] + 1)
         self._growth = self._moments()
         self._solution = solver.solve(self._growth)
         self.seconds = time.perf_counter() - start
@@ -148,7 +148,7 @@ class RitzField(LinearField):
             _side_by_side(self._growth[:, across + 1 :] * (self.sheet.width / 2 / across), aliased),
             _side_by_side(self._growth[:, :, along + 1 :] * (self.sheet.length / 2 / along), aliased),
         )
-        resolving = ritz_error.resolving_degrees(self.sheet, shortest_order(self.wave))
+        resolving = ritz_error.resolving_degrees(self.sheet, shortest_order(self.drive))
         return ritz_error.relative_tails(
             self._polynomials, missed, self._cases.samples(), resolving, self.sheet.poisson
         )
@@ -185,12 +185,12 @@ class RitzField(LinearField):
         return np.asarray(across.T @ growth @ along)
 
     def _moments_of_harmonics(self, cases: Harmonics) -> Array:
-        orders = cases.wave.orders
+        orders = cases.series.orders
         count = max(
             self.degree[1] + 1, ritz_error.resolving_degrees(self.sheet, int(orders[-1]))[1] + 9
         )
         cosine, sine = legendre.wave_moments(count, orders)
-        moments = np.zeros((2 * len(orders) + bool(cases.wave.mean), self.degree[0] + 1, count))
+        moments = np.zeros((2 * len(orders) + bool(cases.series.mean), self.degree[0] + 1, count))
         moments[: 2 * len(orders), 0] = np.sqrt(2) * np.concatenate([cosine, sine])
         moments[2 * len(orders) :, 0, 0] = 2  # growth 1 for the mean of c
         return moments
@@ -219,7 +219,7 @@ class RitzField(LinearField):
 
     def _for_times(self, t: Array) -> "RitzField":
         cases = self._cases.at(t)
-        return self if cases is self._cases else RitzField(self.wave, self.solver, cases)
+        return self if cases is self._cases else RitzField(self.drive, self.solver, cases)
 
     def _amplitudes(self, t: Array) -> Array:
         return self._cases.amplitudes(t)

@@ -34,7 +34,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from linear_theory.common import validation
 from linear_theory.common.errors import NotConvergedError
-from linear_theory.deformation.field import LinearField, Wave, combine
+from linear_theory.deformation.field import LinearField, combine
 from linear_theory.deformation.load_cases import mixed_norms
 from linear_theory.deformation.ritz import error as ritz_error
 from linear_theory.deformation.ritz import legendre
@@ -45,7 +45,8 @@ from linear_theory.deformation.second.times import AtTimes, second_times
 from linear_theory.growth.growth import Growth
 from linear_theory.motion.motion import CellGrid, Motion
 from linear_theory.sheet.rectangle import Sheet
-from linear_theory.wave.survey import WaveSurvey
+from linear_theory.wave.protocol import Drive, Wave
+from linear_theory.wave.sampled import drive
 
 Array = NDArray[np.float64]
 
@@ -64,14 +65,14 @@ def second_order_field(
     degree that does not fit in memory.
     """
     start, rtol = time.perf_counter(), validation.tolerance(rtol)
-    wave = WaveSurvey.on_sheet(wave, sheet).fine_wave
+    driven = drive(wave, sheet).fine
     # u_2 has waves half as long
-    degree = ritz_error.first_degrees(sheet, 2 * shortest_order(wave), rtol)
+    degree = ritz_error.first_degrees(sheet, 2 * shortest_order(driven), rtol)
     best = None
     while True:
         if matrix_size(degree) > MOST_NUMBERS:
             raise NotConvergedError(f"rtol = {rtol:g}: would need degrees {degree} or more", best)
-        best = SecondOrderField(RitzField(wave, RitzSolver(sheet, degree)), growth)
+        best = SecondOrderField(RitzField(driven, RitzSolver(sheet, degree)), growth)
         tails = np.maximum(best.first.tails, best.second_tails)
         if np.hypot(*tails) <= rtol:
             best.seconds = time.perf_counter() - start
@@ -89,11 +90,12 @@ class SecondOrderField(LinearField):
     def __init__(self, first: RitzField, growth: Growth = UNIT) -> None:
         start = time.perf_counter()
         self.first, self.sheet, self.wave = first, first.sheet, first.wave
+        self.drive: Drive = first.drive
         self.growth, self.mirrored = growth, first.mirrored
         self.numbers = 2 * first.numbers
-        self._times = second_times(self.wave, first._cases)
+        self._times = second_times(first._cases)
         square, weight = growth.law.square, growth.energy_weight
-        self._source = Source(self.sheet, self.wave, first.gradient_polynomials, square, weight)
+        self._source = Source(self.drive, first.gradient_polynomials, square, weight)
         self._moments = self._times.moments(self._source, first)
         self._solution = self._solve(self._moments)
         self._kept_second: tuple[object, Array] | None = None
@@ -116,7 +118,7 @@ class SecondOrderField(LinearField):
     @cached_property
     def second_tails(self) -> tuple[float, float]:
         """The parts of `second_error` that higher degrees across and along would take away."""
-        resolving = ritz_error.resolving_degrees(self.sheet, 2 * shortest_order(self.wave))
+        resolving = ritz_error.resolving_degrees(self.sheet, 2 * shortest_order(self.drive))
         aliased = self._aliased / math.sqrt(2)  # half of the square each: all degrees bring points
         tails = ritz_error.relative_tails(
             self._polynomials,

@@ -14,10 +14,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from linear_theory.deformation.field import Wave
 from linear_theory.deformation.ritz import legendre
 from linear_theory.sheet import hooke
 from linear_theory.sheet.rectangle import Sheet
+from linear_theory.wave.protocol import Drive
 
 Array = NDArray[np.float64]
 
@@ -33,8 +33,7 @@ class Source:
     Legendre polynomials; square, weight: k and m; finer: with half as many points again.
     """
 
-    sheet: Sheet
-    wave: Wave
+    drive: Drive
     gradients: Array
     square: float
     weight: float
@@ -46,7 +45,7 @@ class Source:
         amplitudes: of the load cases, (cases, T).
         """
         grid = self._grid()
-        growths = grid.growth(self.wave.value, times)
+        growths = grid.growth(self.drive.value, times)
         slopes = grid.values(self.gradients)
         stresses = [
             self._stress(np.tensordot(a, slopes, 1), c)
@@ -57,9 +56,9 @@ class Source:
     def moment_rates(self, times: Array, amplitudes: Array, rates: Array) -> Array:
         """Their time derivatives; rates: of the amplitudes."""
         grid = self._grid()
-        step = self.wave.period / (2 * np.pi)  # makes both terms of z + h dz/dt of one size
-        growths = grid.growth(self.wave.value, times)
-        changes = step * grid.growth(self.wave.rate, times)
+        step = self.drive.period / (2 * np.pi)  # makes both terms of z + h dz/dt of one size
+        growths = grid.growth(self.drive.value, times)
+        changes = step * grid.growth(self.drive.rate, times)
         slopes = grid.values(self.gradients)
         ahead, behind = (
             np.stack(
@@ -74,7 +73,7 @@ class Source:
 
     def _stress(self, slope: Array, growth: Array) -> Array:
         """P_kj from du_k/dx_j (2, 2, ...) and c (...)."""
-        poisson = self.sheet.poisson
+        poisson = self.drive.sheet.poisson
         strain = np.stack([slope[0, 0], slope[1, 1], (slope[0, 1] + slope[1, 0]) / 2])
         stress = _matrix(hooke.stress(strain, growth, poisson))
         square = np.einsum("kiab,kjab->ijab", slope, slope) / 2
@@ -85,7 +84,7 @@ class Source:
 
     def _grid(self) -> "_GaussGrid":
         across, along = self.gradients.shape[-2:]
-        return _GaussGrid(self.sheet, (across - 1, along - 1), 1.5 if self.finer else 1.0)
+        return _GaussGrid(self.drive.sheet, (across - 1, along - 1), 1.5 if self.finer else 1.0)
 
 
 class _GaussGrid:
@@ -102,7 +101,7 @@ class _GaussGrid:
     def growth(self, function: Callable[..., Array], times: Array) -> Array:
         """c or its rate, (T, points x, points y)."""
         x, y = self.x[:, None] * self.sheet.width / 2, self.y * self.sheet.length / 2
-        return function(x, y, times[:, None, None], self.sheet.length)
+        return function(x, y, times[:, None, None])
 
     def values(self, coefficients: Array) -> Array:
         """Of polynomials (..., degree x + 1, degree y + 1) at the points."""

@@ -9,8 +9,7 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from linear_theory.deformation.field import Wave
-from linear_theory.deformation.load_cases import LoadCases, Snapshots
+from linear_theory.deformation.load_cases import Harmonics, LoadCases, Snapshots
 from linear_theory.deformation.second.source import Source
 from linear_theory.wave.travelling import TravellingWave
 
@@ -48,12 +47,9 @@ class SecondTimes(Protocol):
         """Moments of the source of each basis function, as in `RitzSolver.solve_stress`."""
 
 
-def second_times(wave: Wave, cases: LoadCases) -> SecondTimes:
-    """Those that suit a wave, for load cases of first order."""
-    if isinstance(cases, Snapshots):
-        return AtTimes(cases)
-    assert isinstance(wave, TravellingWave)
-    return Series(wave)
+def second_times(cases: LoadCases) -> SecondTimes:
+    """Those that suit the load cases of first order."""
+    return Series(cases.series) if isinstance(cases, Harmonics) else AtTimes(cases)
 
 
 class Series:

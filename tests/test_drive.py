@@ -22,7 +22,7 @@ from linear_theory import (
 )
 from linear_theory.balance.period import Crawl, first_resolution
 from linear_theory.friction.contact import Contact
-from linear_theory.wave.survey import WaveSurvey, spread
+from linear_theory.wave.places import on_axis, spread
 
 SHEET, SINE, ALPHA = Sheet(), SineWave(), 0.1
 MATERIAL = Material(SHEET.thickness, SHEET.poisson)
@@ -196,8 +196,7 @@ def noisy_pulse() -> FieldWave:
 def test_noise_is_not_taken_for_a_wave_that_is_resolved() -> None:
     """Its harmonics in time go on to the 32nd: the doubling of 16 phases stopped at once."""
     narrow = Sheet(width=0.375)
-    survey = WaveSurvey.on_sheet(noisy_pulse(), narrow)
-    assert survey.rates.highest(0.1) >= 30
+    assert noisy_pulse().on(narrow).rates.highest(0.1) >= 30
     found = crawl_speed(narrow, noisy_pulse(), 0.12, rtol=1e-2)
     field = ritz_field(narrow, noisy_pulse(), degree=(9, 25))
     times = np.random.default_rng(3).uniform(size=400)
@@ -298,8 +297,8 @@ PLACES = np.random.default_rng(3).uniform(-0.45, 0.45, 6)
 def test_what_trembles_in_a_narrow_place_is_seen_wherever_it_is(place: float) -> None:
     """A hundredth of the body wide; with 24 points it fell between them, and V was -0.59, converged."""
     wave = narrow(128, place, 0.0085)
-    assert WaveSurvey.on_line(wave).rates.highest(0.1) == 128
-    assert WaveSurvey.on_sheet(wave, SHEET).rates.highest(0.1) == 128
+    assert wave.on(SHEET, on_axis(1.0)).rates.highest(0.1) == 128
+    assert wave.on(SHEET).rates.highest(0.1) == 128
     found = line_balance(wave, 0.05, rtol=3e-2, length=1.0)
     # 0.0015 to 0.0023 by place; 1009 times and 1000 points are off by up to 3e-5 from 9973 and 2000
     assert abs(found.mean - sorted_line(wave, 1009, 1000, 0.05)) <= found.error + 3e-5
