@@ -25,8 +25,8 @@ from linear_theory.common.threads import one_blas_thread
 from linear_theory.deformation.field import LinearField
 from linear_theory.deformation.load_cases import SAMPLES, LoadCases, load_cases, mixed_norms
 from linear_theory.motion.motion import CellGrid
-from linear_theory.scene import arguments
 from linear_theory.sheet.rectangle import Sheet
+from linear_theory.wave import arguments
 from linear_theory.wave.phases import phases
 from linear_theory.wave.places import among
 from linear_theory.wave.protocol import Drive, Wave

@@ -191,3 +191,9 @@ def combine(amplitudes: Array, basis: Array) -> Array:
     missing = max(amplitudes.ndim + 1 - basis.ndim, 0)  # axes that t has and the points lack
     basis = basis.reshape(*basis.shape[:2], *(1,) * missing, *basis.shape[2:])
     return np.asarray(sum(a * b for a, b in zip(amplitudes, basis, strict=True)))
+
+
+def checked_field(value: object) -> LinearField:
+    """`value`, which must be a deformation. Raises ValueError otherwise."""
+    hint = "airy_series, ritz_field and fem_check.plane_stress_field make one"
+    return validation.instance("field", value, LinearField, hint)  # type: ignore[type-abstract]

@@ -16,11 +16,11 @@ from linear_theory.line.piece import Piece
 from linear_theory.line.result import LineMotion
 from linear_theory.line.samples import sampled_balance
 from linear_theory.line.travelling import travelling_balance
-from linear_theory.scene import arguments
 from linear_theory.scene.scene import Scene
 from linear_theory.sheet.rectangle import Sheet
 from linear_theory.speed.result import CrawlSpeed, Estimate
 from linear_theory.speed.words import model_words
+from linear_theory.wave import arguments
 from linear_theory.wave.places import on_axis
 from linear_theory.wave.protocol import Wave
 from linear_theory.wave.sampled import drive

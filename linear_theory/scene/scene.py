@@ -22,9 +22,9 @@ from linear_theory.friction.laws import friction_law
 from linear_theory.friction.load import Load
 from linear_theory.growth.growth import Growth
 from linear_theory.identity import content_key
-from linear_theory.scene import arguments
 from linear_theory.scene.effect import NamedEffect
 from linear_theory.sheet.rectangle import Sheet
+from linear_theory.wave import arguments
 from linear_theory.wave.phases import phases
 from linear_theory.wave.places import among
 from linear_theory.wave.protocol import Drive, Wave

@@ -14,7 +14,7 @@ from linear_theory.common.progress import Report, watched
 from linear_theory.common.threads import one_blas_thread
 from linear_theory.common.tolerance import Tolerance
 from linear_theory.deformation.airy import airy_series
-from linear_theory.deformation.field import LinearField
+from linear_theory.deformation.field import LinearField, checked_field
 from linear_theory.deformation.ritz import ritz_field
 from linear_theory.friction.contact import Contact
 from linear_theory.friction.laws import FrictionLaw
@@ -23,7 +23,6 @@ from linear_theory.friction.regime import warn_if_viscous
 from linear_theory.growth.growth import Reference
 from linear_theory.growth.laws import GrowthLaw
 from linear_theory.motion.motion import CellGrid
-from linear_theory.scene import arguments
 from linear_theory.scene.level import THEORY
 from linear_theory.scene.scene import Scene
 from linear_theory.sheet.rectangle import Sheet
@@ -152,7 +151,7 @@ def field_speed(
     V = 0.106 L/T, friction is dry
     V = 0.064 L/T, friction is viscous
     """
-    field, alpha = arguments.field(field), validation.real("alpha", alpha)
+    field, alpha = checked_field(field), validation.real("alpha", alpha)
     contact = Contact.named(load, friction, slip_speed)
     found = _field_speed(field, alpha, contact, Tolerance(rtol, atol))
     warn_if_viscous(contact.friction, found.slip_ratio)

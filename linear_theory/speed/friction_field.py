@@ -9,11 +9,10 @@ from linear_theory.balance.period import Crawl, first_resolution
 from linear_theory.common import validation
 from linear_theory.common.shown import Shown
 from linear_theory.common.threads import one_blas_thread
-from linear_theory.deformation.field import LinearField
+from linear_theory.deformation.field import LinearField, checked_field
 from linear_theory.friction.contact import Contact
 from linear_theory.friction.laws import FrictionLaw
 from linear_theory.friction.load import Load
-from linear_theory.scene import arguments
 from linear_theory.speed.crawl import beyond_reach
 from linear_theory.speed.reach import warn_if_beyond
 
@@ -45,7 +44,7 @@ def friction_field(
     >>> print((friction.force * friction.slip).sum(0) < 0)  # against the slip
     [ True  True]
     """
-    field = arguments.field(field)
+    field = checked_field(field)
     alpha, t = validation.real("alpha", alpha), validation.real("t", t)
     x, y = np.broadcast_arrays(validation.real_array("x", x), validation.real_array("y", y))
     contact, rtol = Contact.named(load, friction, slip_speed), validation.tolerance(rtol)

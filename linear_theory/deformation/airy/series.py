@@ -18,9 +18,9 @@ from linear_theory.deformation.airy.cases import Cases
 from linear_theory.deformation.airy.error import missing_mean_square
 from linear_theory.deformation.airy.system import Family, Pair
 from linear_theory.deformation.field import LinearField, combine
-from linear_theory.scene import arguments
 from linear_theory.sheet import hooke
 from linear_theory.sheet.rectangle import Sheet
+from linear_theory.wave import arguments
 from linear_theory.wave.phases import phases
 from linear_theory.wave.protocol import Wave
 from linear_theory.wave.sampled import drive

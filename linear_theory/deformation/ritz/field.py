@@ -25,8 +25,8 @@ from linear_theory.deformation.load_cases import Harmonics, LoadCases, Snapshots
 from linear_theory.deformation.ritz import error as ritz_error
 from linear_theory.deformation.ritz import legendre
 from linear_theory.deformation.ritz.solver import RitzSolver, matrix_size
-from linear_theory.scene import arguments
 from linear_theory.sheet.rectangle import Sheet
+from linear_theory.wave import arguments
 from linear_theory.wave.protocol import Drive, Wave
 from linear_theory.wave.sampled import drive
 

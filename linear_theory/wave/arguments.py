@@ -1,9 +1,8 @@
-"""The checks of sheets, waves and fields that every public function makes first."""
+"""The checks of sheets and waves that every public function makes first."""
 
 from typing import Any
 
 from linear_theory.common import validation
-from linear_theory.deformation.field import LinearField
 from linear_theory.sheet.rectangle import Sheet
 from linear_theory.wave.protocol import Wave
 
@@ -39,12 +38,6 @@ def wave(value: Any, name: str = "wave") -> Wave:
         missing = ", ".join(part for part in WAVE_PARTS if not hasattr(value, part))
         hint += f", or have their {', '.join(WAVE_PARTS)} (no {missing})"
     raise ValueError(f"{name} = {validation.shown(value)}: {hint}")
-
-
-def field(value: object, name: str = "field") -> LinearField:
-    """`value`, which must be a deformation. Raises ValueError otherwise."""
-    hint = "airy_series, ritz_field and fem_check.plane_stress_field make one"
-    return validation.instance(name, value, LinearField, hint)  # type: ignore[type-abstract]
 
 
 def _is_wave(value: object) -> bool:
