@@ -4,8 +4,7 @@ A scene is plain data. It is neither solved nor discretised here: every level re
 it cannot represent. What a scene does not name is left out by all of them.
 """
 
-import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from importlib import import_module
@@ -22,7 +21,7 @@ from linear_theory.friction.laws import friction_law
 from linear_theory.friction.load import Load
 from linear_theory.growth.growth import Growth
 from linear_theory.identity import content_key
-from linear_theory.scene.effect import NamedEffect
+from linear_theory.scene.effects import checked_effects, contact_of
 from linear_theory.sheet.rectangle import Sheet
 from linear_theory.wave import arguments
 from linear_theory.wave.phases import phases
@@ -113,7 +112,7 @@ class Scene(Shown):
             effects=tuple(effect.under(sheet) for effect in checked_effects(effects)),
             _said=None if contact is None else validation.instance("contact", contact, Contact),
         )
-        self._set(contact=_contact(self.effects, self.components, self._said))
+        self._set(contact=contact_of(self.effects, self.components, self._said))
         self._set(elements=self._elements(cells, mesh, element))
         self._check()
 
@@ -329,55 +328,3 @@ def _grown(growth: Growth | None, said: dict[str, Any]) -> Growth:
     if "alpha" not in changes:
         raise ValueError("alpha = None: must be given, or growth = Growth(alpha, ...)")
     return Growth(**changes)
-
-
-def _contact(effects: Iterable[NamedEffect], components: int, said: Contact | None) -> Contact:
-    """What the effects say of load, friction and slope, and `said`, which must agree, of the rest."""
-    presses = [load for effect in effects if (load := effect.pressed_by(components)) is not None]
-    rubs = [effect for effect in effects if effect.law is not None]
-    if said is not None and said.load is Load.GROUND and Load.GROUND not in presses:
-        raise ValueError("load = 'ground': the scene must name the effect Ground")
-    load = presses[-1] if presses else (Load.CURRENT if said is None else said.load)
-    law = rubs[0].law if rubs else None
-    if law is None:
-        found = Contact(load) if said is None else replace(said, load=load)
-    else:
-        found = Contact(load, law, _slope(effects, rubs[0].mu))
-    if said is not None and said.load != load:
-        raise ValueError(
-            f"load = {str(said.load)!r}: must be None or {str(load)!r}, as the effects of the scene say"
-        )
-    if said is not None and said.friction != found.friction:
-        raise ValueError(
-            f"friction = {said.friction!r}: must be None or that of the scene, which names Friction "
-            f"with {law!r}"
-        )
-    return found
-
-
-def _slope(effects: Iterable[NamedEffect], mu: float | None) -> float:
-    """tan(incline)/mu."""
-    incline = sum(effect.incline for effect in effects)
-    return math.tan(incline) / mu if incline and mu else 0.0
-
-
-def checked_effects(effects: Any) -> tuple[Any, ...]:
-    """The effects, one of them alone, too. Raises ValueError for what is no instance of an effect."""
-    if _is_effect(effects):
-        return (effects,)
-    if isinstance(effects, type | str) or not isinstance(effects, Iterable):
-        shown = validation.shown(effects)
-        raise ValueError(f"effects = {shown}: must be a sequence of effects, as [Membrane(material)]")
-    found = tuple(effects)
-    for i, effect in enumerate(found):
-        if not _is_effect(effect):
-            hint = "an instance, made with its arguments" if isinstance(effect, type) else "an effect"
-            raise ValueError(f"effects[{i}] = {validation.shown(effect)}: must be {hint}")
-        if type(effect) in map(type, found[:i]):
-            raise ValueError(f"effects: {type(effect).__name__} is named twice, must be named once")
-    return found
-
-
-def _is_effect(value: object) -> bool:
-    """Whether it is an object, and no class, that a scene can ask what it needs to know."""
-    return not isinstance(value, type) and isinstance(value, NamedEffect)
