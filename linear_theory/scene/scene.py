@@ -279,7 +279,7 @@ class Scene(Shown):
         growth = [f"{said}={in_words(getattr(self.growth, name))}" for said, name in GROWTH.items()]
         rows = {"sheet": self.sheet, "wave": self.wave, "growth": ", ".join(growth)}
         rows["contact"] = self.contact
-        rows["cells"] = "as the wave needs" if self.elements is None else self.elements
+        rows["elements"] = "as the wave needs" if self.elements is None else self.elements
         return {**rows, **{f"effects[{i}]": effect for i, effect in enumerate(self.effects)}}
 
     def _contents(self) -> Mapping[str, Any]:
