@@ -22,7 +22,18 @@ FAR = 1e3
 
 
 class FrictionLaw(Value, ABC):
-    """f(r) of the speed r. name: by which it is called."""
+    """f(r) of the speed r: Coulomb, Tanh, Viscous, or a class of one's own. name: by which it is called.
+
+    >>> import numpy as np
+    >>> from linear_theory import Coulomb, FrictionLaw, Tanh, Viscous
+    >>> for law in (Coulomb(), Tanh(slip_speed=0.1), Viscous()):
+    ...     print(f"{law.words}: {0.2 * law.ratio(np.array(0.2)):.3f}", isinstance(law, FrictionLaw))
+    dry friction: 1.000 True
+    friction tanh(v/0.1): 0.964 True
+    viscous friction: 0.200 True
+
+    Raises ValueError for a slip speed that is not positive.
+    """
 
     name: ClassVar[str]
 
