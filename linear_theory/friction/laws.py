@@ -22,7 +22,9 @@ FAR = 1e3
 
 
 class FrictionLaw(Value, ABC):
-    """f(r) of the speed r: Coulomb, Tanh, Viscous, or a class of one's own. name: by which it is called.
+    """f(r) of the speed r: Coulomb, Tanh, Viscous, or a class of one's own.
+
+    name: by which it is called.
 
     >>> import numpy as np
     >>> from linear_theory import Coulomb, FrictionLaw, Tanh, Viscous
