@@ -21,6 +21,7 @@ from linear_theory.wave.travelling import TravellingWave
 Array = NDArray[np.float64]
 
 
+@one_blas_thread
 def line_balance(
     wave: Wave,
     alpha: float,
@@ -82,8 +83,7 @@ def line_balance(
     law = FrictionLaw(friction, slip_speed)
     length = _checked_length(length, wave)
     atol = validation.absolute_tolerance(atol, rtol, alpha, length / wave.period)
-    with one_blas_thread:
-        answer = _in_lengths(wave, alpha, law.scaled(length), growth, rtol, atol / length, length)
+    answer = _in_lengths(wave, alpha, law.scaled(length), growth, rtol, atol / length, length)
     found = CrawlSpeed(
         mean=length * answer.mean,
         error=length * answer.error,

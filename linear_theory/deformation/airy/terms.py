@@ -27,7 +27,6 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.special import spence
 
 from linear_theory.deformation.airy.family import Family
 from linear_theory.deformation.airy.system import Solution
@@ -177,6 +176,8 @@ def _polylogarithm(order: int, z: Complex, every: bool) -> Complex:
     if order == 1:
         log = -np.log(-np.expm1(-z))
         return log if every else np.asarray((log + np.log1p(power)) / 2)
+    from scipy.special import spence  # here: scipy takes long to import
+
     dilog = spence(-np.expm1(-z))
     return dilog if every else (dilog - spence(1 + power)) / 2
 
