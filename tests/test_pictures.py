@@ -270,6 +270,16 @@ def test_bad_arguments_are_named(theory):
         Units("mm", "s", length_factor=0)
 
 
+def test_the_import_alone_loads_numpy_and_no_other_large_package():
+    code = (
+        "import sys, linear_theory;"
+        "large = {'scipy', 'sympy', 'mpmath', 'matplotlib', 'skfem', 'pandas'};"
+        "sys.exit(' '.join(large & set(sys.modules)) or 0)"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+
+
 def test_who_only_computes_loads_no_matplotlib():
     code = (
         "import sys; from linear_theory import Sheet, SineWave, crawl_speed;"

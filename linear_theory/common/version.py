@@ -1,6 +1,5 @@
 """The version of the program: of the installed package, or of the folder that it runs from."""
 
-import importlib.metadata
 import tomllib
 from pathlib import Path
 
@@ -13,4 +12,6 @@ def current_version() -> str:
         project = tomllib.loads(PROJECT.read_text(encoding="utf-8")).get("project", {})
         if project.get("name") == "sheetcrawl":
             return str(project["version"])
+    import importlib.metadata  # here: it takes a tenth of the time that all of the package takes
+
     return importlib.metadata.version("sheetcrawl")

@@ -20,17 +20,19 @@ import math
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.interpolate import CubicHermiteSpline
 
 from linear_theory.balance.time_grid import TimeGrid
 from linear_theory.common import validation
 from linear_theory.common.tables import LENGTH, RADIANS, TIME, Column, Tabular
 from linear_theory.common.threads import one_blas_thread
 from linear_theory.speed.result import CrawlSpeed
+
+if TYPE_CHECKING:
+    from scipy.interpolate import CubicHermiteSpline
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -187,7 +189,7 @@ class _Cycle(NamedTuple):
     """One period. spline: x, y, heading over the time; inner, inner_turn: errors within the period
     that do not add up; swing: largest distance from the start."""
 
-    spline: CubicHermiteSpline
+    spline: "CubicHermiteSpline"
     step_error: float
     turn_error: float
     inner: float
@@ -269,7 +271,7 @@ def _one_period(grid: TimeGrid, speed: CrawlSpeed) -> _Cycle:
     wrong_way = inner_turn * float(grid.mean(abs(along))[0])
     turning = grid.error(np.stack([(velocity - along).real, (velocity - along).imag]))
     return _Cycle(
-        spline=CubicHermiteSpline(times, poses, rates),
+        spline=_spline(times, poses, rates),
         step_error=length * (mean_error + wrong_way + turning),
         turn_error=length * mean_errors[2],
         inner=inner,
@@ -300,8 +302,14 @@ def _integral(grid: TimeGrid, values: NDArray[np.inexact]) -> NDArray[np.inexact
     return np.append((before[:-1, None] + inside[:, :-1]).ravel(), before[-1])
 
 
+def _spline(times: Array, poses: Array, rates: Array) -> "CubicHermiteSpline":
+    from scipy.interpolate import CubicHermiteSpline  # here: scipy takes long to import
+
+    return CubicHermiteSpline(times, poses, rates)
+
+
 def _inner_errors(times: Array, poses: Array, rates: Array) -> tuple[float, float]:
     """Largest errors of place and heading within the period: what every second time leaves out."""
-    coarse = CubicHermiteSpline(times[::2], poses[::2], rates[::2])
+    coarse = _spline(times[::2], poses[::2], rates[::2])
     x, y, angle = (coarse(times) - poses).T
     return float(np.hypot(x, y).max()), float(abs(angle).max())

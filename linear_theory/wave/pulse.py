@@ -3,7 +3,6 @@
 import math
 
 import numpy as np
-from scipy import special
 
 from linear_theory.common import validation
 from linear_theory.wave.travelling import EPS, TravellingWave
@@ -26,11 +25,13 @@ def pulse_wave(width: float, count: int = 1, period: float = 1.0) -> TravellingW
     >>> print(pulse.value(x=0.0, y=[0.0, 0.1, 0.5], t=0.0).round(2))
     [1.  0.5 0. ]
     """
+    from scipy.special import ive  # here: scipy takes long to import
+
     width = validation.real("width", width)
     if not NARROWEST <= width < 1:
         raise ValueError(f"width = {width:g}: must be in [{NARROWEST:g}, 1), a share of the wavelength")
     steepness = math.log(2) / (1 - math.cos(math.pi * width))
     most = math.ceil(16 + 10 * math.sqrt(steepness))  # I_n(k)/I_0(k) is about exp(-n^2/(2k))
-    amplitudes = 2 * special.ive(np.arange(most + 1), steepness)
+    amplitudes = 2 * ive(np.arange(most + 1), steepness)
     kept = amplitudes[1 : 1 + max(int(np.sum(amplitudes[1:] > EPS * amplitudes[1])), 1)]
     return TravellingWave(kept, np.zeros_like(kept), count, period, float(amplitudes[0] / 2))

@@ -11,7 +11,6 @@ from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.fft import dct
 
 from linear_theory.common.shown import Shown
 
@@ -82,6 +81,8 @@ def fourier(function: Function, checks: Array, fewest: int, most: int) -> Spectr
 
 def chebyshev(function: Function, checks: Array, fewest: int, most: int) -> Spectrum:
     """Chebyshev polynomials of functions on [-1, 1]; arguments as of `fourier`."""
+    from scipy.fft import dct  # here: scipy takes long to import
+
     known, tolerance = _checked(function, checks)
     count = fewest
     while True:
