@@ -2,7 +2,7 @@
 
 from abc import abstractmethod
 from functools import cached_property
-from typing import Any, ClassVar
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,7 +22,10 @@ class Isotropic(FrictionLaw):
     The force is f(r) v/r; its tangent is f'(r) along v and f(r)/r across.
     """
 
-    even: ClassVar[bool] = True
+    @property
+    def even(self) -> bool:
+        """Always."""
+        return True
 
     @abstractmethod
     def energy(self, r: Array) -> Array:

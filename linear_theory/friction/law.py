@@ -30,9 +30,8 @@ class FrictionLaw(Value, ABC):
     along the ground. At rest potential and force are 0, and the tangent of a law that has a width is
     finite. A new law is a frozen dataclass that inherits from this class, or from `Isotropic`.
 
-    name: by which it is called. even: whether the potential is the same for (+-v_x, +-v_y), so that a
-    mirrored motion has mirrored forces and an opposite one opposite forces; only then do symmetries of
-    a motion count.
+    Directions are those of x and y, which a sheet is taken not to turn away from by much. name: by
+    which the law is called.
 
     >>> import numpy as np
     >>> from linear_theory import Tanh
@@ -44,10 +43,18 @@ class FrictionLaw(Value, ABC):
     """
 
     name: ClassVar[str]
-    even: ClassVar[bool] = False
 
     def __str__(self) -> str:
         return self.name
+
+    @property
+    def even(self) -> bool:
+        """Whether the potential is the same for all of (+-v_x, +-v_y).
+
+        Then mirrored motions have mirrored forces and opposite ones opposite forces. Of a law that does
+        not say so no symmetry is assumed.
+        """
+        return False
 
     @property
     @abstractmethod

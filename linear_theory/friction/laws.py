@@ -91,7 +91,7 @@ class Tanh(Isotropic):
         away."""
         s = self._argument(r)
         near = np.log1p(2 * np.sinh(np.minimum(s, 1) / 2) ** 2)
-        far = np.log1p(np.exp(-2 * s)) - math.log(2)
+        far = np.log1p(self._decay(r)) - math.log(2)
         return np.asarray(np.where(s < 1, self.width * near, r + self.width * far))
 
     def size(self, r: Array) -> Array:
@@ -99,15 +99,20 @@ class Tanh(Isotropic):
         return np.tanh(self._argument(r))
 
     def slope(self, r: Array) -> Array:
-        """See Isotropic. 1/(slip_speed cosh(r/slip_speed)^2), to full relative accuracy."""
-        decay = np.exp(-2 * self._argument(r))
-        return np.asarray(4 / self.width * decay / (1 + decay) ** 2)
+        """See Isotropic. 1/(slip_speed cosh(r/slip_speed)^2)."""
+        decay = self._decay(r)
+        return np.asarray(4 * decay / (1 + decay) ** 2 / self.width)
 
     def rise(
         self, before: IsotropicResponse, after: IsotropicResponse, change: Array, step: float
     ) -> Array:
-        """See Isotropic. By tanh a - tanh b = tanh(a - b) (1 - tanh a tanh b)."""
-        return np.asarray(self.size(step * change) / step * (1 - before.size * after.size))
+        """See Isotropic. By tanh b - tanh a = tanh(b - a) (1 - tanh a tanh b)."""
+        a, b = self._decay(before.speed), self._decay(after.speed)
+        return np.asarray(self.size(step * change) / step * (2 * (a + b) / ((1 + a) * (1 + b))))
+
+    def _decay(self, r: Array) -> Array:
+        """exp(-2 r/slip_speed), what tanh is from 1, for r >= 0."""
+        return np.exp(-2 * self._argument(r))
 
     def _argument(self, r: Array) -> Array:
         """r/slip_speed; infinite beyond doubles, where tanh is 1 and its slope 0 all the same."""
