@@ -11,7 +11,8 @@ from linear_theory.common.version import current_version
 from linear_theory.deformation.airy import AirySeries, airy_series
 from linear_theory.deformation.ritz import RitzField, ritz_field
 from linear_theory.friction.contact import Contact
-from linear_theory.friction.laws import Coulomb, FrictionLaw, Tanh, Viscous
+from linear_theory.friction.law import FrictionLaw
+from linear_theory.friction.laws import Coulomb, Tanh, Viscous
 from linear_theory.friction.load import Load
 from linear_theory.growth.bilayer import bilayer
 from linear_theory.growth.growth import Growth

@@ -21,7 +21,7 @@ from linear_theory.common.progress import Report, part_of, watched
 from linear_theory.common.shown import Shown, number
 from linear_theory.common.threads import one_blas_thread
 from linear_theory.common.tolerance import Tolerance
-from linear_theory.friction.laws import FrictionLaw
+from linear_theory.friction.law import FrictionLaw
 from linear_theory.friction.load import Load
 from linear_theory.friction.regime import warn_if_viscous
 from linear_theory.growth.growth import Reference

@@ -93,10 +93,7 @@ class Crawling:
         v_x, v_y, omega = self._rigid(t)
         x, y = self._deformation.places(points, np.array([t]))[:2, 0]
         slip = velocity + np.stack([v_x - omega * y, v_y + omega * x])
-        size = np.hypot(*slip)
-        with np.errstate(divide="ignore", invalid="ignore"):
-            force = -load * self._deformation.law.ratio(size) * slip
-        return np.where(size > 0, force, 0.0)
+        return -load * self._deformation.law.force(slip)
 
     def ground(self, y: Array) -> Array:
         """Level: no theory and no cycle of shapes knows any other."""

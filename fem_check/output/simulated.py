@@ -20,9 +20,6 @@ from linear_theory.speed.result import CrawlSpeed
 Array = NDArray[np.float64]
 Integers = NDArray[np.int64]
 
-TINY = 1e-300
-"""Replaces a speed of 0, at which there is no force."""
-
 AROUND = 1e-2
 """Half of the interval, in periods, over which velocities are differences of positions."""
 
@@ -80,9 +77,8 @@ class Simulated:
             return np.zeros((2, region.size))
         before, after = self._within(t - AROUND * self.period), self._within(t + AROUND * self.period)
         moved = self._place(region, after)[:2] - self._place(region, before)[:2]
-        velocity = moved / (after - before)
-        ratio = self._scene.contact.friction.ratio(np.maximum(np.hypot(*velocity), TINY))
-        return np.asarray(-self._load(region, t) * ratio * velocity)
+        law = self._scene.contact.friction
+        return np.asarray(-self._load(region, t) * law.force(moved / (after - before)))
 
     def ground(self, y: Array) -> Array:
         """See Moving."""

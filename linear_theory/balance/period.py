@@ -107,7 +107,12 @@ class Crawl:
     @property
     def starts_at_second_order(self) -> bool:
         """Whether c(t + T/2) = -c(t), so that the leading q_0 has exactly no mean."""
-        return self.drive.changes_sign
+        return self.drive.changes_sign and self.contact.friction.even
+
+    @property
+    def mirrored(self) -> bool:
+        """Whether motion and friction are mirror symmetric in x."""
+        return self.field.mirrored and self.contact.friction.even
 
     @property
     def counts_leading(self) -> bool:
@@ -129,7 +134,7 @@ class Crawl:
     @property
     def reversal_time(self) -> float | None:
         """t_0 with V(t_0 - t) = V(t), where the wave and the sheet have that symmetry."""
-        return self.drive.reversal_time if self.field.mirrored else None
+        return self.drive.reversal_time if self.mirrored else None
 
     @cached_property
     def work(self) -> int:
@@ -152,7 +157,7 @@ class Crawl:
     @property
     def norm(self) -> RigidNorm:
         """By which motions and their errors are judged."""
-        return RigidNorm(self.field.gyration, self.field.mirrored)
+        return RigidNorm(self.field.gyration, self.mirrored)
 
     def counted(self, motion: RigidMotion) -> Array:
         """V_x, V_y, Omega at each time without what is known to have no mean, (3, times)."""
@@ -185,7 +190,7 @@ class Crawl:
     def _motion(self, times: Array) -> Motion:
         field, r = self.field, self.resolution
         across, along = self.drive.short_waves
-        grid = CellGrid.graded(field.sheet, along, r.density, field.mirrored, across)
+        grid = CellGrid.graded(field.sheet, along, r.density, self.mirrored, across)
         return field.motion(times, grid, r.order)
 
     def _balance(self, times: Array) -> Balance:

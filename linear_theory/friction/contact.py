@@ -4,7 +4,8 @@ from dataclasses import dataclass
 
 from linear_theory.common import validation
 from linear_theory.common.shown import Value
-from linear_theory.friction.laws import Coulomb, FrictionLaw, friction_law
+from linear_theory.friction.law import FrictionLaw
+from linear_theory.friction.laws import Coulomb, friction_law
 from linear_theory.friction.load import Load
 
 

@@ -8,7 +8,8 @@ from linear_theory.common import validation
 from linear_theory.common.threads import one_blas_thread
 from linear_theory.common.tolerance import Tolerance
 from linear_theory.friction.contact import Contact
-from linear_theory.friction.laws import FrictionLaw
+from linear_theory.friction.law import FrictionLaw
+from linear_theory.friction.laws import FRICTION_LAWS
 from linear_theory.friction.load import Load
 from linear_theory.friction.regime import warn_if_viscous
 from linear_theory.growth.laws import GrowthLaw
@@ -92,8 +93,14 @@ def line_balance(
 
 @one_blas_thread
 def line_crawl(scene: Scene, tolerance: Tolerance, body: str) -> CrawlSpeed:
-    """`line_balance` of a body as long as the sheet of a scene, without its warning."""
+    """`line_balance` of a body as long as the sheet of a scene, without its warning.
+
+    Raises ValueError for a law of friction without a name, which may depend on direction.
+    """
     start, law, length = time.perf_counter(), scene.contact.friction, scene.sheet.length
+    if not isinstance(law, tuple(FRICTION_LAWS.values())):
+        names = ", ".join(kind.__name__ for kind in FRICTION_LAWS.values())
+        raise ValueError(f"friction = {law!r}: must be one of {names} for a body on a line")
     piece = Piece.of(scene.growth.law, scene.contact.load, body)
     tolerance = tolerance.of_speed(scene.alpha, scene.unit)
     answer = _in_lengths(scene, piece, tolerance.scaled(length))

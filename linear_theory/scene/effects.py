@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, Protocol, runtime_checkable
 
 from linear_theory.common import validation
 from linear_theory.friction.contact import Contact
-from linear_theory.friction.laws import FrictionLaw
+from linear_theory.friction.law import FrictionLaw
 from linear_theory.friction.load import Load
 
 if TYPE_CHECKING:

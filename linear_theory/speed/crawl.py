@@ -17,7 +17,7 @@ from linear_theory.deformation.airy import airy_series
 from linear_theory.deformation.field import LinearField, checked_field
 from linear_theory.deformation.ritz import ritz_field
 from linear_theory.friction.contact import Contact
-from linear_theory.friction.laws import FrictionLaw
+from linear_theory.friction.law import FrictionLaw
 from linear_theory.friction.load import Load
 from linear_theory.friction.regime import warn_if_viscous
 from linear_theory.growth.growth import Reference
@@ -196,7 +196,7 @@ def _field_speed(
         slip_ratio=law.slip_ratio(period.fastest),
         first_order=period.first_order,
         sticks=period.sticks,
-        turning=None if field.mirrored else turning,
+        turning=None if crawl.mirrored else turning,
         deformation=deformation,
     )
     return judged(found, beyond_reach(field, alpha))

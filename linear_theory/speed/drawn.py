@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from linear_theory.common.shown import Shown
 from linear_theory.deformation.field import LinearField
 from linear_theory.friction.contact import Contact
-from linear_theory.friction.laws import FrictionLaw
+from linear_theory.friction.law import FrictionLaw
 from linear_theory.wave.protocol import Drive
 
 Array = NDArray[np.float64]

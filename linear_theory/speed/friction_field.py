@@ -11,7 +11,7 @@ from linear_theory.common.shown import Shown
 from linear_theory.common.threads import one_blas_thread
 from linear_theory.deformation.field import LinearField, checked_field
 from linear_theory.friction.contact import Contact
-from linear_theory.friction.laws import FrictionLaw
+from linear_theory.friction.law import FrictionLaw
 from linear_theory.friction.load import Load
 from linear_theory.speed.crawl import beyond_reach
 from linear_theory.speed.reach import warn_if_beyond
@@ -70,13 +70,10 @@ def _friction_field(
         v_x, v_y, omega = alpha * (motion.leading + alpha * motion.remainder)[0]
     rigid = np.stack([v_x - omega * (y - field.centre[1]), v_y + omega * (x - field.centre[0])])
     slip = alpha * field.velocity(x, y, t) + rigid
-    speed = np.hypot(*slip)
     growth = field.drive.value(x, y, t)
     rate = contact.load.rate(field.strain(x, y, t)[:2].sum(0), growth)
     weight = 1 + alpha * rate
-    with np.errstate(divide="ignore", invalid="ignore"):
-        force = np.where(speed > 0, -weight * contact.friction.ratio(speed) * slip, 0.0)
-    return FrictionField(force, slip, weight)
+    return FrictionField(-weight * contact.friction.force(slip), slip, weight)
 
 
 class _Forces(NamedTuple):

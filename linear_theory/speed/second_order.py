@@ -37,7 +37,7 @@ from linear_theory.common.threads import one_blas_thread
 from linear_theory.common.tolerance import Tolerance
 from linear_theory.deformation.second.field import SecondOrderField, second_order_field
 from linear_theory.friction.contact import Contact
-from linear_theory.friction.laws import FrictionLaw
+from linear_theory.friction.law import FrictionLaw
 from linear_theory.friction.load import Load
 from linear_theory.growth.growth import Reference
 from linear_theory.growth.laws import GrowthLaw
@@ -198,7 +198,7 @@ def coefficients(
 ) -> SecondOrder:
     """Means of q_0 and q_1 and their errors; start: of the time that is counted."""
     first, second = period.means
-    first_error, second_error = period.mean_errors + field_errors(field, period)
+    first_error, second_error = period.mean_errors + field_errors(field, period, contact)
     if period.sticks:
         second, second_error = np.full(3, math.nan), np.full(3, math.inf)
     return SecondOrder(
@@ -215,14 +215,15 @@ def coefficients(
     )
 
 
-def field_errors(field: SecondOrderField, period: Period) -> Array:
+def field_errors(field: SecondOrderField, period: Period, contact: Contact) -> Array:
     """What the errors of u_1 and u_2 do to V_x, V_y, Omega of first and second order, (2, 3).
 
     Nothing where symmetry makes them 0.
     """
     fastest = period.fastest / TINY_ALPHA
-    first = 0.0 if field.drive.changes_sign else FIRST_SHARE * field.error * fastest
-    norm = RigidNorm(field.gyration, field.mirrored)
+    even = contact.friction.even
+    first = 0.0 if field.drive.changes_sign and even else FIRST_SHARE * field.error * fastest
+    norm = RigidNorm(field.gyration, field.mirrored and even)
     return np.stack([norm.each(first), norm.each(_second_field_error(field, fastest))])
 
 
@@ -246,10 +247,11 @@ def second_order_speed(scene: Scene, tolerance: Tolerance) -> CrawlSpeed:
     scene.growth.law.check(alpha, scene.drive.growths(*_points(scene.sheet)))
     period = leading_period(field, per_alpha, rtol)
     both = coefficients(field, period, contact, start)
-    norm = RigidNorm(field.gyration, field.mirrored)
+    mirrored = field.mirrored and law.even
+    norm = RigidNorm(field.gyration, mirrored)
     fastest = abs(alpha) * period.fastest / TINY_ALPHA
     found = replace(
-        speed_at(alpha, both, period, field.mirrored),
+        speed_at(alpha, both, period, mirrored),
         converged=norm.meets(both.rigid_mean(alpha), both.rigid_error(alpha), tolerance),
         slip_ratio=law.slip_ratio(fastest),
         seconds=time.perf_counter() - start,

@@ -86,7 +86,7 @@ class CycleBalance:
         digits = -math.log10(rtol * min(abs(shapes.scene.alpha) or 1.0, 1.0))
         order = min(max(math.ceil(1.5 + 0.9 * digits), 5), 14)
         halvings = math.ceil(3.4 * digits)  # the last cell has the area 10^-digits of the first
-        return cls(shapes, contact, order, halvings, 0.02 * 10**-digits, is_mirrored(shapes))
+        return cls(shapes, contact, order, halvings, 0.02 * 10**-digits, _mirrored(shapes, contact))
 
     @cached_property
     def norm(self) -> RigidNorm:
@@ -115,7 +115,12 @@ class CycleBalance:
     def speed_per_rate(self) -> float:
         """Largest mean V that dc/dt of root mean square 1 makes."""
         scene = self.shapes.scene
-        return scene.speed_per_rate(self.contact.slope != 0 or not scene.drive.changes_sign)
+        opposed = scene.drive.changes_sign and self.contact.friction.even
+        return scene.speed_per_rate(self.contact.slope != 0 or not opposed)
+
+    def on(self, shapes: Shapes) -> "CycleBalance":
+        """The balance of other shapes of the same scene."""
+        return replace(self, shapes=shapes, mirrored=_mirrored(shapes, self.contact))
 
     def average(self, tolerance: Tolerance) -> PairedPeriod:
         """Mean motion over a period at as many times as the tolerance needs and the noise allows."""
@@ -219,6 +224,11 @@ class CycleBalance:
     def _balance(self, times: Array) -> Balance:
         motion, law, slope = self._motion.at(times), self.contact.friction, self.contact.slope
         return Balance(motion, motion.dilation, 1.0, law, self.halvings, self.tolerance, slope)
+
+
+def _mirrored(shapes: Shapes, contact: Contact) -> bool:
+    """Whether motion and friction are mirror symmetric in x."""
+    return is_mirrored(shapes) and contact.friction.even
 
 
 def _paired(leading: Array) -> Array:

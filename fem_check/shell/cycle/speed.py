@@ -20,7 +20,7 @@ from fem_check.shell.abilities import CYCLE, require
 from fem_check.shell.cycle.balance import CycleBalance, PairedPeriod
 from fem_check.shell.cycle.contact import creep, held_contact
 from fem_check.shell.cycle.deformation import CycleDeformation
-from fem_check.shell.cycle.motion import UnresolvedError, is_mirrored
+from fem_check.shell.cycle.motion import UnresolvedError
 from fem_check.shell.cycle.shapes import Shapes, cycle_of_shapes
 from fem_check.shell.effects.friction import friction_over_growth
 from fem_check.shell.kinematics.places import distinct
@@ -159,7 +159,7 @@ class Cycle(Shown):
         """What the mesh does to the mean motion, from the speed on another mesh at the same times."""
         kept, gain = self._compared
         shapes = kept.at(len(balance.shapes.states))
-        other = replace(balance, shapes=shapes, mirrored=is_mirrored(shapes)).balance(period.grid.times)
+        other = balance.on(shapes).balance(period.grid.times)
         return np.asarray(abs(balance.mean(period.grid, other.leading) - period.mean) / gain)
 
     def _stable(self, balance: CycleBalance) -> bool:
@@ -276,8 +276,8 @@ def _is_target(scene: Scene) -> bool:
 
 def _starts_at_second_order(scene: Scene, contact: Contact) -> bool:
     """Whether c(t + T/2) = -c(t) is known, on level ground: the first order then has no mean."""
-    drive = scene.drive
-    return contact.slope == 0 and drive.series is not None and drive.changes_sign
+    drive, even = scene.drive, contact.slope == 0 and contact.friction.even
+    return even and drive.series is not None and drive.changes_sign
 
 
 def _words(scene: Scene, contact: Contact) -> str:

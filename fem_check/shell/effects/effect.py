@@ -1,4 +1,4 @@
-"""What every effect offers, and the small tensor products that they share.
+"""What every effect offers.
 
 An effect is a potential that is a sum over points of a density of the position and its derivatives.
 It states which derivatives (`entries`) it reads and gives, at every point, its value, its gradient and
@@ -6,7 +6,7 @@ its Hessian with respect to them. Sums over elements and unknowns are made once 
 Nobody else asks of which class an effect is: effects are an open set.
 
 The Hessian is symmetric in (entry, component); stored are the blocks of the component pairs c <= d,
-in the order of `PAIRS`: block [k, l, (c, d)] belongs to component c of entry k and d of entry l.
+in the order of `pairs.PAIRS`: block [k, l, (c, d)] belongs to component c of entry k and d of entry l.
 """
 
 from abc import ABC, abstractmethod
@@ -18,18 +18,12 @@ from numpy.typing import NDArray
 from fem_check.shell.kinematics.point_state import PointState
 from fem_check.shell.kinematics.rates import Step
 from fem_check.shell.kinematics.region import Entries
-from linear_theory.friction.laws import FrictionLaw
+from linear_theory.friction.law import FrictionLaw
 from linear_theory.friction.load import Load
 from linear_theory.scene.scene import Scene
 from linear_theory.sheet.rectangle import Sheet
 
 Array = NDArray[np.float64]
-
-PAIRS = {2: ((0, 0, 1), (0, 1, 1)), 3: ((0, 0, 0, 1, 1, 2), (0, 1, 2, 1, 2, 2))}
-"""Component pairs c <= d for 2 and 3 components, as index arrays (c's, d's)."""
-
-_FIRST = {k: np.array(v[0]) for k, v in PAIRS.items()}
-_SECOND = {k: np.array(v[1]) for k, v in PAIRS.items()}
 
 
 class Effect(ABC):
@@ -112,15 +106,3 @@ class Effect(ABC):
     def beyond_cycle(self, scene: Scene) -> str:
         """What of it, in a scene, a cycle of static shapes cannot represent, in words; empty if all."""
         return "" if self.is_static else type(self).__name__
-
-
-def outer(u: Array, v: Array) -> Array:
-    """u_c v_d for the pairs c <= d: (..., components, points) -> (..., pairs, points)."""
-    count = u.shape[-2]
-    return np.asarray(u[..., _FIRST[count], :] * v[..., _SECOND[count], :])
-
-
-def identity(components: int) -> Array:
-    """delta_cd for the pairs c <= d, (pairs, 1)."""
-    first, second = PAIRS[components]
-    return np.equal(first, second).astype(float)[:, None]

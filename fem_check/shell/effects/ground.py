@@ -6,13 +6,14 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from fem_check.shell.effects.effect import Effect, outer
+from fem_check.shell.effects.effect import Effect
 from fem_check.shell.effects.gravity import Gravity, check_area
 from fem_check.shell.effects.terrain import Terrain
 from fem_check.shell.kinematics.point_state import PointState
 from fem_check.shell.kinematics.rates import Step
 from fem_check.shell.kinematics.region import Entries
 from linear_theory.common import validation
+from linear_theory.common.pairs import outer
 from linear_theory.common.shown import Value
 from linear_theory.friction.load import Load
 from linear_theory.scene.scene import Scene

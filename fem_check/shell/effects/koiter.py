@@ -18,12 +18,13 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from fem_check.shell.effects.effect import Effect, identity, outer
+from fem_check.shell.effects.effect import Effect
 from fem_check.shell.kinematics.point_state import PointState, dot
 from fem_check.shell.kinematics.rates import Step
 from fem_check.shell.kinematics.region import Entries
 from fem_check.shell.material import Material, check_materials
 from linear_theory.common import validation
+from linear_theory.common.pairs import identity, outer
 from linear_theory.common.shown import Value
 from linear_theory.scene.scene import Scene
 

@@ -6,13 +6,14 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from fem_check.shell.effects.effect import PAIRS, Effect
+from fem_check.shell.effects.effect import Effect
 from fem_check.shell.kinematics.discretisation import Discretisation
 from fem_check.shell.kinematics.elements import require_h2
 from fem_check.shell.kinematics.point_state import PointState
 from fem_check.shell.kinematics.rates import Step
 from fem_check.shell.kinematics.region import Entries, Region
 from fem_check.shell.kinematics.rest_state import RestState
+from linear_theory.common.pairs import PAIRS
 from linear_theory.common.shown import Shown
 
 Array = NDArray[np.float64]

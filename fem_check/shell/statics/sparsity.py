@@ -8,11 +8,11 @@ import scipy.sparse as sp
 from numpy.typing import NDArray
 from scipy.sparse.csgraph import reverse_cuthill_mckee
 
-from fem_check.shell.effects.effect import PAIRS
 from fem_check.shell.kinematics.discretisation import Discretisation
 from fem_check.shell.kinematics.places import distinct
 from fem_check.shell.kinematics.region import Region
 from fem_check.shell.statics.potential import Blocks
+from linear_theory.common.pairs import PAIRS
 
 Array = NDArray[np.float64]
 Integers = NDArray[np.int64]
