@@ -88,9 +88,7 @@ class Friction(Value, Effect):
 
     def velocity(self, state: PointState) -> Array:
         """Velocity along the ground, (components, points)."""
-        assert state.step is not None
-        assert state.step.velocity is not None
-        return _along(state, state.step.velocity(state.position))
+        return _along(state, state.step.moving(state.position))
 
     def force(self, state: PointState) -> Array:
         """Force of the ground on each point, (components, points)."""
@@ -98,9 +96,7 @@ class Friction(Value, Effect):
 
     def energy(self, state: PointState) -> Array:
         """See Effect. Time step times dissipation potential."""
-        assert state.step is not None
-        assert state.step.velocity is not None
-        scale = self._limit(state) / state.step.velocity.rate
+        scale = self._limit(state) / state.step.moving.rate
         return np.asarray(scale * self.law.potential(self.velocity(state)))
 
     def gradient(self, state: PointState) -> Array:
@@ -109,17 +105,13 @@ class Friction(Value, Effect):
 
     def hessian(self, state: PointState) -> Array:
         """See Effect."""
-        assert state.step is not None
-        assert state.step.velocity is not None
-        scale = self._limit(state) * state.step.velocity.rate
+        scale = self._limit(state) * state.step.moving.rate
         tangent = self.law.tangent(self.velocity(state))
         return np.asarray(scale * _tangent_along(state, tangent))[None, None]
 
     def _limit(self, state: PointState) -> Array:
         """mu N, (points,)."""
-        assert state.step is not None
-        assert state.step.load is not None
-        return np.asarray(self.coefficient * state.step.load)
+        return np.asarray(self.coefficient * state.step.pressed)
 
     def check_scene(self, scene: Scene) -> None:
         """Raise ValueError for friction without load."""
@@ -164,7 +156,6 @@ def _normal(state: PointState) -> Array | None:
     """Unit normal of the ground under the points, (3, points or 1); None in the plane."""
     if state.components == 2:
         return None
-    assert state.step is not None
     return E_Z if state.step.normal is None else state.step.normal
 
 

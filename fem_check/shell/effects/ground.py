@@ -147,10 +147,10 @@ class Ground(Value, Effect):
 
     def _drag(self, state: PointState) -> tuple[float, Array]:
         """damping * rate and the gap from which the rate of the gap is counted."""
-        step = state.step
-        if not self.damping or step is None or step.velocity is None:
+        rule = state.step.velocity
+        if not self.damping or rule is None:
             return 0.0, np.zeros(state.measure.size)
-        return self.damping * step.velocity.rate, self.gap(step.velocity.base)
+        return self.damping * rule.rate, self.gap(rule.base)
 
     def check_scene(self, scene: Scene) -> None:
         """Raise ValueError where nothing presses the sheet on the ground."""

@@ -47,9 +47,7 @@ class Inertia(Value, Effect):
         return np.asarray(self.areal_mass * state.measure)
 
     def _acceleration(self, state: PointState) -> Affine:
-        assert state.step is not None
-        assert state.step.acceleration is not None
-        return state.step.acceleration
+        return state.step.accelerated
 
     def energy(self, state: PointState) -> Array:
         """See Effect."""

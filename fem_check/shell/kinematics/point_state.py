@@ -34,11 +34,14 @@ def cross(u: Array, v: Array) -> Array:
     return out
 
 
+STILL = Step()
+
+
 class PointState:
     """Position jet, rest state and time step at the points of some elements of a region.
 
     u: displacement unknowns. entries: which derivatives of the position will be read. part: which
-    elements. rest, step: of the points of that part.
+    elements. rest, step: of the points of that part, step one that holds nothing in statics.
     """
 
     def __init__(
@@ -52,7 +55,7 @@ class PointState:
     ) -> None:
         points = region.points(part)
         self.region, self.part, self._points = region, part, points
-        self._rest, self._step = rest, step
+        self._rest, self.step = rest, STILL if step is None else step
         self._jet = dict(zip(entries, region.position(u, entries, part), strict=True))
 
     @property
@@ -63,13 +66,9 @@ class PointState:
     @property
     def rest(self) -> RestState:
         """Rest state of these points."""
-        assert self._rest is not None
+        if self._rest is None:
+            raise ValueError("rest = None: must be given for an effect that reads it")
         return self._rest
-
-    @property
-    def step(self) -> Step | None:
-        """Time step of these points, None in statics."""
-        return self._step
 
     @property
     def position(self) -> Array:
@@ -125,9 +124,7 @@ class PointState:
             return self.measure
         if load is Load.GROWN:
             return self.rest.grown_area
-        assert self._step is not None
-        assert self._step.area is not None
-        return self._step.area
+        return self.step.counted
 
     @cached_property
     def normal(self) -> Array:

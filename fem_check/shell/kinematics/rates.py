@@ -4,6 +4,7 @@ A step as a minimisation needs no more of a time integrator than this: v = rate 
 """
 
 from dataclasses import dataclass
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,6 +13,7 @@ from linear_theory.common import validation
 from linear_theory.common.shown import Shown
 
 Array = NDArray[np.float64]
+T = TypeVar("T")
 
 NEWMARK_BETA = 0.25
 NEWMARK_GAMMA = 0.5
@@ -52,6 +54,26 @@ class Step(Shown):
     area: Array | None = None
     normal: Array | None = None
 
+    @property
+    def moving(self) -> Affine:
+        """The rule of the velocity. Raises ValueError in statics."""
+        return _held(self.velocity, "velocity")
+
+    @property
+    def accelerated(self) -> Affine:
+        """The rule of the acceleration. Raises ValueError without inertia."""
+        return _held(self.acceleration, "acceleration")
+
+    @property
+    def pressed(self) -> Array:
+        """The load. Raises ValueError where none is held fixed."""
+        return _held(self.load, "load")
+
+    @property
+    def counted(self) -> Array:
+        """The current area. Raises ValueError where none is held fixed."""
+        return _held(self.area, "area")
+
     def part(self, points: slice) -> "Step":
         """The same for a slice of the points."""
         load, area, normal = (
@@ -61,6 +83,12 @@ class Step(Shown):
             None if r is None else r.part(points) for r in (self.velocity, self.acceleration)
         )
         return Step(velocity, acceleration, load, area, normal)
+
+
+def _held(value: T | None, name: str) -> T:
+    if value is None:
+        raise ValueError(f"step.{name} = None: must be given for an effect that reads it")
+    return value
 
 
 def backward_euler(x: Array, dt: float) -> Affine:

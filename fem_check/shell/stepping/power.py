@@ -132,7 +132,6 @@ class Ledger:
         """Force of contact damping alone, (3, points)."""
         if not self.damping:
             return None
-        assert state.step is not None
         still = PointState(self.region, u, (0,), state.rest, Step(area=state.step.area))
         return np.asarray(sum((e.gradient(still) - e.gradient(state))[0] for e in self.damping))
 

@@ -37,14 +37,11 @@ class Sliding(NamedTuple):
 
 def sliding(friction: Friction, state: PointState, error: Array, measure: Array) -> Sliding:
     """error: estimated (exact - computed) velocity of the points, (components, points)."""
-    assert state.step is not None
-    assert state.step.load is not None
-    assert state.step.velocity is not None
-    velocity, load = friction.velocity(state)[:2], state.step.load
+    velocity, load = friction.velocity(state)[:2], state.step.pressed
     speed, law = norm(velocity), friction.law
     total = load.sum()
     share = load[speed < law.width].sum() / total if total > 0 else 0.0
-    tangent = friction.hessian(state)[0, 0] / state.step.velocity.rate
+    tangent = friction.hessian(state)[0, 0] / state.step.moving.rate
     pairs = tangent[[0, 1, 3]] if state.components == 3 else tangent
     # Of a velocity error the mean over the sheet is seen directly, and the rest through friction.
     step = rigid(pairs, error[:2]) + error[:2] @ measure / measure.sum()
