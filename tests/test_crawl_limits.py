@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from linear_theory import FieldWave, Sheet, SineWave, TravellingWave, crawl_speed, ritz_field
-from linear_theory.balance.period import Crawl
+from linear_theory.balance.crawl import Crawl
 from linear_theory.friction.laws import Tanh
 
 PAPER = Sheet()
@@ -33,7 +33,7 @@ def test_work_is_bounded_and_what_it_misses_is_flagged(monkeypatch, most):
         spent.append(self.work * times.size)
         return balance(self, times, known)
 
-    monkeypatch.setattr("linear_theory.balance.period._MOST_WORK", most)
+    monkeypatch.setattr("linear_theory.balance.crawl.MOST_WORK", most)
     monkeypatch.setattr(Crawl, "balance", counted)
     speed = crawl_speed(PAPER, PULSE, 0.1, rtol=1e-4)
     assert sum(spent[1:]) <= 2 * most  # cells and times: all but the first look

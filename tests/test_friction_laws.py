@@ -472,7 +472,7 @@ HYPERBOLIC = ("tanh", "cosh", "sinh", "arctanh", "logaddexp")
 
 SPECIAL = {
     "linear_theory/deformation/airy/system.py": "Airy functions of the series",
-    "linear_theory/deformation/airy/terms.py": "Airy functions of the series",
+    "linear_theory/deformation/airy/family.py": "Airy functions of the series",
     "linear_theory/deformation/airy/special.py": "coth of the series",
     "linear_theory/line/closed_form.py": "the balance of tanh and a sine in closed form",
     "linear_theory/line/finite.py": "the quadrature with double exponential weights",

@@ -8,16 +8,13 @@ the grid has the error of the grid's mean as its expectation, whatever the wave.
 
 import math
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from linear_theory.balance.balance import RigidMotion
+from linear_theory.balance.crawl import Crawl, Known
 from linear_theory.balance.time_grid import TimeGrid
-
-if TYPE_CHECKING:
-    from linear_theory.balance.period import Crawl
 
 Array = NDArray[np.float64]
 
@@ -28,21 +25,6 @@ HIDDEN = 0.1
 """Share of the tolerance of the times up to which a wave may hide without a check."""
 
 
-class Known(NamedTuple):
-    """The motion at some ascending times."""
-
-    times: Array
-    motion: RigidMotion
-
-    def between(self, times: Array) -> RigidMotion:
-        """Linear interpolation of q."""
-        leading, remainder = (
-            np.stack([np.interp(times, self.times, column) for column in q.T], axis=1)
-            for q in (self.motion.leading, self.motion.remainder)
-        )
-        return RigidMotion(leading, remainder, np.zeros(times.size), 0.0)
-
-
 @dataclass(frozen=True)
 class Course:
     """The motion at the times of a grid; checks: at random times that the grid does not know.
@@ -50,7 +32,7 @@ class Course:
     hides: whether more may hide between the times than was asked for.
     """
 
-    crawl: "Crawl"
+    crawl: Crawl
     grid: TimeGrid
     motion: RigidMotion
     checks: RigidMotion | None = None

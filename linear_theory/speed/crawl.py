@@ -8,7 +8,8 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from linear_theory.balance.period import Crawl, average, first_resolution
+from linear_theory.balance.crawl import Crawl, first_resolution
+from linear_theory.balance.period import average
 from linear_theory.common import validation
 from linear_theory.common.progress import Report, watched
 from linear_theory.common.threads import one_blas_thread

@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from linear_theory.balance.period import Crawl, first_resolution
+from linear_theory.balance.crawl import Crawl, first_resolution
 from linear_theory.common import validation
 from linear_theory.common.shown import Shown
 from linear_theory.common.threads import one_blas_thread

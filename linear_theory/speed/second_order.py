@@ -30,7 +30,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linear_theory.balance.balance import RigidMotion
-from linear_theory.balance.period import Crawl, Period, average, first_resolution
+from linear_theory.balance.crawl import Crawl, first_resolution
+from linear_theory.balance.period import Period, average
 from linear_theory.common import validation
 from linear_theory.common.shown import Shown, with_error
 from linear_theory.common.threads import one_blas_thread
