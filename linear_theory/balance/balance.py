@@ -44,6 +44,10 @@ _MARGIN = 1.5  # mean over variation of w on a cell, above which Gauss quadratur
 _LINEAR = 1e-8  # alpha below which q_1 is the zero of a linear function
 _NEAR = 0.3  # after a Newton step s the error is some s^2 over the speed of the sheet: 10 would do
 _REST = 1e-6  # speeds below this share of the mean speed count as rest
+_VELOCITY, _AREA, _RATE, _ARMS = slice(0, 2), 2, 3, slice(4, 6)
+"""Channels of the values at a point: v_x, v_y, area, e, then x, y from the centre if the sheet may turn;
+then v_2 and u if there are any."""
+
 _ALONG = (1,)  # rigid velocities of a mirror-symmetric motion; 0, 1 translations, 2 rotation
 _ALL = (0, 1, 2)
 
@@ -114,9 +118,8 @@ class Balance:
         self._shift = slice(0, 0) if displacement is None else slice(len(channels), len(channels) + 2)
         if displacement is not None:
             channels += [*displacement / units.length]
-        # v_x, v_y, area, e, then x, y from the centre if the sheet may turn, then v_2 and u if any
         self._values = np.stack(channels)
-        self._scale = float(np.sqrt(np.mean(self._values[:2] ** 2))) or 1.0
+        self._scale = float(np.sqrt(np.mean(self._values[_VELOCITY] ** 2))) or 1.0
         self._stages = [(halvings, tolerance)]
         if halvings > 2 * _COARSE_HALVINGS:
             self._stages.insert(0, (_COARSE_HALVINGS, 1e-2))
@@ -130,12 +133,14 @@ class Balance:
         first, second = starts
         leading = self._zero(self._leading, np.zeros((1, 1)), 1.0, first)
         remainder = np.zeros_like(leading)
-        if any(np.any(self._values[i]) for i in (3, self._second, self._shift)):  # else nothing remains
+        if any(
+            np.any(self._values[i]) for i in (_RATE, self._second, self._shift)
+        ):  # else nothing remains
             remainder = self._remaining(leading, second)
         change = self._change(self._values, leading, remainder)
         speed = norm(self._moved(self._values, leading) + self._alpha * change)
         rest = np.mean(speed < _REST * self._scale, axis=(1, 2, 3))
-        still = ~np.any(self._values[:2], axis=(0, 2, 3, 4))
+        still = ~np.any(self._values[_VELOCITY], axis=(0, 2, 3, 4))
         rest[still] = 0.0  # all is at rest, no part of it sticks
         fastest = 0.0 if still.all() and not self._slope else self._units.speed * float(speed.max())
         return RigidMotion(self._full(leading), self._full(remainder), rest, fastest)
@@ -188,7 +193,9 @@ class Balance:
             force = met.force
             if self._slope:
                 force = np.stack([*force[:-1], force[-1] + self._slope])
-            return values[2] * np.stack(self._along(force, values) + self._between(met.tangent, values))
+            return values[_AREA] * np.stack(
+                self._along(force, values) + self._between(met.tangent, values)
+            )
 
         def motion(values: Array, owners: Integers) -> list[Array]:
             return [self._moved(values, q[owners])]
@@ -205,12 +212,12 @@ class Balance:
             before = self._law.at(self._moved(values, first[owners]), self._kept)
             change = self._change(values, first[owners], q[owners])
             after, difference = before.moved(change, alpha)
-            rate = values[3]
+            rate = values[_RATE]
             forces = self._along(difference + rate * after.force, values)
             if self._shift.stop:
                 forces[-1] += _moment(values[self._shift], before.force)
             tangent = (1 + alpha * rate) * after.tangent
-            return values[2] * np.stack(forces + self._between(tangent, values))
+            return values[_AREA] * np.stack(forces + self._between(tangent, values))
 
         def motion(values: Array, owners: Integers) -> list[Array]:
             before = first[owners]
@@ -246,29 +253,29 @@ class Balance:
         spread = q.T.reshape(len(self._modes), -1, *(1,) * (values.ndim - 2))
         if len(self._modes) == 1:
             return np.stack([values[0], values[1] + spread[0]])
-        x, y = (values if at is None else at)[4:6]
+        x, y = (values if at is None else at)[_ARMS]
         return np.stack([values[0] + spread[0] - y * spread[2], values[1] + spread[1] + x * spread[2]])
 
     def _change(self, values: Array, leading: Array, q: Array) -> Array:
         """What a rigid motion q of second order, v_2 and u add to w/alpha, (2, ...)."""
-        still = np.zeros_like(values[:2]) if self._second.stop == 0 else values[self._second]
+        still = np.zeros_like(values[_VELOCITY]) if self._second.stop == 0 else values[self._second]
         if self._shift.stop:
             still = self._moved(still, leading * [0.0, 0.0, 1.0], self._arms(values))
         return self._moved(still, q, values)
 
     def _arms(self, values: Array) -> Array:
         """The values with u in the place of x, y."""
-        return np.concatenate([values[:4], values[self._shift]])
+        return np.concatenate([values[: _ARMS.start], values[self._shift]])
 
     def _along(self, force: Array, values: Array) -> list[Array]:
         """force . R of the rigid velocities R; force: the kept components."""
-        return [*force] if len(force) == 1 else [*force, _moment(values[4:6], force)]
+        return [*force] if len(force) == 1 else [*force, _moment(values[_ARMS], force)]
 
     def _between(self, tangent: Array, values: Array) -> list[Array]:
         """R . tangent . R' of the rigid velocities, row by row; tangent: yy, or xx, xy, yy."""
         if len(tangent) == 1:
             return [*tangent]
-        (xx, xy, yy), arms = tangent, values[4:6]
+        (xx, xy, yy), arms = tangent, values[_ARMS]
         turn = [_moment(arms, row) for row in ((xx, xy), (xy, yy))]
         return [xx, xy, turn[0], xy, yy, turn[1], *turn, _moment(arms, turn)]
 
