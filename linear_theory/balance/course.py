@@ -102,7 +102,7 @@ class Course:
         """On a grid with more times."""
         added = ~np.isin(grid.times, self.grid.times)
         more = self.crawl.balance(grid.times[added], Known(self.grid.times, self.motion))
-        return replace(self, grid=grid, motion=_joined(self.motion, more, added))
+        return replace(self, grid=grid, motion=self.motion.joined(more, added))
 
     def checked(self) -> "Course":
         """With the motion at random times, where it can hide and is not known there yet."""
@@ -141,14 +141,3 @@ class Course:
 def _orders(motion: RigidMotion) -> Array:
     """q_0 and q_1, (2, 3, times)."""
     return np.stack([motion.leading.T, motion.remainder.T])
-
-
-def _joined(motion: RigidMotion, more: RigidMotion, added: NDArray[np.bool_]) -> RigidMotion:
-    """Both, `more` at the places `added`."""
-    order = np.empty(added.size, int)
-    order[~added] = np.arange(len(motion.rest))
-    order[added] = len(motion.rest) + np.arange(len(more.rest))
-    leading, remainder, rest = (
-        np.concatenate([a, b])[order] for a, b in zip(motion[:3], more[:3], strict=True)
-    )
-    return RigidMotion(leading, remainder, rest, max(motion.fastest, more.fastest))

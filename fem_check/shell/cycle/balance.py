@@ -135,7 +135,7 @@ class CycleBalance:
             if finer is None or grid.times.size > most:
                 break
             added = ~np.isin(finer.times, grid.times)
-            grid, found = finer, _joined(found, self.balance(finer.times[added]), added)
+            grid, found = finer, found.joined(self.balance(finer.times[added]), added)
         roundoff = self.norm.each(1e-12 * found.fastest + self.noise)
         error = time_error + self._quadrature_error(grid, found.leading) + roundoff
         sticks = bool(found.rest.max() > STICKING)
@@ -234,14 +234,3 @@ def _mirrored(shapes: Shapes, contact: Contact) -> bool:
 def _paired(leading: Array) -> Array:
     """Mean of V_x, V_y, Omega at a time and half a period later, (3, times)."""
     return np.asarray(leading.mean(0).T)
-
-
-def _joined(found: RigidMotion, more: RigidMotion, added: NDArray[np.bool_]) -> RigidMotion:
-    """Both, `more` at the places `added`."""
-    order = np.empty(added.size, int)
-    order[~added] = np.arange(found.rest.shape[1])
-    order[added] = found.rest.shape[1] + np.arange(more.rest.shape[1])
-    leading, remainder, rest = (
-        np.concatenate([a, b], axis=1)[:, order] for a, b in zip(found[:3], more[:3], strict=True)
-    )
-    return RigidMotion(leading, remainder, rest, max(found.fastest, more.fastest))
