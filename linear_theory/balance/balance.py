@@ -45,8 +45,8 @@ _LINEAR = 1e-8  # alpha below which q_1 is the zero of a linear function
 _NEAR = 0.3  # after a Newton step s the error is some s^2 over the speed of the sheet: 10 would do
 _REST = 1e-6  # speeds below this share of the mean speed count as rest
 _VELOCITY, _AREA, _RATE, _ARMS = slice(0, 2), 2, 3, slice(4, 6)
-"""Channels of the values at a point: v_x, v_y, area, e; x, y from the centre if the sheet may turn; then
-v_2 and u if there are any."""
+"""Channels of the values at a point: v_x, v_y, area, e; x, y from the centre if the sheet may turn;
+then v_2 and u if there are any."""
 
 _ALONG = (1,)  # rigid velocities of a mirror-symmetric motion; 0, 1 translations, 2 rotation
 _ALL = (0, 1, 2)
@@ -65,7 +65,8 @@ class RigidMotion(NamedTuple):
     fastest: float
 
     def joined(self, more: "RigidMotion", added: NDArray[np.bool_]) -> "RigidMotion":
-        """Motions merged in time order: `more` at the times `added`; times are the last axis of rest."""
+        """Motions merged in time order: `more` at the times `added`; times are the last axis of
+        rest."""
         axis, known = self.rest.ndim - 1, self.rest.shape[-1]
         order = np.empty(added.size, int)
         order[~added] = np.arange(known)
