@@ -107,7 +107,7 @@ def test_the_potential_of_the_ground_is_the_integral_of_its_pressure(form: str, 
     z = np.linspace(-0.3, 0.1, 16)
     state = points(z)
     state.step.velocity.base[2] = base
-    state._step = Step(Affine(rate, state.step.velocity.base))
+    state.step = Step(Affine(rate, state.step.velocity.base))
     found = ground.energy(state) / state.rest.grown_area
     for height, energy in zip(z, found, strict=True):
         s = np.linspace(min(height, 0), 0, 20001)

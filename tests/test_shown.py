@@ -24,6 +24,7 @@ from fem_check.shell.model import ShellModel
 from fem_check.shell.statics.equilibrium import Equilibrium
 from fem_check.shell.stepping.run import Progress
 from linear_theory.common.shown import LINES, WIDTH, Shown, in_words, number, with_error
+from linear_theory.friction.law import Response
 from linear_theory.growth.bilayer import Couplings
 
 PACKAGES = (linear_theory, fem_check)
@@ -127,6 +128,7 @@ MADE = {
     "Ground": lambda: fem_check.Ground(0.5),
     "Growth": lambda: linear_theory.Growth(0.25),
     "Inertia": lambda: fem_check.Inertia(1.0, MATERIAL),
+    "IsotropicResponse": lambda: linear_theory.Tanh(0.1).at(np.ones((2, 3))),
     "Linear": linear_theory.Linear,
     "Material": lambda: MATERIAL,
     "Membrane": lambda: MEMBRANE,
@@ -143,6 +145,7 @@ MADE = {
     "Prediction": lambda: fem_check.predict(SHEET, SINE, alpha=0.05, rtol=0.1),
     "Progress": lambda: Progress(0.1, 2.0, 7, 0, 1.0, 20.0),
     "Region": lambda: ShellModel(full_scene()).discretisation.interior,
+    "Response": lambda: Response(linear_theory.Coulomb(), np.ones((2, 3))),
     "RestState": lambda: ShellModel(planar()).rest(0.2),
     "RigidSpeed": lambda: turning().turning,
     "RitzField": lambda: field("RitzField"),
@@ -268,7 +271,7 @@ def test_plain_data_is_json(name):
 
 
 def test_internals_of_effects_are_not_shown():
-    assert repr(fem_check.Friction(0.7, 0.01)) == "Friction(coefficient=0.7, slip_speed=0.01)"
+    assert repr(fem_check.Friction(0.7, 0.01)) == "Friction(coefficient=0.7, law=Tanh(slip_speed=0.01))"
     with pytest.raises(TypeError):
         fem_check.Friction(0.7, 0.01, entries=(1,))
 

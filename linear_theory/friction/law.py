@@ -8,14 +8,15 @@ not deform.
 
 import math
 from abc import ABC, abstractmethod
+from collections.abc import Mapping
 from functools import cached_property
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from linear_theory.common.pairs import pairs_among
-from linear_theory.common.shown import Value
+from linear_theory.common.shown import Shown, Value
 
 Array = NDArray[np.float64]
 
@@ -31,10 +32,15 @@ class FrictionLaw(Value, ABC):
     finite. A new law is a frozen dataclass that inherits from this class, or from `Isotropic`.
 
     Directions are those of x and y, which a sheet is taken not to turn away from by much. name: by
-    which the law is called.
+    which the law is called. Raises ValueError for parameters that are out of range.
 
     >>> import numpy as np
-    >>> from linear_theory import Tanh
+    >>> from linear_theory import Coulomb, FrictionLaw, Tanh, Viscous
+    >>> for law in (Coulomb(), Tanh(slip_speed=0.1), Viscous()):
+    ...     print(law.words, law.force(np.array([[0.2]])).round(3), isinstance(law, FrictionLaw))
+    dry friction [[1.]] True
+    friction tanh(v/0.1) [[0.964]] True
+    viscous friction [[0.2]] True
     >>> law, v = Tanh(slip_speed=0.1), np.array([[0.3], [0.4]])
     >>> print(law.force(v).ravel().round(4), law.potential(v).round(4))
     [0.5999 0.7999] [0.4307]
@@ -111,7 +117,7 @@ class FrictionLaw(Value, ABC):
         return Response(self, v, kept)
 
 
-class Response:
+class Response(Shown):
     """A law at velocities v (components, ...): forces of the kept components, tangents among these.
 
     Each quantity is evaluated once, when it is first asked for. Laws that share work between force,
@@ -120,6 +126,9 @@ class Response:
 
     def __init__(self, law: FrictionLaw, v: Array, kept: slice = ALL) -> None:
         self.law, self.v, self.kept = law, v, kept
+
+    def _contents(self) -> Mapping[str, Any]:
+        return {"law": self.law, "v": self.v}
 
     @cached_property
     def force(self) -> Array:
