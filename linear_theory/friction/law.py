@@ -28,24 +28,21 @@ class FrictionLaw(Value, ABC):
     class of one's own.
 
     v: (components, ...), length per time; 1 component on a line (y), 2 in the plane (x, y), 3 in space,
-    along the ground. At rest potential and force are 0, and the tangent of a law that has a width is
-    finite. A new law is a frozen dataclass that inherits from this class, or from `Isotropic`.
-
-    Directions are those of x and y, which a sheet is taken not to turn away from by much. name: by
-    which the law is called. Raises ValueError for parameters that are out of range.
+    along the ground. Directions are those of x and y, which a sheet is taken not to turn away from by
+    much. At rest potential and force are 0, and the tangent of a law that has a width is finite. A new
+    law is a frozen dataclass that inherits from this class, or from `Isotropic`. name: by which it is
+    called. Raises ValueError for a slip speed that is not positive.
 
     >>> import numpy as np
     >>> from linear_theory import Coulomb, FrictionLaw, Tanh, Viscous
-    >>> for law in (Coulomb(), Tanh(slip_speed=0.1), Viscous()):
-    ...     print(law.words, law.force(np.array([[0.2]])).round(3), isinstance(law, FrictionLaw))
-    dry friction [[1.]] True
-    friction tanh(v/0.1) [[0.964]] True
-    viscous friction [[0.2]] True
-    >>> law, v = Tanh(slip_speed=0.1), np.array([[0.3], [0.4]])
-    >>> print(law.force(v).ravel().round(4), law.potential(v).round(4))
-    [0.5999 0.7999] [0.4307]
-    >>> print(law.tangent(v).ravel().round(3))  # xx, xy, yy: across the motion it is force/speed
-    [ 1.281 -0.959  0.721]
+    >>> v = np.array([[0.3], [0.4]])  # one velocity in the plane
+    >>> for law in (Coulomb(), Tanh(slip_speed=0.5), Viscous()):
+    ...     print(f"{law.words}: force {law.force(v).ravel().round(3)}", isinstance(law, FrictionLaw))
+    dry friction: force [0.6 0.8] True
+    friction tanh(v/0.5): force [0.457 0.609] True
+    viscous friction: force [0.3 0.4] True
+    >>> print(Coulomb().tangent(v).ravel().round(2))  # xx, xy, yy: nothing along v, 1/|v| across
+    [ 1.28 -0.96  0.72]
     """
 
     name: ClassVar[str]
