@@ -10,6 +10,8 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 from skfem import MeshTri
 
+from linear_theory.common.quadrature import gauss_legendre
+
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
 
@@ -73,7 +75,7 @@ def quadrilateral_points(order: int) -> tuple[Array, Array]:
     corners. Returns (2, 3, order, order) and (3, order, order), the Jacobian of the bilinear map from
     [-1, 1]^2 to local coordinates, linear along each axis.
     """
-    nodes, _ = np.polynomial.legendre.leggauss(order)
+    nodes, _ = gauss_legendre(order)
     s, t = nodes[:, None], nodes
     corners = np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]])
     points, jacobians = [], []

@@ -33,6 +33,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from linear_theory.common import validation
+from linear_theory.common.quadrature import gauss_legendre
 from linear_theory.friction.laws import Coulomb, Viscous
 from linear_theory.line.piece import Piece
 from linear_theory.line.roots import bracketed_newton
@@ -130,7 +131,7 @@ def _median_angle(alpha: Array, growth: Piece) -> Array:
     x, weights = _strains(alpha)
     target = np.pi / 2 * np.sum(weights * abs(growth.gain(x)), axis=1)
     exponent = growth.power * alpha.max(initial=0.0)
-    nodes, shares = np.polynomial.legendre.leggauss(POINTS + math.ceil(exponent))
+    nodes, shares = gauss_legendre(POINTS + math.ceil(exponent))
 
     def balance(angle: Array) -> tuple[Array, Array]:
         phase = angle[:, None] / 2 * (1 + nodes)

@@ -19,6 +19,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from linear_theory.common.quadrature import gauss_legendre
 from linear_theory.line.roots import EPS, bracketed_newton
 from linear_theory.wave.travelling import TravellingWave
 
@@ -32,7 +33,7 @@ TERMS = 15
 """Terms of the Taylor series: the first one left out is < (2 pi/16)^15/15! = 1e-18 of the highest
 harmonic at the far end of a cell."""
 
-GAUSS_NODES, GAUSS_WEIGHTS = np.polynomial.legendre.leggauss(10)
+GAUSS_NODES, GAUSS_WEIGHTS = gauss_legendre(10)
 """For each cell, on which g is a sixteenth of a wave, stretches vary by MOST_VARIATION and tanh by its
 argument over an interval of length 1 (poles at distance pi/2 or more): errors below 1e-16."""
 

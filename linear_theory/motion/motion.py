@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from linear_theory.common.quadrature import gauss_legendre
 from linear_theory.common.shown import Shown
 from linear_theory.sheet.rectangle import Sheet
 
@@ -88,7 +89,7 @@ class CellGrid(Shown):
 
     def points(self, order: int) -> tuple[Array, Array, Array]:
         """Gauss points x (cells, n, 1), y (cells, 1, n), and Jacobians (cells, n, n)."""
-        nodes, _ = np.polynomial.legendre.leggauss(order)
+        nodes, _ = gauss_legendre(order)
         left, bottom = np.array(self.x_edges), np.array(self.y_edges)
         column, row = np.divmod(np.arange((left.size - 1) * (bottom.size - 1)), bottom.size - 1)
         dx, dy = np.diff(left)[column], np.diff(bottom)[row]

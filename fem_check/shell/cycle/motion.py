@@ -16,6 +16,7 @@ from fem_check.shell.kinematics.discretisation import Discretisation
 from fem_check.shell.kinematics.places import ROUNDOFF
 from fem_check.shell.kinematics.region import Region
 from linear_theory.common.errors import SheetcrawlError
+from linear_theory.common.quadrature import gauss_legendre
 from linear_theory.friction.load import Load
 from linear_theory.motion.motion import Motion
 
@@ -156,7 +157,7 @@ def cell_points(sheet: Discretisation, order: int) -> tuple[Array, Array]:
     if sheet.mesh.refdom.nnodes == 3:
         points, jacobian = quadrilateral_points(order)
         return points.reshape(2, -1), jacobian.ravel()
-    nodes = (np.polynomial.legendre.leggauss(order)[0] + 1) / 2
+    nodes = (gauss_legendre(order)[0] + 1) / 2
     return np.stack(np.meshgrid(nodes, nodes, indexing="ij")).reshape(2, -1), np.full(order**2, 0.25)
 
 

@@ -7,9 +7,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from linear_theory.common.quadrature import gauss_legendre
 from linear_theory.deformation.airy import loads, terms
 from linear_theory.deformation.airy.system import Solution
-from linear_theory.motion.cells import gauss
 from linear_theory.sheet.rectangle import Sheet
 
 Array = NDArray[np.float64]
@@ -56,8 +56,8 @@ class Cases:
         factors: of the cosines and of the sines, (2, K, times). By Gauss quadrature over a quarter,
         tails left out. Cosines and sines are orthogonal over the sheet, though not over its quarter.
         """
-        x, weights_x = gauss(4)[:2]
-        y, weights_y = gauss(5 + 2 * int(self.orders[-1]))[:2]
+        x, weights_x = gauss_legendre(4)
+        y, weights_y = gauss_legendre(5 + 2 * int(self.orders[-1]))
         x, y = (x + 1) * self.sheet.width / 4, (y + 1) * self.sheet.length / 4
         waves = replace(self, solution=self.solution.without_tail())._quarter_waves(x, y, grid=True)
         u = factors.swapaxes(1, 2) @ waves.reshape(2, self.orders.size, -1)

@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 
 from linear_theory.common import validation
 from linear_theory.common.errors import NotConvergedError
+from linear_theory.common.quadrature import gauss_legendre
 from linear_theory.common.threads import one_blas_thread
 from linear_theory.deformation.field import LinearField
 from linear_theory.deformation.load_cases import Harmonics, LoadCases, Snapshots, load_cases
@@ -178,7 +179,7 @@ class RitzField(LinearField):
 
     def _moments_by(self, counts: Pair, growths: Callable[[Array, Array], Array]) -> Array:
         """Those of any growths by so many Gauss points, (growths, *counts)."""
-        (x, weights_x), (y, weights_y) = (legendre.gauss(count) for count in counts)
+        (x, weights_x), (y, weights_y) = (gauss_legendre(count) for count in counts)
         across = legendre.orthonormal(counts[0], x) * weights_x[:, None]
         along = legendre.orthonormal(counts[1], y) * weights_y[:, None]
         growth = growths(x[:, None] * self.sheet.width / 2, y * self.sheet.length / 2)

@@ -110,13 +110,6 @@ def wave_moments(count: int, orders: NDArray[np.int64]) -> tuple[Array, Array]:
     return size * bessel * (d % 2 == 0), size * bessel * (d % 2)
 
 
-@lru_cache(maxsize=16)
-def gauss(points: int) -> tuple[Array, Array]:
-    """Nodes and weights of the Gauss-Legendre rule on [-1, 1]."""
-    nodes, weights = np.polynomial.legendre.leggauss(points)
-    return _frozen(nodes), _frozen(weights)
-
-
 def orthonormal(count: int, at: Array) -> Array:
     """p_0 ... p_{count-1} at points of [-1, 1], (*at.shape, count)."""
     table = np.polynomial.legendre.legvander(at, count - 1)

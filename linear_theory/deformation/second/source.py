@@ -14,6 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from linear_theory.common.quadrature import gauss_legendre
 from linear_theory.deformation.ritz import legendre
 from linear_theory.sheet import hooke
 from linear_theory.sheet.rectangle import Sheet
@@ -93,7 +94,7 @@ class _GaussGrid:
     def __init__(self, sheet: Sheet, degree: tuple[int, int], more: float) -> None:
         self.sheet = sheet
         counts = [int(more * (3 * d // 2 + 2 + EXTRA_POINTS)) for d in degree]
-        (self.x, self._weight_x), (self.y, self._weight_y) = (legendre.gauss(n) for n in counts)
+        (self.x, self._weight_x), (self.y, self._weight_y) = (gauss_legendre(n) for n in counts)
         self._across, self._along = (
             legendre.orthonormal(d + 1, at) for d, at in zip(degree, (self.x, self.y), strict=True)
         )
