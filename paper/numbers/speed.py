@@ -18,7 +18,6 @@ from linear_theory import (
 )
 from linear_theory.common.quadrature import gauss_legendre
 from linear_theory.deformation.field import LinearField
-from linear_theory.friction.law import LOADS
 from linear_theory.friction.load import WEIGHTS as LOADS
 from paper.numbers.number import SHEET, SHOWN_ALPHA, SMALL_ALPHA, WAVE, Number, Numbers
 from tests.shell_scenes import planar
