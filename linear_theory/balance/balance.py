@@ -156,7 +156,10 @@ class Balance:
     def _step(self, residual: Residual, q: Array) -> Array:
         """One Newton step from q, (times, unknowns), with the finest cells."""
         value, slope = residual(q, np.arange(len(q)), halvings=self._stages[-1][0])
-        return np.asarray(-np.linalg.solve(slope, value[:, :, None])[:, :, 0])
+        try:
+            return np.asarray(-np.linalg.solve(slope, value[:, :, None])[:, :, 0])
+        except np.linalg.LinAlgError:  # dry friction of a motion along one line: no stiffness along it
+            return np.asarray(-(np.linalg.pinv(slope, hermitian=True) @ value[:, :, None])[:, :, 0])
 
     def _zero(self, residual: Residual, offset: Array, unit: float, start: Array | None) -> Array:
         """q (times, unknowns) of residual 0; without a start, first roughly with few halvings."""
