@@ -176,7 +176,7 @@ class Balance:
         value, slope = residual(q, np.arange(len(q)), halvings=self._stages[-1][0])
         try:
             step = np.linalg.solve(slope, value[:, :, None])
-        except np.linalg.LinAlgError:  # dry friction of points that all slip along y, or rest
+        except np.linalg.LinAlgError:  # dry friction of a motion along one line: no stiffness along it
             step = np.linalg.pinv(slope, hermitian=True) @ value[:, :, None]
         return np.asarray(-step[:, :, 0])
 
