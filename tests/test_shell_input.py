@@ -17,7 +17,7 @@ from fem_check.shell.kinematics.discretisation import Discretisation
 from fem_check.shell.kinematics.rates import Affine, Step, backward_euler
 from fem_check.shell.kinematics.rest_state import grown_state, tensor_state
 from fem_check.shell.kinematics.supports import Supports
-from fem_check.shell.kinematics.surface import Cylinder, SpherePart, Trapezoid
+from fem_check.shell.kinematics.surface import Cylinder, SpherePart
 from fem_check.shell.material import Material
 from fem_check.shell.statics.newton import Minimiser
 from fem_check.shell.statics.potential import Load, Potential
@@ -99,7 +99,6 @@ CASES: dict[str, tuple[str, Callable[[], object]]] = {
     ),
     "radius": ("radius = 0", lambda: Cylinder(0.0)),
     "sphere radius": ("radius = -1", lambda: SpherePart(-1.0)),
-    "trapezoid": ("end = 0", lambda: Trapezoid(1.0, 0.0)),
     "thickness": ("thickness = 0: must be > 0", lambda: Material(0.0, 0.5)),
     "young": ("young = -1: must be > 0", lambda: Material(0.1, 0.5, -1.0)),
     "poisson": ("poisson = 0.6", lambda: Material(0.1, 0.6)),

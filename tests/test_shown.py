@@ -19,7 +19,7 @@ from fem_check.shell.cycle.frame import BodyFrame
 from fem_check.shell.cycle.shapes import cycle_of_shapes
 from fem_check.shell.cycle.speed import Cycle
 from fem_check.shell.effects.loads import EdgeMoment
-from fem_check.shell.kinematics.surface import AnnulusSector, Cylinder, Flat, SpherePart, Trapezoid
+from fem_check.shell.kinematics.surface import AnnulusSector, Cylinder, Flat, SpherePart
 from fem_check.shell.model import ShellModel
 from fem_check.shell.statics.equilibrium import Equilibrium
 from fem_check.shell.stepping.run import Progress
@@ -165,7 +165,6 @@ MADE = {
     "TimeFactors": lambda: many_harmonics().factors([0.0, 0.1]),
     "Tolerance": lambda: linear_theory.Tolerance(1e-3),
     "Trajectory": trajectory,
-    "Trapezoid": lambda: Trapezoid(0.5, 0.4),
     "TravellingDrive": lambda: field("PlaneStressField").drive,
     "TravellingWave": lambda: linear_theory.TravellingWave([1.0, 0.5], [0.0, 0.0]),
     "TravellingWave of many": many_harmonics,

@@ -47,36 +47,6 @@ class Flat(Value):
 
 
 @dataclass(frozen=True)
-class Trapezoid(Value):
-    """A flat trapezoid: |xi_1| <= 1/2 runs across, |xi_2| <= length/2 along.
-
-    start, end: widths at xi_2 = -length/2 and +length/2. Raises ValueError for sizes <= 0.
-    """
-
-    start: float
-    end: float
-    length: float = 1.0
-
-    def __post_init__(self) -> None:
-        for name in ("start", "end", "length"):
-            validation.positive(name, getattr(self, name))
-
-    def __call__(self, xi1: Array, xi2: Array) -> Array:
-        """See Surface."""
-        slope = (self.end - self.start) / self.length
-        width = (self.start + self.end) / 2 + slope * xi2
-        return _vectors(
-            xi1,
-            (xi1 * width, xi2, 0),
-            (width, 0, 0),
-            (xi1 * slope, 1, 0),
-            (0, 0, 0),
-            (0, 0, 0),
-            (slope, 0, 0),
-        )
-
-
-@dataclass(frozen=True)
 class AnnulusSector(Value):
     """A flat ring in polar coordinates: xi_1 the radius > 0, xi_2 the angle from the x axis."""
 
