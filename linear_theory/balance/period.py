@@ -1,4 +1,4 @@
-"""The rigid motion of a sheet through one period, and its mean with an error estimate."""
+"""The rigid motion of a sheet over one period, and its mean with an error estimate."""
 
 import math
 from dataclasses import dataclass, replace
@@ -24,19 +24,19 @@ from linear_theory.wave.protocol import Drive
 Array = NDArray[np.float64]
 
 _MOST_TIMES = 4096
-_MOST_WORK = 8_000_000  # numbers at all times together (see `Crawl.work`), some tens of seconds
-_LOT = 10_000  # points balanced together, which halving makes ten times as many: they fit in the cache
-_STICKING = 0.01  # share of the sheet at rest that counts as sticking
+_MOST_WORK = 8_000_000  # work at all times together (see `Crawl.work`), some tens of seconds
+_LOT = 10_000  # points per batch; halving of cells makes ten times as many, which fit in the cache
+_STICKING = 0.01  # fraction of the sheet at rest that counts as sticking
 
 
 class Period(NamedTuple):
     """One period of motion.
 
-    times (T,); orders (2, 3, T): V_x, V_y, Omega of q_0 and q_1, and rigid (3, T), of both together;
-    rigid_mean, rigid_error (3,): their means and estimated errors, absolute; means, mean_errors (2, 3):
-    of `orders`, and what times and cells do to them;
-    fastest: the largest speed against the ground; sticks: whether at some time a share of the sheet is
-    at rest.
+    times (T,); orders (2, 3, T): V_x, V_y, Omega of q_0 and q_1; rigid (3, T): of both together;
+    rigid_mean, rigid_error (3,): means of `rigid` and their estimated errors, absolute; means,
+    mean_errors (2, 3): means of `orders` and their errors from times and cells;
+    fastest: the largest speed relative to the ground; sticks: whether part of the sheet is at rest at
+    some time.
     """
 
     times: Array
@@ -56,12 +56,12 @@ class Period(NamedTuple):
 
     @property
     def error(self) -> float:
-        """Estimate of its error, absolute."""
+        """Estimated error of `mean`, absolute."""
         return float(self.rigid_error[1])
 
     @property
     def first_order(self) -> float:
-        """V_1 of mean = V_1 alpha + O(alpha^2)."""
+        """V_1 in mean = V_1 alpha + O(alpha^2)."""
         return float(self.means[0, 1])
 
 
@@ -75,15 +75,15 @@ class Resolution:
     tolerance: float
 
     def finer(self) -> "Resolution":
-        """More of everything, to check with and to go on with."""
+        """The next finer resolution, for error estimates and for refinement."""
         return Resolution(1.5 * self.density, self.order + 1, self.halvings + 6, 0.1 * self.tolerance)
 
 
 def first_resolution(rtol: float) -> Resolution:
-    """Four cells to a wave, and halvings until a point at rest takes an area of about rtol^1.6.
+    """Four cells per wave, halved until the cell at a stagnation point has an area of about rtol^1.6.
 
-    Next to it the remainder of the balance has the density 1/distance, so that the error falls like
-    the square root of the area of the last cell.
+    Near such a point the integrand of the remainder behaves like 1/distance, so that the error falls
+    like the square root of the area of the last cell.
     """
     digits = -math.log10(rtol)
     order = min(max(math.ceil(2.5 + 0.8 * digits), 5), 14)
@@ -92,7 +92,7 @@ def first_resolution(rtol: float) -> Resolution:
 
 @dataclass(frozen=True)
 class Crawl:
-    """All that defines V(t), and how finely it is found."""
+    """A crawling sheet (field, growth coupling, contact) and the resolution of its balance."""
 
     field: LinearField
     alpha: float
@@ -115,10 +115,10 @@ class Crawl:
         return not self.starts_at_second_order
 
     def balance(self, times: Array, known: "Known | None" = None) -> RigidMotion:
-        """Rigid motion at the given times, in lots; known: times before and after to start from."""
+        """Rigid motion at the given times, in batches; known: the motion at other times, as a guess."""
         lot = max(_LOT // self._motion(times[:1]).area.size, 1)
         lots = []
-        for i in track("friction through the period", range(0, times.size, lot)):
+        for i in track("friction balance over the period", range(0, times.size, lot)):
             some = times[i : i + lot]
             lots.append(self._balance(some).solve(known and known.between(some)))
         leading, remainder, rest, fastest = zip(*lots, strict=True)
@@ -133,36 +133,36 @@ class Crawl:
 
     @cached_property
     def work(self) -> int:
-        """Numbers per time: points to balance, and what is solved for to know the deformation."""
+        """Work per time: points of the balance plus unknowns of the deformation solved for."""
         return int(self._motion(np.zeros(1)).area.size) + self.field.numbers
 
     def affords(self, times: Array) -> bool:
-        """Whether these are few enough."""
+        """Whether the balance at these times is within the work limit."""
         return self.work * times.size <= _MOST_WORK
 
     def reaches(self, count: float) -> bool:
-        """Whether so many times may be used in the end."""
+        """Whether a number of times is within the work limit."""
         return count <= min(_MOST_TIMES, _MOST_WORK / self.work)
 
     @property
     def speed_per_rate(self) -> float:
-        """Largest counted V that dc/dt of root mean square 1 makes."""
+        """Largest counted V for dc/dt of root mean square 1."""
         return self.drive.speed_per_rate(self.alpha, self.counts_leading)
 
     @property
     def norm(self) -> RigidNorm:
-        """By which motions and their errors are judged."""
+        """The norm of motions and of their errors."""
         return RigidNorm(self.field.gyration, self.field.mirrored)
 
     def counted(self, motion: RigidMotion) -> Array:
-        """V_x, V_y, Omega at each time without what is known to have no mean, (3, times)."""
+        """V_x, V_y, Omega at each time, without terms whose mean vanishes by symmetry, (3, times)."""
         second = self.alpha**2 * motion.remainder.T
         return self.alpha * motion.leading.T + second if self.counts_leading else second
 
     def quadrature_errors(self, times: Array, motion: RigidMotion) -> tuple[Array, Array]:
-        """Largest change of the counted motion (3,) and of q_0, q_1 (2, 3) by finer cells.
+        """Largest change of the counted motion (3,) and of q_0, q_1 (2, 3) on finer cells.
 
-        One Newton step at three times; none of a q_0 that has no mean.
+        From one Newton step at three times; 0 for a q_0 without a mean.
         """
         some = np.unique((np.array([0.07, 0.41, 0.77]) * times.size).astype(int))
         finer = replace(self, resolution=self.resolution.finer())
@@ -173,10 +173,11 @@ class Crawl:
         return abs(self.counted(step)).max(1), orders
 
     def field_error(self, motion: RigidMotion) -> float:
-        """What the error of the deformation does to V_x, V_y and g Omega each (see `RigidNorm`).
+        """Error of V_x, V_y and g Omega each (see `RigidNorm`) due to the error of the deformation.
 
-        The missing short waves push back and forth and hardly matter in the balance: met over widths
-        from 0.1 L to 2 L were factors up to 0.05 (sines) and 0.004 (pulses) where 0.2 and 0.02 stand.
+        The missing short waves alternate in sign and nearly cancel in the balance: the factors measured
+        for widths from 0.1 L to 2 L are at most 0.05 (sines) and 0.004 (pulses), against 0.2 and 0.02
+        used here.
         """
         speed = self.field.error * abs(self.alpha) * motion.fastest
         by_load = 0.0 if self.contact.load is Load.MATERIAL else 0.4 * abs(self.alpha)
@@ -197,10 +198,10 @@ class Crawl:
 
 
 def average(crawl: Crawl, tolerance: Tolerance) -> Period:
-    """Rigid motion through a period at as many times and as finely as the tolerance needs.
+    """Rigid motion over a period, with as many times and as fine cells as the tolerance requires.
 
-    What would be too much work is left out, which shows in the error. Raises ValueError for a wave that
-    does not repeat after its period, or whose rate is not its derivative.
+    Refinement stops at the work limit; the error then stays above the tolerance. Raises ValueError for
+    a wave that does not repeat after its period, or whose rate is not its derivative.
     """
     crawl.drive.check()
     grid = _first_grid(crawl)
@@ -226,7 +227,7 @@ def average(crawl: Crawl, tolerance: Tolerance) -> Period:
 
 
 def _with_enough_times(course: Course, tolerance: Tolerance) -> Course:
-    """More times until they meet their share of the tolerance, or would be too much work."""
+    """Add times until their error meets its share of the tolerance or the work limit is reached."""
     crawl = course.crawl
     while True:
         course, finer = course.improved(0.5 * crawl.norm.allowed(course.mean, tolerance))
@@ -252,7 +253,7 @@ def _with_fine_cells(
 
 
 def _first_grid(crawl: Crawl) -> TimeGrid:
-    """A period, or the half of one that tells the rest where V(t_0 - t) = V(t)."""
+    """A period, or half of one where V(t_0 - t) = V(t) gives the other half."""
     period, reversal = crawl.drive.period, crawl.reversal_time
     if reversal is None:
         return first_grid(0.0, period, 5)
@@ -260,7 +261,7 @@ def _first_grid(crawl: Crawl) -> TimeGrid:
 
 
 def _whole_period(crawl: Crawl, times: Array, values: Array) -> tuple[Array, Array]:
-    """Times (T,) and values (..., T) of one period, without its end."""
+    """Times (T,) and values (..., T) over one period, without its end."""
     if crawl.reversal_time is None:
         return times[:-1], values[..., :-1]
     back = slice(-2, 0, -1)

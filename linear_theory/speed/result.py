@@ -154,7 +154,7 @@ class CrawlSpeed(Drawable, Tabular):
         if self.beyond_reach:
             return f"beyond the reach of the theory: {self.beyond_reach}"
         if np.isnan(self.model_error):
-            return "distance to the nonlinear sheet not known"
+            return "distance to the nonlinear sheet unknown"
         if self.model_error == 0:
             return "no distance to the nonlinear sheet"
         return f"within {self.model_error:.1g} of the nonlinear sheet"
