@@ -250,9 +250,7 @@ def test_a_signal_ends_the_program_with_one_line():
     time.sleep(0.5)
     program.send_signal(signal.SIGINT)
     out, err = program.communicate(timeout=60)
-    told = (
-        "sheetcrawl: predict was interrupted; no partial result was kept, call it again\n"
-    )
+    told = "sheetcrawl: predict was interrupted; no partial result was kept, call it again\n"
     assert (program.returncode, out, err) == (INTERRUPTED, "", told)
 
 
