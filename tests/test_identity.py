@@ -253,8 +253,8 @@ REFUSED: dict[str, tuple[Any, str]] = {
     "a file": (sys.stdout, "cannot be identified"),
     "a lock": (threading.Lock(), "lock"),
     "a counter": (counter(), "changes count"),
-    "random numbers": (np.random.default_rng(0), "not the same again"),
-    "random numbers of Python": (random.Random(0), "not the same again"),
+    "random numbers": (np.random.default_rng(0), "not reproducible"),
+    "random numbers of Python": (random.Random(0), "not reproducible"),
     "a function of them": (function("f = lambda x: np.random.rand() * x"), "random"),
     "a function with them": (
         function("f = lambda x: rng.normal() * x", rng=np.random.default_rng(0)),
@@ -272,7 +272,7 @@ REFUSED: dict[str, tuple[Any, str]] = {
     "an import": (function("def f(x):\n import conftest\n return conftest.g(x)"), "imports conftest"),
     "a dummy symbol": (sympy.Dummy("x") + 1, "dummy"),
     "a ufunc of Python": (np.frompyfunc(lambda x: x, 1, 1), "ufunc"),
-    "an iterator": (itertools.count(), "not the same again"),
+    "an iterator": (itertools.count(), "not reproducible"),
 }
 
 
