@@ -173,7 +173,7 @@ def test_two_settings_that_disagree_are_an_error(name: str) -> None:
     with pytest.raises(ValueError, match=message):
         cycle_speed(scene(Gravity(WEIGHT), FRICTION), **options)
     grounded = scene(*GROUNDED)
-    with pytest.raises(ValueError, match=r"must be None or 'ground', as the effects of the scene say"):
+    with pytest.raises(ValueError, match=r"must be None or 'ground', the load of the scene's effects"):
         cycle_speed(grounded, "current")
 
 

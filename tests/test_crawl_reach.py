@@ -125,7 +125,7 @@ def test_what_is_known_of_the_nonlinear_sheet_is_said_in_words():
     pulse = crawl_speed(PAPER, TravellingWave([0.5, 0.3], [0.2, 0.1]), 0.1, rtol=0.3)
     assert math.isnan(pulse.model_error)
     assert pulse.reach == "distance to the nonlinear sheet unknown"
-    assert replace(pulse, model_error=0.0).reach == "no distance to the nonlinear sheet"
+    assert replace(pulse, model_error=0.0).reach == "agrees with the nonlinear sheet"
 
 
 def test_predict_says_in_its_reason_what_is_not_known():

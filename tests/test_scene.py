@@ -225,7 +225,7 @@ def test_theory_refuses_what_it_cannot_represent() -> None:
         for call in (crawl_speed, second_order, predict):
             with pytest.raises(ValueError, match=rf"cannot represent.*{words}"):
                 call(SCENES[name])
-    with pytest.raises(ValueError, match=r"wave = SineWave\(.*must be None beside a scene"):
+    with pytest.raises(ValueError, match=r"wave = SineWave\(.*must be None if a scene is given"):
         crawl_speed(SCENES["plain"], SineWave())
     with pytest.raises(ValueError, match="alpha = None: must be given"):
         crawl_speed(Sheet(), SineWave())

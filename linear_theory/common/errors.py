@@ -85,5 +85,5 @@ class BeyondReachWarning(UserWarning):
     >>> with warnings.catch_warnings(category=BeyondReachWarning, action="ignore"):
     ...     speed = crawl_speed(Sheet(), SineWave(), alpha=12.0, order=2, rtol=1e-2)
     >>> print(f"V = {speed.mean:.0f} L/T, converged {speed.converged}: {speed.beyond_reach}")
-    V = 221 L/T, converged False: growth |alpha c| reaches 12, the theory ends at 0.5
+    V = 221 L/T, converged False: growth |alpha c| reaches 12, must be <= 0.5 in this theory
     """

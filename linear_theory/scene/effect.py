@@ -1,4 +1,4 @@
-"""What a scene asks of the effects that it names."""
+"""The interface of effects as needed by a scene."""
 
 from typing import TYPE_CHECKING, Protocol, runtime_checkable
 
@@ -12,11 +12,11 @@ if TYPE_CHECKING:
 
 @runtime_checkable
 class NamedEffect(Protocol):
-    """A part of the physics of a sheet that a scene names; see `fem_check.shell.effects.effect.Effect`.
+    """A physical effect that a scene names; see `fem_check.shell.effects.effect.Effect`.
 
-    needs_space: whether it has no meaning with two components. stretches, bends: whether it gives the
-    sheet a shape, with a rest curvature. incline: of the ground, radians. law, mu: of friction, its
-    coefficient; None unless it is that.
+    needs_space: whether it requires three components. stretches: whether it gives the sheet in-plane
+    stiffness. bends: whether it depends on a rest curvature. incline: of the ground, radians. law, mu:
+    friction law and coefficient of friction; None for other effects.
     """
 
     @property
@@ -38,13 +38,13 @@ class NamedEffect(Protocol):
     def mu(self) -> float | None: ...  # noqa: D102
 
     def pressed_by(self, components: int) -> Load | None:
-        """The load with which it presses the sheet on the ground; None if it does not."""
+        """The normal load by which it presses the sheet on the ground; None if it does not."""
 
     def beyond_theory(self, scene: "Scene") -> str:
-        """What of it the theories of a flat rectangle cannot represent, in words; empty if all."""
+        """The part that theories of a flat rectangle cannot represent, in words; empty if none."""
 
     def under(self, sheet: "Sheet") -> "NamedEffect":
-        """The effect as it acts on that sheet."""
+        """The effect adapted to that sheet."""
 
     def check_scene(self, scene: "Scene") -> None:
-        """Raise ValueError where the scene lacks what it needs or contradicts it."""
+        """Raise ValueError if the scene lacks what the effect requires, or contradicts it."""
