@@ -325,6 +325,6 @@ PROBLEMS: tuple[Problem, ...] = family(
         "area > 0",
         degenerate_mesh,
         expected="refused",
-        limit="1 of 2 elements are inverted or without area",
+        limit="1 of 2 elements are inverted or have no area",
     ),
 )
