@@ -1,4 +1,4 @@
-"""How fast a sheet driven by a travelling wave of growth crawls: closed form, series, balance."""
+"""Speed of a sheet driven by a travelling wave of growth: closed forms, series, friction balance."""
 
 from linear_theory.common.errors import (
     BeyondReachWarning,

@@ -160,7 +160,7 @@ def test_the_friction_of_a_cycle_is_that_of_its_scene() -> None:
 
 
 DISAGREEING = {
-    "load": (r"load = 'material': must be None or 'grown', as the effects", {"load": "material"}),
+    "load": (r"load = 'material': must be None or 'grown', the load of", {"load": "material"}),
     "ground": (r"load = 'ground': the scene must name the effect Ground", {"load": "ground"}),
     "law": (r"friction = Coulomb\(\): must be None or that of the scene", {"friction": "coulomb"}),
     "slip": (r"friction = Tanh\(slip_speed=0.01\): must be None", {"slip_speed": 0.01}),
@@ -173,7 +173,7 @@ def test_two_settings_that_disagree_are_an_error(name: str) -> None:
     with pytest.raises(ValueError, match=message):
         cycle_speed(scene(Gravity(WEIGHT), FRICTION), **options)
     grounded = scene(*GROUNDED)
-    with pytest.raises(ValueError, match=r"must be None or 'ground', as the effects of the scene say"):
+    with pytest.raises(ValueError, match=r"must be None or 'ground', the load of the scene's effects"):
         cycle_speed(grounded, "current")
 
 

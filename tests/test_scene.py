@@ -148,7 +148,7 @@ def test_functions_are_known_by_content_or_name() -> None:
     nameless = FieldWave(iter([1]).__next__, 1.0)
     with pytest.raises(Unidentifiable, match=r"wave"):
         Scene(Sheet(), nameless, 0.1).key()
-    with pytest.raises(ValueError, match=r"wave = .*give it: Scene.from_dict\(data, wave=...\)"):
+    with pytest.raises(ValueError, match=r"wave = .*pass it: Scene.from_dict\(data, wave=...\)"):
         Scene.from_dict(same[0].to_dict())
     assert Scene.from_dict(same[0].to_dict(), wave=wave(1.0)) == same[0]
 
@@ -157,7 +157,7 @@ def test_uneven_ground_is_given_again() -> None:
     hill = Ground(0.5, height=lambda x, y: 0.01 * np.cos(3 * y) + 0 * x)
     effects = (*SPACE[:3], hill, SPACE[-1])
     scene = Scene(Sheet(), SineWave(), 0.1, effects=effects)
-    with pytest.raises(ValueError, match=r"effects\[3\].*a Terrain cannot be made"):
+    with pytest.raises(ValueError, match=r"effects\[3\].*a Terrain cannot be restored"):
         Scene.from_dict(scene.to_dict())
     assert Scene.from_dict(scene.to_dict(), effects=effects) == scene
 
@@ -168,8 +168,8 @@ def test_uneven_ground_is_given_again() -> None:
         ({}, "data = {}: must be what Scene.to_dict"),
         ({"type": "Scene"}, "a scene must have sheet, wave, growth, effects"),
         (SCENES["plain"].to_dict() | {"sheet": {"type": "Sheet", "size": 1}}, "must be its arguments"),
-        (SCENES["plain"].to_dict() | {"sheet": {"type": "os"}}, "a os cannot be made"),
-        (SCENES["plain"].to_dict() | {"element": "os.system(1)"}, "must be the name of one"),
+        (SCENES["plain"].to_dict() | {"sheet": {"type": "os"}}, "a os cannot be restored"),
+        (SCENES["plain"].to_dict() | {"element": "os.system(1)"}, "must be a scikit-fem element"),
         (SCENES["plain"].to_dict() | {"cells": [0, 1]}, "cells = 0: must be >= 1"),
     ],
 )
@@ -225,7 +225,7 @@ def test_theory_refuses_what_it_cannot_represent() -> None:
         for call in (crawl_speed, second_order, predict):
             with pytest.raises(ValueError, match=rf"cannot represent.*{words}"):
                 call(SCENES[name])
-    with pytest.raises(ValueError, match=r"wave = SineWave\(.*must be None beside a scene"):
+    with pytest.raises(ValueError, match=r"wave = SineWave\(.*must be None if a scene is given"):
         crawl_speed(SCENES["plain"], SineWave())
     with pytest.raises(ValueError, match="alpha = None: must be given"):
         crawl_speed(Sheet(), SineWave())

@@ -57,11 +57,11 @@ CASES: dict[str, tuple[str, Callable[[], object]]] = {
         lambda: Discretisation(moved(TRIANGLES, centre(TRIANGLES), (1.6, 0.5)), ARGYRIS),
     ),
     "flat triangle": (
-        "inverted or without area",
+        "inverted or have no area",
         lambda: Discretisation(moved(TRIANGLES, centre(TRIANGLES), (1.0, 0.5)), ARGYRIS),
     ),
     "folded quadrilateral": (
-        "inverted or without area",
+        "inverted or have no area",
         lambda: Discretisation(
             moved(QUADS, centre(QUADS), (1.3, 1.3)), skfem.ElementQuad2(), components=2
         ),

@@ -1,4 +1,4 @@
-"""Quantities as people write them, and the question that they ask, in the units that they are in."""
+"""Quantities with units as typed on the command line, and the scene that they define."""
 
 import re
 from dataclasses import dataclass
@@ -33,12 +33,12 @@ KINDS = {
     "slip_speed": "speed",
     "atol": "speed",
 }
-"""What the options with a dimension are, by name."""
+"""Dimension of each option that has one."""
 
 
 @dataclass(frozen=True)
 class Quantity:
-    """A number with its unit, None for a plain number; name and text as on the command line."""
+    """A number with its unit (None for a plain number); name and text as on the command line."""
 
     name: str
     text: str
@@ -46,16 +46,16 @@ class Quantity:
     unit: "pint.Unit | None"
 
     def into(self, unit: Any) -> float:
-        """The number in another unit of the same dimension; a plain number as it is."""
+        """The number converted to another unit of the same dimension; a plain number unchanged."""
         if self.unit is None:
             return self.number
         return float(self.number * self.unit._REGISTRY.Quantity(1.0, self.unit).to(unit).magnitude)
 
 
 class Asked(NamedTuple):
-    """A question, how well it is to be answered, and the units that its numbers are in.
+    """A scene, the tolerance, and the units of the numbers given.
 
-    units: None for plain numbers, which are told in units of the sheet.
+    units: None for plain numbers, which are in units of the sheet.
     """
 
     scene: Scene
@@ -65,7 +65,7 @@ class Asked(NamedTuple):
 
 
 def asked(options: Options) -> Asked:
-    """What the options ask. Raises ValueError that names the option, its value and what to do."""
+    """The question posed by the options. Raises ValueError with the option, its value and a remedy."""
     given = {
         name: quantity(name, text, kind)
         for name, kind in KINDS.items()
@@ -83,7 +83,7 @@ def asked(options: Options) -> Asked:
 
 
 def quantity(name: str, text: str, kind: str) -> Quantity:
-    """A number and its unit. Raises ValueError for anything else, and for a unit of something else."""
+    """A number and its unit. Raises ValueError for anything else, and for a unit of wrong dimension."""
     option = f"--{name.replace('_', '-')}"
     example = f"must be a {kind} such as '{EXAMPLES[kind]}'"
     parts = NUMBER.fullmatch(text)
@@ -94,27 +94,27 @@ def quantity(name: str, text: str, kind: str) -> Quantity:
         return Quantity(option, text, number, None)
     unit = _unit(unit_text)
     if unit is None:
-        raise ValueError(f"{option} {text!r}: {unit_text!r} is no unit; {example}")
+        raise ValueError(f"{option} {text!r}: {unit_text!r} is not a known unit; {example}")
     if not unit.is_compatible_with(_unit(BASES[kind])):
         raise ValueError(f"{option} {text!r}: is not a {kind}; {example}")
     return Quantity(option, text, number, unit)
 
 
 def share(name: str, text: str) -> float:
-    """A share, plain or in per cent."""
+    """A fraction, plain or in per cent."""
     found = quantity(name, text, "share")
     return found.into("dimensionless")
 
 
 @cache
 def _registry() -> "pint.UnitRegistry[Any]":
-    import pint  # a quarter of a second, for those who write units
+    import pint  # here: it takes a quarter of a second, and only quantities with units need it
 
     return pint.UnitRegistry(cache_folder=None)
 
 
 def _unit(text: str) -> "pint.Unit | None":
-    """The unit of that name; None where there is none."""
+    """The unit of that name; None if there is none."""
     import pint
 
     try:
@@ -124,9 +124,9 @@ def _unit(text: str) -> "pint.Unit | None":
 
 
 def _common_units(given: dict[str, Quantity]) -> "tuple[pint.Unit, pint.Unit] | None":
-    """Units of length and time of the question; None where all numbers are plain.
+    """Units of length and time of the question; None if all numbers are plain.
 
-    Raises ValueError where some are plain and others are not.
+    Raises ValueError if some are plain and others are not.
     """
     named = [one for one in given.values() if one.unit is not None]
     if not named:
@@ -154,7 +154,7 @@ def _in(names: "tuple[pint.Unit, pint.Unit] | None", kind: str, one: Quantity) -
 
 
 def _sheet(numbers: dict[str, float], with_units: bool, poisson: float) -> Sheet:
-    """The sheet; what is not given is that of the paper, in proportion where lengths have a unit."""
+    """The sheet; by default that of the paper, scaled in proportion if lengths have a unit."""
     sizes = {name: numbers[name] for name in ("length", "width", "thickness") if name in numbers}
     if with_units:
         paper = Sheet()
@@ -167,10 +167,10 @@ def _wave(options: Options, period: float) -> TravellingWave:
     harmonics = bool(options.sine or options.cosine)
     if options.pulse is not None:
         if harmonics:
-            raise ValueError(f"--pulse {options.pulse:g}: must be without --sine and --cosine")
+            raise ValueError(f"--pulse {options.pulse:g}: must not be combined with --sine or --cosine")
         if not NARROWEST <= options.pulse < 1:
             raise ValueError(
-                f"--pulse {options.pulse:g}: must be in [{NARROWEST:g}, 1), a share of the wavelength"
+                f"--pulse {options.pulse:g}: must be in [{NARROWEST:g}, 1), in wavelengths"
             )
         return pulse_wave(options.pulse, options.count, period)
     if not harmonics:
@@ -183,23 +183,25 @@ def _wave(options: Options, period: float) -> TravellingWave:
 
 
 def _alpha(options: Options, wave: TravellingWave, sheet: Sheet) -> float:
-    """Given, or from the growth at the crest."""
+    """alpha as given, or from the growth at the crest."""
     if options.growth is None:
         if options.alpha is None:
             raise ValueError("--growth: must be given, such as '12 %' of length, or --alpha instead")
         return options.alpha
     if options.alpha is not None:
-        raise ValueError(f"--growth {options.growth!r}: must be without --alpha {options.alpha:g}")
+        raise ValueError(
+            f"--growth {options.growth!r}: must not be combined with --alpha {options.alpha:g}"
+        )
     crest = quantity("growth", options.growth, "share")
     value = crest.into("dimensionless")
     if crest.unit is None and value >= 1:
         raise ValueError(
-            f"--growth {options.growth!r}: a plain number is a share, this one {value:g} times the "
+            f"--growth {options.growth!r}: a plain number is a fraction, here {value:g} times the "
             f"length; must be < 1, or in per cent, as in '{value:g} %'"
         )
     if not value > 0:
         raise ValueError(
             f"--growth {options.growth!r}: must be > 0 at the crest of the wave, as in '12 %'; for a "
-            "wave that shrinks lengths give a negative --alpha"
+            "wave that contracts the sheet give a negative --alpha"
         )
     return alpha_of(value, wave, sheet, options.growth_law)

@@ -1,4 +1,4 @@
-"""`sheetcrawl speed`: asks `predict`, and tells the answer as the options want it."""
+"""`sheetcrawl speed`: calls `predict` and prints the answer in the form requested."""
 
 import json
 import math
@@ -19,15 +19,15 @@ from fem_check.command.waiting import Waiting
 from linear_theory.common.errors import SheetcrawlError
 
 WIDEST = 100
-"""Columns of the answer, at the most."""
+"""Largest width of the answer, in columns."""
 
 HINTS = "sheetcrawl examples", "--why"
 
 
 def speed(options: Options) -> int:
-    """Answer; the exit status. Raises ValueError for bad options, before any work."""
+    """Print the answer, return the exit status. Raises ValueError for bad options, before any work."""
     if options.json and options.csv:
-        raise ValueError("--json: must be without --csv, one of them is printed")
+        raise ValueError("--json: must not be combined with --csv")
     check_files(options)
     question = asked(options)
     with warnings.catch_warnings(record=True, action="always") as seen, Waiting() as waiting:
@@ -51,7 +51,7 @@ def _predicted(question: Asked, method: str, waiting: Waiting) -> Prediction:
 
 
 def _told(found: Prediction, units: Units | None, options: Options) -> str:
-    """The answer as it is printed."""
+    """The answer as printed."""
     if options.json:
         return json.dumps(record(found, units), indent=1)
     if options.csv:
@@ -64,7 +64,7 @@ def _told(found: Prediction, units: Units | None, options: Options) -> str:
 
 
 def record(found: Prediction, units: Units | None) -> dict[str, Any]:
-    """The answer for programs, in the units of the question; what is unknown is None."""
+    """The answer for programs, in the units of the question; unknown values are None."""
     speed = found.speed
     numbers = {
         "mean": found.mean,
@@ -96,9 +96,9 @@ def table(found: Prediction, units: Units | None) -> str:
 
 
 def _draw(found: Prediction, units: Units | None, options: Options) -> None:
-    """The picture and the film that are asked for."""
+    """Write the requested picture and film."""
     if options.plot is not None:
-        from fem_check.output.files import replacing  # and matplotlib with it
+        from fem_check.output.files import replacing  # here: it loads matplotlib
 
         (first, *_) = found.plot(units=units)
         with replacing(options.plot) as part:

@@ -1,4 +1,4 @@
-"""All that defines V(t) of a deformation, and how finely it is found."""
+"""A crawling sheet (field, growth coupling, contact) and the resolution of its friction balance."""
 
 import math
 from dataclasses import dataclass, replace
@@ -22,20 +22,21 @@ Array = NDArray[np.float64]
 
 MOST_TIMES = 4096
 MOST_WORK = 8_000_000
-"""Of times, and of numbers at all times together (see `Crawl.work`), some tens of seconds."""
+"""Limits of the number of times and of the work at all times together (see `Crawl.work`), some tens of
+seconds."""
 
 BATCH = 10_000
-"""Points balanced together, which halving makes ten times as many: they fit in the cache."""
+"""Points per batch; halving of cells makes ten times as many, which fit in the cache."""
 
 
 class Known(NamedTuple):
-    """The motion at some ascending times."""
+    """The motion at given ascending times."""
 
     times: Array
     motion: RigidMotion
 
     def between(self, times: Array) -> RigidMotion:
-        """Linear interpolation of q."""
+        """The motion at other times by linear interpolation of q."""
         leading, remainder = (
             np.stack([np.interp(times, self.times, column) for column in q.T], axis=1)
             for q in (self.motion.leading, self.motion.remainder)
@@ -53,15 +54,15 @@ class Resolution:
     tolerance: float
 
     def finer(self) -> "Resolution":
-        """More of everything, to check with and to go on with."""
+        """The next finer resolution, for error estimates and for refinement."""
         return Resolution(1.5 * self.density, self.order + 1, self.halvings + 6, 0.1 * self.tolerance)
 
 
 def first_resolution(rtol: float) -> Resolution:
-    """Four cells to a wave, and halvings until a point at rest takes an area of about rtol^1.6.
+    """Four cells per wave, halved until the cell at a stagnation point has an area of about rtol^1.6.
 
-    Next to it the remainder of the balance has the density 1/distance, so that the error falls like
-    the square root of the area of the last cell.
+    Near such a point the integrand of the remainder behaves like 1/distance, so that the error falls
+    like the square root of the area of the last cell.
     """
     digits = -math.log10(rtol)
     order = min(max(math.ceil(2.5 + 0.8 * digits), 5), 14)
@@ -70,7 +71,7 @@ def first_resolution(rtol: float) -> Resolution:
 
 @dataclass(frozen=True)
 class Crawl:
-    """All that defines V(t), and how finely it is found."""
+    """A crawling sheet (field, growth coupling, contact) and the resolution of its balance."""
 
     field: LinearField
     alpha: float
@@ -98,13 +99,13 @@ class Crawl:
         return not self.starts_at_second_order
 
     def balance(self, times: Array, known: Known | None = None) -> RigidMotion:
-        """Rigid motion at the given times, in lots; known: times before and after to start from."""
-        lot = max(BATCH // self._motion(times[:1]).area.size, 1)
-        lots = []
-        for i in track("friction through the period", range(0, times.size, lot)):
-            some = times[i : i + lot]
-            lots.append(self._balance(some).solve(known and known.between(some)))
-        leading, remainder, rest, fastest = zip(*lots, strict=True)
+        """Rigid motion at the given times, in batches; known: the motion at other times, as a guess."""
+        size = max(BATCH // self._motion(times[:1]).area.size, 1)
+        batches = []
+        for i in track("friction balance over the period", range(0, times.size, size)):
+            some = times[i : i + size]
+            batches.append(self._balance(some).solve(known and known.between(some)))
+        leading, remainder, rest, fastest = zip(*batches, strict=True)
         return RigidMotion(
             np.concatenate(leading), np.concatenate(remainder), np.concatenate(rest), max(fastest)
         )
@@ -116,36 +117,36 @@ class Crawl:
 
     @cached_property
     def work(self) -> int:
-        """Numbers per time: points to balance, and what is solved for to know the deformation."""
+        """Work per time: points of the balance plus unknowns of the deformation solved for."""
         return int(self._motion(np.zeros(1)).area.size) + self.field.numbers
 
     def affords(self, times: Array) -> bool:
-        """Whether these are few enough."""
+        """Whether the balance at these times is within the work limit."""
         return self.work * times.size <= MOST_WORK
 
     def reaches(self, count: float) -> bool:
-        """Whether so many times may be used in the end."""
+        """Whether a number of times is within the work limit."""
         return count <= min(MOST_TIMES, MOST_WORK / self.work)
 
     @property
     def speed_per_rate(self) -> float:
-        """Largest counted V that dc/dt of root mean square 1 makes."""
+        """Largest counted V for dc/dt of root mean square 1."""
         return self.drive.speed_per_rate(self.alpha, self.counts_leading)
 
     @property
     def norm(self) -> RigidNorm:
-        """By which motions and their errors are judged."""
+        """The norm of motions and of their errors."""
         return RigidNorm(self.field.gyration, self.mirrored)
 
     def counted(self, motion: RigidMotion) -> Array:
-        """V_x, V_y, Omega at each time without what is known to have no mean, (3, times)."""
+        """V_x, V_y, Omega at each time, without terms whose mean vanishes by symmetry, (3, times)."""
         second = self.alpha**2 * motion.remainder.T
         return self.alpha * motion.leading.T + second if self.counts_leading else second
 
     def quadrature_errors(self, times: Array, motion: RigidMotion) -> tuple[Array, Array]:
-        """Largest change of the counted motion (3,) and of q_0, q_1 (2, 3) by finer cells.
+        """Largest change of the counted motion (3,) and of q_0, q_1 (2, 3) on finer cells.
 
-        One Newton step at three times; none of a q_0 that has no mean.
+        From one Newton step at three times; 0 for a q_0 without a mean.
         """
         some = np.unique((np.array([0.07, 0.41, 0.77]) * times.size).astype(int))
         finer = replace(self, resolution=self.resolution.finer())
@@ -156,10 +157,11 @@ class Crawl:
         return abs(self.counted(step)).max(1), orders
 
     def field_error(self, motion: RigidMotion) -> float:
-        """What the error of the deformation does to V_x, V_y and g Omega each (see `RigidNorm`).
+        """Error of V_x, V_y and g Omega each (see `RigidNorm`) due to the error of the deformation.
 
-        The missing short waves push back and forth and hardly matter in the balance: met over widths
-        from 0.1 L to 2 L were factors up to 0.05 (sines) and 0.004 (pulses) where 0.2 and 0.02 stand.
+        The missing short waves alternate in sign and nearly cancel in the balance: the factors measured
+        for widths from 0.1 L to 2 L are at most 0.05 (sines) and 0.004 (pulses), against 0.2 and 0.02
+        used here.
         """
         speed = self.field.error * abs(self.alpha) * motion.fastest
         by_load = 0.0 if self.contact.load is Load.MATERIAL else 0.4 * abs(self.alpha)

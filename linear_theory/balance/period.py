@@ -1,4 +1,4 @@
-"""The rigid motion of a sheet through one period, and its mean with an error estimate."""
+"""The rigid motion of a sheet over one period, and its mean with an error estimate."""
 
 from dataclasses import replace
 from typing import NamedTuple
@@ -21,11 +21,11 @@ _STICKING = 0.01  # share of the sheet at rest that counts as sticking
 class Period(NamedTuple):
     """One period of motion.
 
-    times (T,); orders (2, 3, T): V_x, V_y, Omega of q_0 and q_1, and rigid (3, T), of both together;
-    rigid_mean, rigid_error (3,): their means and estimated errors, absolute; means, mean_errors (2, 3):
-    of `orders`, and what times and cells do to them;
-    fastest: the largest speed against the ground; sticks: whether at some time a share of the sheet is
-    at rest.
+    times (T,); orders (2, 3, T): V_x, V_y, Omega of q_0 and q_1; rigid (3, T): of both together;
+    rigid_mean, rigid_error (3,): means of `rigid` and their estimated errors, absolute; means,
+    mean_errors (2, 3): means of `orders` and their errors from times and cells;
+    fastest: the largest speed relative to the ground; sticks: whether part of the sheet is at rest at
+    some time.
     """
 
     times: Array
@@ -45,20 +45,20 @@ class Period(NamedTuple):
 
     @property
     def error(self) -> float:
-        """Estimate of its error, absolute."""
+        """Estimated error of `mean`, absolute."""
         return float(self.rigid_error[1])
 
     @property
     def first_order(self) -> float:
-        """V_1 of mean = V_1 alpha + O(alpha^2)."""
+        """V_1 in mean = V_1 alpha + O(alpha^2)."""
         return float(self.means[0, 1])
 
 
 def average(crawl: Crawl, tolerance: Tolerance) -> Period:
-    """Rigid motion through a period at as many times and as finely as the tolerance needs.
+    """Rigid motion over a period, with as many times and as fine cells as the tolerance requires.
 
-    What would be too much work is left out, which shows in the error. Raises ValueError for a wave that
-    does not repeat after its period, or whose rate is not its derivative.
+    Refinement stops at the work limit; the error then stays above the tolerance. Raises ValueError for
+    a wave that does not repeat after its period, or whose rate is not its derivative.
     """
     crawl.drive.check()
     grid = _first_grid(crawl)
@@ -84,7 +84,7 @@ def average(crawl: Crawl, tolerance: Tolerance) -> Period:
 
 
 def _with_enough_times(course: Course, tolerance: Tolerance) -> Course:
-    """More times until they meet their share of the tolerance, or would be too much work."""
+    """Add times until their error meets its share of the tolerance or the work limit is reached."""
     crawl = course.crawl
     while True:
         course, finer = course.improved(0.5 * crawl.norm.allowed(course.mean, tolerance))
@@ -114,7 +114,7 @@ def _with_fine_cells(
 
 
 def _first_grid(crawl: Crawl) -> TimeGrid:
-    """A period, or the half of one that tells the rest where V(t_0 - t) = V(t)."""
+    """A period, or half of one where V(t_0 - t) = V(t) gives the other half."""
     period, reversal = crawl.drive.period, crawl.reversal_time
     if reversal is None:
         return first_grid(0.0, period, 5)
@@ -122,7 +122,7 @@ def _first_grid(crawl: Crawl) -> TimeGrid:
 
 
 def _whole_period(crawl: Crawl, times: Array, values: Array) -> tuple[Array, Array]:
-    """Times (T,) and values (..., T) of one period, without its end."""
+    """Times (T,) and values (..., T) over one period, without its end."""
     if crawl.reversal_time is None:
         return times[:-1], values[..., :-1]
     back = slice(-2, 0, -1)

@@ -1,4 +1,4 @@
-"""The version of the program: of the installed package, or of the folder that it runs from."""
+"""The version of the program, from the installed package or the source tree."""
 
 import tomllib
 from pathlib import Path
@@ -7,7 +7,7 @@ PROJECT = Path(__file__).parents[2] / "pyproject.toml"
 
 
 def current_version() -> str:
-    """Of pyproject.toml where these files lie beside it, else of the installed package."""
+    """The version in pyproject.toml in a source tree, else that of the installed package."""
     if PROJECT.exists():
         project = tomllib.loads(PROJECT.read_text(encoding="utf-8")).get("project", {})
         if project.get("name") == "sheetcrawl":

@@ -1,4 +1,4 @@
-"""Friction on a crawling sheet, point by point."""
+"""Friction forces on a crawling sheet at given points."""
 
 from typing import NamedTuple
 
@@ -30,7 +30,7 @@ def friction_field(
     slip_speed: float | None = None,
     rtol: float = 1e-6,
 ) -> "FrictionField":
-    """Friction on a crawling sheet at time t and at the points x, y (broadcast).
+    """Friction forces on a crawling sheet at time t and at the points x, y (broadcast).
 
     Raises ValueError as `crawl_speed` does, and for points outside the sheet. Warns
     (BeyondReachWarning) as it does.
@@ -63,7 +63,7 @@ def _friction_field(
     contact: Contact,
     rtol: float,
 ) -> "FrictionField":
-    """`friction_field` without its checks and its warning."""
+    """`friction_field`, without its checks and its warning."""
     v_x = v_y = omega = 0.0
     if alpha != 0:
         motion = Crawl(field, alpha, contact, first_resolution(rtol)).balance(np.array([t]))
@@ -83,5 +83,6 @@ class _Forces(NamedTuple):
 
 
 class FrictionField(Shown, _Forces):
-    """force (2, ...): per reference area, over mu times the weight per area; slip (2, ...): velocity
-    against the ground, length per time; weight (...): load per reference area, 1 without growth."""
+    """force (2, ...): per reference area, divided by mu times the weight per area; slip (2, ...):
+    velocity relative to the ground, length per time; weight (...): normal load per reference area, 1
+    without growth."""

@@ -1,4 +1,4 @@
-"""A smooth pulse that travels along the sheet, of any width."""
+"""A smooth travelling pulse of any width."""
 
 import math
 
@@ -8,13 +8,13 @@ from linear_theory.common import validation
 from linear_theory.wave.travelling import EPS, TravellingWave
 
 NARROWEST = 0.02
-"""Of a wavelength: a narrower pulse has harmonics by the hundred, and needs as many elements."""
+"""Smallest width in wavelengths: narrower pulses need hundreds of harmonics and elements."""
 
 
 def pulse_wave(width: float, count: int = 1, period: float = 1.0) -> TravellingWave:
     """c = exp(k (cos phi - 1)), phi = 2 pi (count y/L - t/period): 1 at its crest, falling to exp(-2k).
 
-    width: share of a wavelength in which c > 1/2, from 0.02 to below 1; it sets k = ln 2/(1 - cos(pi
+    width: fraction of a wavelength in which c > 1/2, in [0.02, 1); it determines k = ln 2/(1 - cos(pi
     width)). This profile (von Mises) is smooth, periodic and nowhere negative; its harmonics
     2 exp(-k) I_n(k) are kept down to rounding. count, period as in `TravellingWave`.
 
@@ -29,7 +29,7 @@ def pulse_wave(width: float, count: int = 1, period: float = 1.0) -> TravellingW
 
     width = validation.real("width", width)
     if not NARROWEST <= width < 1:
-        raise ValueError(f"width = {width:g}: must be in [{NARROWEST:g}, 1), a share of the wavelength")
+        raise ValueError(f"width = {width:g}: must be in [{NARROWEST:g}, 1), in wavelengths")
     steepness = math.log(2) / (1 - math.cos(math.pi * width))
     most = math.ceil(16 + 10 * math.sqrt(steepness))  # I_n(k)/I_0(k) is about exp(-n^2/(2k))
     amplitudes = 2 * ive(np.arange(most + 1), steepness)

@@ -144,7 +144,7 @@ class CycleBalance:
     def balance(self, times: Array) -> RigidMotion:
         """Motion at times and half a period later, leading and remainder (2, times, 3)."""
         later = self._with_partners(times)
-        starts = track("friction through the period", range(0, later.size, LOT))
+        starts = track("friction balance over the period", range(0, later.size, LOT))
         lots = [self._balance(later[i : i + LOT]).solve() for i in starts]
         leading, remainder, rest, fastest = zip(*lots, strict=True)
         shape = 2, times.size
