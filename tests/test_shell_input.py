@@ -67,7 +67,7 @@ CASES: dict[str, tuple[str, Callable[[], object]]] = {
         ),
     ),
     "oblique BFS": (
-        "no rectangles along the axes",
+        "not axis-parallel rectangles",
         lambda: Discretisation(moved(QUADS, centre(QUADS), (0.6, 0.5)), BFS),
     ),
     "mesh not finite": ("mesh.p contains", lambda: Discretisation(moved(QUADS, 0, (np.nan, 0)), BFS)),
@@ -178,11 +178,14 @@ CASES: dict[str, tuple[str, Callable[[], object]]] = {
         r"first = 2: must be in \(0, 1\]",
         lambda: ramp(Minimiser(Supports(PLATE)), lambda s: None, PLATE.zeros(), first=2.0),
     ),
-    "no such edge": ("no boundary edge", lambda: PLATE.edge(at(0, 7))),
+    "no such edge": ("at least one boundary edge", lambda: PLATE.edge(at(0, 7))),
     "point outside": (r"xi = \[7. 0.\]: must be in", lambda: PLATE.point((7.0, 0.0))),
     "point of wrong shape": ("xi has shape", lambda: PLATE.point((1.0,))),
     "held components": ("components", lambda: Supports(PLANAR).pin(at(0, 0), (2,))),
-    "slope of Lagrange": ("has no slopes", lambda: Supports(PLANAR).hold_slope(at(0, 0), (0,))),
+    "slope of Lagrange": (
+        "must be BFS or Argyris",
+        lambda: Supports(PLANAR).hold_slope(at(0, 0), (0,)),
+    ),
     "oblique edge": (
         "along the axes",
         lambda: Supports(

@@ -146,8 +146,8 @@ def test_a_run_stopped_by_control_c_keeps_all_its_steps(tmp_path: Path) -> None:
         left = stopped(path, after)
         assert left.returncode == -signal.SIGINT
         *_, last = left.stderr.splitlines()
-        assert "KeyboardInterrupt: simulate was stopped at t = " in last
-        assert f"all kept in {path}; the same call goes on from there" in last
+        assert "KeyboardInterrupt: simulate was interrupted at t = " in last
+        assert f"all kept in {path}; the same call resumes from there" in last
         assert len(left.stderr.splitlines()) < 12  # neither numpy nor the minimiser in the traceback
     with np.load(path) as file:
         assert len(file["rows"]) > 13
@@ -219,8 +219,8 @@ def no_step(progress: object) -> None:
 def test_places_where_no_snapshot_can_be_are_refused_before_the_work(tmp_path: Path) -> None:
     (tmp_path / "file").write_text("")
     for path, message in (
-        (tmp_path / "missing" / "run.npz", "must be in a folder that exists"),
-        (tmp_path / "file" / "run.npz", "must be in a folder that exists"),
+        (tmp_path / "missing" / "run.npz", "must be in an existing folder"),
+        (tmp_path / "file" / "run.npz", "must be in an existing folder"),
         (tmp_path, "must be a file, is a folder"),
         (Path("/proc/run.npz"), "cannot be written there"),
         (tmp_path / (300 * "n"), "cannot be written there"),
@@ -294,7 +294,7 @@ def test_functions_are_known_by_what_they_are(
     with pytest.raises(KeyboardInterrupt):
         simulate(first, snapshot=path, progress=stop, **options)
     before = path.read_bytes()
-    with pytest.raises(SnapshotError, match=f"another scene .*: other {part}"):
+    with pytest.raises(SnapshotError, match=f"another scene .*: different {part}"):
         simulate(second, snapshot=path, progress=no_step, **options)
     assert path.read_bytes() == before
 
@@ -307,7 +307,7 @@ def noisy(seed: int, name: str | None = None) -> FieldWave:
 def test_a_function_that_cannot_be_identified_must_have_a_name(tmp_path: Path) -> None:
     path = tmp_path / "run.npz"
     with pytest.raises(
-        SnapshotError, match=r"known again.*wave.*rng.*FieldWave\(\.\.\., name="
+        SnapshotError, match=r"cannot be identified.*wave.*rng.*FieldWave\(\.\.\., name="
     ) as raised:
         simulate(planar(wave=noisy(0)), snapshot=path, progress=no_step, **OPTIONS)
     assert "snapshot = " in str(raised.value)
