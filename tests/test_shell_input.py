@@ -70,7 +70,10 @@ CASES: dict[str, tuple[str, Callable[[], object]]] = {
         "no rectangles along the axes",
         lambda: Discretisation(moved(QUADS, centre(QUADS), (0.6, 0.5)), BFS),
     ),
-    "mesh not finite": ("mesh.p must be finite", lambda: Discretisation(moved(QUADS, 0, (np.nan, 0)), BFS)),
+    "mesh not finite": (
+        "mesh.p must be finite",
+        lambda: Discretisation(moved(QUADS, 0, (np.nan, 0)), BFS),
+    ),
     "element of another shape": (
         "element = ElementTriArgyris: must be",
         lambda: Discretisation(QUADS, ARGYRIS),
