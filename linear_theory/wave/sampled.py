@@ -195,7 +195,8 @@ class SampledDrive(Drive):
 
 def _spread_over(values: ArrayLike, *points: ArrayLike) -> Array:
     """Values at points, of their common shape."""
-    return np.broadcast_to(np.asarray(values), np.broadcast_shapes(*map(np.shape, points)))
+    values, shape = np.asarray(values), np.broadcast(*points).shape
+    return values if values.shape == shape else np.broadcast_to(values, shape)
 
 
 def _waves(degree: float) -> int:
