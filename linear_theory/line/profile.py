@@ -34,8 +34,8 @@ TERMS = 15
 harmonic at the far end of a cell."""
 
 GAUSS_NODES, GAUSS_WEIGHTS = gauss_legendre(10)
-"""For each cell, on which g is a sixteenth of a wave, stretches vary by MOST_VARIATION and tanh by its
-argument over an interval of length 1 (poles at distance pi/2 or more): errors below 1e-16."""
+"""Gauss points per cell, on which g is a sixteenth of a wave, stretches vary by MOST_VARIATION and the
+argument of tanh by at most 1 (poles at distance pi/2 or more): errors below 1e-16."""
 
 MOST_VARIATION = 0.25
 """Largest variation of the logarithm of the stretch over a cell. Complex zeros of the stretch and of

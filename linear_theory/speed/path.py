@@ -311,7 +311,7 @@ def _spline(times: Array, poses: Array, rates: Array) -> "CubicHermiteSpline":
 
 
 def _inner_errors(times: Array, poses: Array, rates: Array) -> tuple[float, float]:
-    """Largest errors of place and heading within the period: what every second time leaves out."""
+    """Largest errors of position and heading within the period, from omitting every second time."""
     coarse = _spline(times[::2], poses[::2], rates[::2])
     x, y, angle = (coarse(times) - poses).T
     return float(np.hypot(x, y).max()), float(abs(angle).max())

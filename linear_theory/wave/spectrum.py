@@ -80,7 +80,7 @@ def fourier(function: Function, checks: Array, fewest: int, most: int) -> Spectr
 
 
 def chebyshev(function: Function, checks: Array, fewest: int, most: int) -> Spectrum:
-    """Chebyshev polynomials of functions on [-1, 1]; arguments as of `fourier`."""
+    """Chebyshev expansion of functions on [-1, 1]; arguments as for `fourier`."""
     from scipy.fft import dct  # here: scipy takes long to import
 
     known, tolerance = _checked(function, checks)

@@ -90,7 +90,7 @@ class CycleBalance:
 
     @cached_property
     def norm(self) -> RigidNorm:
-        """By which motions and their errors are judged."""
+        """The norm of motions and of their errors."""
         return RigidNorm(gyration(self.shapes.discretisation), self.mirrored)
 
     @property

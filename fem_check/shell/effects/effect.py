@@ -69,7 +69,7 @@ class Effect(ABC):
         """Second derivative, (entries, entries, component pairs, points); None if it vanishes."""
 
     def under(self, sheet: Sheet) -> Self:
-        """The effect as it acts on that sheet."""
+        """The effect adapted to that sheet."""
         return self
 
     def idle(self, components: int) -> bool:
@@ -77,7 +77,7 @@ class Effect(ABC):
         return False
 
     def pressed_by(self, components: int) -> Load | None:
-        """The load with which it presses the sheet on the ground; None if it does not."""
+        """The normal load by which it presses the sheet on the ground; None if it does not."""
         return None
 
     def normal_load(self, state: PointState) -> Array:
@@ -100,7 +100,7 @@ class Effect(ABC):
         """Raise ValueError where a potential lacks what the effect needs."""
 
     def beyond_theory(self, scene: Scene) -> str:
-        """What of it the theories of a flat rectangle cannot represent, in words; empty if all."""
+        """The part that theories of a flat rectangle cannot represent, in words; empty if none."""
         return type(self).__name__
 
     def beyond_cycle(self, scene: Scene) -> str:

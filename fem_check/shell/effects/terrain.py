@@ -87,7 +87,7 @@ class Terrain(Value):
             )
 
     def identified_by(self) -> object:
-        """What its content key is made of."""
+        """The content from which its key is computed."""
         return self.height if self.name is None else self.name, self.length
 
     def under(self, sheet: Sheet) -> "Terrain":

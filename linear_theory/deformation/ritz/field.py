@@ -181,7 +181,7 @@ class RitzField(LinearField):
         return self._moments_by((across, along), self._cases.growths)  # exact for c of degree 3/2 p
 
     def _moments_by(self, counts: Pair, growths: Callable[[Array, Array], Array]) -> Array:
-        """Those of any growths by so many Gauss points, (growths, *counts)."""
+        """Moments of any growth fields with `counts` Gauss points, (growths, *counts)."""
         (x, weights_x), (y, weights_y) = (gauss_legendre(count) for count in counts)
         across = legendre.orthonormal(counts[0], x) * weights_x[:, None]
         along = legendre.orthonormal(counts[1], y) * weights_y[:, None]
