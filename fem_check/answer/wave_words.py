@@ -27,7 +27,7 @@ def wave_words(drive: Drive) -> str:
     """How many waves of what form are on the sheet."""
     wave = drive.series
     if wave is None:
-        return "a wave c(x, y, t)"
+        return str(getattr(drive.wave, "words", "a wave c(x, y, t)"))
     if not wave.moves:
         return "growth that stands still"
     count = abs(wave.count)

@@ -1,9 +1,10 @@
 """What the error of a wave that is not known exactly does to the speed.
 
-A wave with an `uncertainty` (see `linear_theory.wave.uncertain`) offers others that could as well be the
-true one. The speed is found for RESAMPLES of them, all with one coarse resolution, so that differences
-to that of the given wave are free of its error; FACTOR times their root mean square is the error. That
-takes the steps of friction as they are, and counts the bias that noise has where V is of second order.
+A wave with an `uncertainty` (see `linear_theory.wave.uncertain`) offers others that could as well be
+the true one. The speed is found for RESAMPLES of them, all with one coarse resolution, so that
+differences to that of the given wave are free of its error; FACTOR times their root mean square is the
+error. That takes friction as it is, not linearised, and counts the bias of noise, too, in speeds that
+are quadratic in the wave.
 
 A speed of the sheet takes the theory of small strain for the differences, whatever it is found by: what
 counts is how V depends on c, of order alpha. It costs RESAMPLES + 1 balances at a few dozen times.
@@ -25,6 +26,7 @@ from linear_theory.common.tolerance import Tolerance
 from linear_theory.deformation.load_cases import Snapshots
 from linear_theory.deformation.ritz import RitzField, ritz_field
 from linear_theory.motion.rigid import RigidNorm
+from linear_theory.scene.level import THEORY
 from linear_theory.scene.scene import Scene
 from linear_theory.speed.result import CrawlSpeed, Estimate
 from linear_theory.wave.protocol import Wave
@@ -35,8 +37,8 @@ Array = NDArray[np.float64]
 Mean = Callable[[Wave], Array]
 """Mean motion V_x, V_y, Omega (3,) for a wave, by one and the same resolution for all waves."""
 
-RESAMPLES, FACTOR = 8, 4.5
-"""Student's t with 8 degrees of freedom: 99.8 % of the errors are within so many root mean squares."""
+RESAMPLES, FACTOR = 16, 3.5
+"""Student's t with 16 degrees of freedom: 99.7 % of errors are within so many root mean squares."""
 
 LEAST_SHARE = 0.01
 """Of c, by which waves are moved: smaller errors are scaled up, beyond what the resolution hides."""
@@ -95,10 +97,16 @@ def wave_error(uncertainty: Uncertainty, wave: Wave, mean: Mean) -> WaveError:
 def with_wave_error(
     scene: Scene, tolerance: Tolerance, solve: Callable[[Tolerance], CrawlSpeed]
 ) -> CrawlSpeed:
-    """The speed of a rectangular sheet in its plane by `solve`, and what the error of its wave does to it."""
+    """The speed by `solve`, with what the error of the wave does to it.
+
+    That is not known of scenes that are beyond the theories of a flat rectangle: `model` says so.
+    """
     uncertainty = uncertainty_of(scene.wave)
     if uncertainty is None or scene.alpha == 0:
         return solve(tolerance)
+    if THEORY.objections(scene):
+        found = solve(tolerance)
+        return replace(found, model=f"{found.model}, error of the measured wave NOT counted")
     tolerance = tolerance.of_speed(scene.alpha, scene.unit)
     scene.drive.check()
     norm = _norm(scene)

@@ -1,7 +1,7 @@
 """How many harmonics and which degrees samples and their noise allow.
 
 Two bounds hold for each. What the samples can tell at all: a fit must not swing wider between them than
-at them (`largest`). What the noise leaves: the least squares of what a fit to all samples but one is off
+at them (`most`). What the noise leaves: the least squares of what a fit to all samples but one is off
 at that one, over all of them (leave-one-out cross-validation; n fits in one by the leverages h of the
 samples, (r/(1 - h))^2 of the residuals r). Harmonics and degrees are swept in turn until none changes.
 """
@@ -101,7 +101,7 @@ def _between(places: Array) -> Array:
 
 def _tame(at: Array, between: Array) -> int:
     """How many of the first functions make a fit that does not swing between samples."""
-    q, r = np.linalg.qr(at)
+    r = np.linalg.qr(at).R
     safe = abs(np.diag(r)) > 1e-8 * np.sqrt(len(at))
     count = int(np.argmin(safe)) if not safe.all() else safe.size
     fine = np.linalg.solve(r[:count, :count].T, between[:, :count].T)

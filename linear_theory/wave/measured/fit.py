@@ -32,17 +32,18 @@ class Fit(NamedTuple):
 
 def fitted(samples: Samples, basis: Basis) -> Fit:
     """Raises ValueError where the samples do not tell the functions of the basis apart."""
-    both = np.zeros((0, basis.size + 1))
+    both: Array = np.zeros((0, basis.size + 1))
     for start in range(0, samples.size, BLOCK):
         some = samples.take(slice(start, start + BLOCK))
         rows = np.concatenate([basis.columns(some), some.c[:, None]], axis=1)
-        both = np.linalg.qr(np.concatenate([both, rows]), mode="r")
+        both = np.linalg.qr(np.concatenate([both, rows])).R
     factor, right = both[: basis.size, : basis.size], both[: basis.size, basis.size]
     size = abs(np.diag(factor))
     if samples.size <= basis.size or size.min() <= 1e-10 * size.max():
         raise ValueError(
             f"c has {samples.size} samples that do not tell {basis.size} functions apart "
-            f"(harmonics = {basis.harmonics}, degree = {basis.degree[1]}): ask for fewer, or measure more"
+            f"(harmonics = {basis.harmonics}, degree = {basis.degree[1]}): ask for fewer, or measure "
+            "more"
         )
     square = float(np.sum(both[basis.size :, basis.size] ** 2))
     coefficients = solve_triangular(factor, right).reshape(basis.shape)

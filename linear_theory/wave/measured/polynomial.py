@@ -31,6 +31,12 @@ class PolynomialWave(Shown):
         """Units of time."""
         return self.basis.period
 
+    @property
+    def words(self) -> str:
+        """What it is, in a few words."""
+        count = self.basis.harmonics
+        return f"a measured wave of {count} harmonic{'s' if count > 1 else ''} in time"
+
     def value(self, x: ArrayLike, y: ArrayLike, t: ArrayLike, length: float = 1.0) -> Array:
         """c; x, y, t broadcast. The coordinates are those of the sheet: `length` has no effect."""
         return self._sum(x, y, t, self.basis.times(validation.real_array("t", t)))
@@ -56,9 +62,9 @@ class PolynomialWave(Shown):
         for name, size, (low, high), margin in sides:
             if low - margin > -size / 2 or high + margin < size / 2:
                 raise ValueError(
-                    f"wave: was measured for {name} from {low:.6g} to {high:.6g}, but the sheet reaches "
-                    f"from {-size / 2:.6g} to {size / 2:.6g} (its centre is the origin); shift or scale "
-                    f"{name}, or take a sheet that the samples cover"
+                    f"wave: was measured for {name} from {low:.6g} to {high:.6g}, but the sheet "
+                    f"reaches from {-size / 2:.6g} to {size / 2:.6g} (its centre is the origin); shift "
+                    f"or scale {name}, or take a sheet that the samples cover"
                 )
 
     def _sum(self, x: ArrayLike, y: ArrayLike, t: ArrayLike, times: Array) -> Array:

@@ -85,9 +85,7 @@ def netcdf_array(path: str | Path, variable: str) -> Any:
         return data[variable].load()
 
 
-def _there(
-    names: Names, present: Iterable[str], where: str, kind: str = "column"
-) -> dict[str, str]:
+def _there(names: Names, present: Iterable[str], where: str, kind: str = "column") -> dict[str, str]:
     """The names that are present; that of x may be missing. Raises ValueError for others."""
     present = list(present)
     for key, name in names.items():

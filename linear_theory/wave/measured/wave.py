@@ -2,7 +2,6 @@
 
 from collections.abc import Mapping
 from functools import cached_property
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -12,20 +11,18 @@ from linear_theory.common import validation
 from linear_theory.common.shown import Shown
 from linear_theory.identity import content_key
 from linear_theory.sheet.rectangle import Sheet
-from linear_theory.wave.measured import reading
 from linear_theory.wave.measured.basis import Basis
+from linear_theory.wave.measured.checks import check_covered, margin, numbers_asked
 from linear_theory.wave.measured.choice import chosen, most
 from linear_theory.wave.measured.error import FitUncertainty
 from linear_theory.wave.measured.fit import Fit, fitted
 from linear_theory.wave.measured.period import estimated, refined
 from linear_theory.wave.measured.polynomial import PolynomialDrive, PolynomialWave
 from linear_theory.wave.measured.samples import NAMES, Samples
+from linear_theory.wave.measured.sources import Sources
 from linear_theory.wave.places import Places
 
 Array = NDArray[np.float64]
-
-LARGEST_GAP = 0.3
-"""Of a period without a sample."""
 
 EXACT = 1e-12
 """Noise over the size of c that is roundoff."""
@@ -34,7 +31,7 @@ MORE = 1, 1, 2
 """Harmonics and degrees (across, along) that were dropped, but that the error of the wave counts."""
 
 
-class SampledWave(Shown):
+class SampledWave(Sources, Shown):
     """A wave c(y, t), or c(x, y, t), from samples with noise: SampledWave(y, t, c) or (x, y, t, c).
 
     x, y: in the coordinates of the sheet (origin at its centre, units of its length), which they must
@@ -77,7 +74,7 @@ class SampledWave(Shown):
         self._given = {n: np.array(a) for n, a in zip((*names, "c"), samples, strict=True)}
         self._asked = {"period": period, "harmonics": harmonics, "degree": degree}
         data = Samples.of({n: samples[i] for i, n in enumerate(names)}, samples[-1])
-        wanted = _numbers(harmonics, degree, data.x is not None)
+        wanted = numbers_asked(harmonics, degree, data.x is not None)
         first = estimated(data) if period is None else validation.positive("period", period)
         basis = _chosen_basis(data, first, wanted)
         self.period_error = 0.0
@@ -86,7 +83,7 @@ class SampledWave(Shown):
             basis = _chosen_basis(data, first, wanted)
         self._period, self._fit = first, fitted(data, basis)
         self._larger = self._fit_with_more(data)
-        self._margins = tuple(_margin(v) for v in (data.x, data.y))
+        self._margins = tuple(margin(v) for v in (data.x, data.y))
         self._size = float(np.sqrt(np.mean(data.c**2)))
         self._count = data.size
 
@@ -124,11 +121,6 @@ class SampledWave(Shown):
         share = self.residual / self._size if self._size else 0.0
         what = f"rms {self.residual:.3g}, {100 * share:.2g} % of c"
         return f"all above harmonic {self.harmonics} and {degrees}: {what}"
-
-    @property
-    def words(self) -> str:
-        """What it is, in a few words."""
-        return f"a measured wave of {self.harmonics} harmonics, noise {self.noise:.2g}"
 
     def value(self, x: ArrayLike, y: ArrayLike, t: ArrayLike, length: float = 1.0) -> Array:
         """c; x, y, t broadcast. The samples know the sheet: `length` has no effect."""
@@ -189,117 +181,11 @@ class SampledWave(Shown):
     @classmethod
     def from_data(cls, asked: Mapping[str, Any], **data: Any) -> "SampledWave":
         """The wave of what `to_dict` has written."""
-        options = {n: tuple(v) if isinstance(v, list) else v for n, v in asked.items()}
+        options: dict[str, Any] = {n: tuple(v) if isinstance(v, list) else v for n, v in asked.items()}
         return cls(*(data[name] for name in (*NAMES, "c") if name in data), **options)
-
-    @classmethod
-    def from_dataframe(
-        cls, frame: Any, *, x: str = "x", y: str = "y", t: str = "t", c: str = "c", **options: Any
-    ) -> "SampledWave":
-        """From the columns of a pandas.DataFrame, a sample in each row; x counts where there is one.
-
-        x, y, t, c: names of the columns; options: period, harmonics, degree.
-        """
-        return cls(*reading.frame_columns(frame, {"x": x, "y": y, "t": t, "c": c}).values(), **options)
-
-    @classmethod
-    def from_xarray(
-        cls, array: Any, *, x: str = "x", y: str = "y", t: str = "t", **options: Any
-    ) -> "SampledWave":
-        """From an xarray.DataArray of c with dimensions y and t, or x, y and t, and their coordinates.
-
-        x, y, t: names of the dimensions; options: period, harmonics, degree.
-        """
-        coordinates, values = reading.array_parts(array, {"x": x, "y": y, "t": t})
-        return cls(*coordinates.values(), values, **options)
-
-    @classmethod
-    def from_netcdf(
-        cls,
-        path: str | Path,
-        *,
-        x: str = "x",
-        y: str = "y",
-        t: str = "t",
-        c: str = "c",
-        **options: Any,
-    ) -> "SampledWave":
-        """From the variable `c` of a netCDF file; the rest as `from_xarray`. Needs xarray."""
-        return cls.from_xarray(reading.netcdf_array(path, c), x=x, y=y, t=t, **options)
-
-    @classmethod
-    def from_csv(
-        cls,
-        path: str | Path,
-        *,
-        x: str = "x",
-        y: str = "y",
-        t: str = "t",
-        c: str = "c",
-        delimiter: str = ",",
-        **options: Any,
-    ) -> "SampledWave":
-        """From a text file, a sample in each line, whose first line names the columns.
-
-        x, y, t, c: names of the columns; x counts where there is one. options: period, harmonics, degree.
-
-        >>> import numpy as np, tempfile, pathlib
-        >>> from linear_theory import SampledWave
-        >>> rows = [(y, t, np.sin(6.28318 * (y - t))) for y in np.linspace(-0.5, 0.5, 20)
-        ...         for t in np.arange(10) / 10]
-        >>> with tempfile.TemporaryDirectory() as folder:
-        ...     path = pathlib.Path(folder, "wave.csv")
-        ...     np.savetxt(path, rows, delimiter=",", header="y,t,c", comments="")
-        ...     wave = SampledWave.from_csv(path, period=1.0)
-        >>> print(wave.harmonics, wave.value(0.0, 0.25, 0.0).round(3))
-        1 1.0
-        """
-        columns = reading.csv_columns(path, {"x": x, "y": y, "t": t, "c": c}, delimiter)
-        return cls(*columns.values(), **options)
 
 
 def _chosen_basis(data: Samples, period: float, wanted: tuple[int | None, ...]) -> Basis:
-    _check_covered(data, period)
+    check_covered(data, period)
     harmonics, across, along = chosen(data, period, wanted)
     return Basis.over(data, period, harmonics, (across, along))
-
-
-def _numbers(
-    harmonics: int | None, degree: int | tuple[int, int] | None, across: bool
-) -> tuple[int | None, int | None, int | None]:
-    """What is asked for: harmonics, degree across (0 for waves c(y, t)) and along."""
-    if harmonics is not None:
-        harmonics = validation.integer("harmonics", harmonics, 1)
-    if degree is None:
-        return harmonics, None if across else 0, None
-    pair = tuple(degree) if isinstance(degree, tuple | list) else (None if across else 0, degree)
-    if len(pair) != 2:
-        raise ValueError(f"degree = {validation.shown(degree)}: must be one integer or (across, along)")
-    checked = [None if d is None else validation.integer("degree", d, 0) for d in pair]
-    if checked[0] and not across:
-        raise ValueError(f"degree = {degree}: must be one integer for samples without x")
-    return harmonics, checked[0], checked[1]
-
-
-def _check_covered(data: Samples, period: float) -> None:
-    phases = np.unique(np.mod(data.t / period, 1.0))
-    gap = float(np.diff(np.append(phases, phases[0] + 1)).max())
-    if gap > LARGEST_GAP:
-        raise ValueError(
-            f"t: samples leave {100 * gap:.0f} % of a period of {period:g} without any, must be at most "
-            f"{100 * LARGEST_GAP:.0f} %; measure a whole period, or correct `period`"
-        )
-    for name, values in (("x", data.x), ("y", data.y)):
-        if values is not None and np.unique(values).size < 3:
-            raise ValueError(
-                f"{name} has {np.unique(values).size} different values: must have >= 3"
-                + ("; leave x out of a wave c(y, t)" if name == "x" else "; measure at more places")
-            )
-
-
-def _margin(places: Array | None) -> float:
-    """How far beyond its samples c is known: half of the widest gap between neighbours."""
-    if places is None:
-        return 0.0
-    known = np.unique(places)
-    return float((0.5 + 1e-9) * np.diff(known).max())
