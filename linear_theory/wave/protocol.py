@@ -40,7 +40,8 @@ class Wave(Protocol):
 
     A wave that knows more of itself has `on(sheet, places=None)`, too, which returns its `Drive` on a
     body. sheet: the rectangle around the body; places: x and y (n,) of points all over it where it is
-    not the whole rectangle, to look at the wave there.
+    not the whole rectangle, to look at the wave there. One that is not known exactly has `uncertainty`,
+    which the errors of speeds count (see `uncertain`).
     """
 
     @property
