@@ -85,9 +85,9 @@ def crossed_sheets():
 FAULTS = {
     "seam": (
         halves(),
-        r"10 vertices lie on edges .* first 4 and 25 at x = -0.25, y = 0: .* merge them",
+        r"10 vertices lie on edges .* first 4 and 25 at x = -0.25, y = 0: merge these",
     ),
-    "seam in single precision": (halves(shift=3e-8), "merge them"),
+    "seam in single precision": (halves(shift=3e-8), "merge these"),
     "hanging nodes": (halves(across=4), r"9 vertices lie on edges .* not connected"),
     "a hanging node": (
         skfem.MeshTri(

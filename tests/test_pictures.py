@@ -258,7 +258,7 @@ def test_bad_arguments_are_named(theory):
         theory.plot("shape")
     with pytest.raises(ValueError, match=r"what = 'side': the sheet lies in the plane; must be one of"):
         theory.plot("side")
-    with pytest.raises(ValueError, match=r"what = None: must be one of speed, sheet, path where ax"):
+    with pytest.raises(ValueError, match=r"what = None: must be one of speed, sheet, path if ax"):
         theory.plot(ax=axes())
     with pytest.raises((TypeError, ValueError), match=r"^ax"):
         theory.plot("speed", ax=3)

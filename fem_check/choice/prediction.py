@@ -88,7 +88,10 @@ class Prediction(Drawable, Shown):
         return f"Prediction: {speed_in_words(self.mean, self.error, self.converged)}"
 
     def _rows(self) -> Mapping[str, Any]:
-        errors = f"{self.speed.error:.2g} numerical, {number(self.speed.model_error)} model"
+        numerical, wave = self.speed.error - self.speed.wave_error, self.speed.wave_error
+        errors = f"{numerical:.2g} numerical, {number(self.speed.model_error)} model"
+        if wave:
+            errors += f", {wave:.2g} wave"
         answer = {"level": self.level, "reason": self.reason, "error": errors}
         left_out = {"left_out": "; ".join(self.left_out)} if self.left_out else {}
         friction = {"regime": self.speed.regime, "model": self.speed.model}

@@ -34,7 +34,7 @@ class GrowthLaw(Value, ABC):
     """A stretch s(e): Exp, Linear, Metric, or a user-defined class.
 
     name: short name; words: the formula; lowest, highest: open range of e.
-    `check` raises ValueError for a strain beyond this range.
+    Raises ValueError in `check`, for a strain beyond this range.
 
     >>> import numpy as np
     >>> from linear_theory import Exp, GrowthLaw, Linear, Metric

@@ -193,7 +193,8 @@ class SampledDrive(Drive):
 
 def _spread_over(values: ArrayLike, *points: ArrayLike) -> Array:
     """Values broadcast to the common shape of the points."""
-    return np.broadcast_to(np.asarray(values), np.broadcast_shapes(*map(np.shape, points)))
+    values, shape = np.asarray(values), np.broadcast(*points).shape
+    return values if values.shape == shape else np.broadcast_to(values, shape)
 
 
 def _waves(degree: float) -> int:

@@ -34,6 +34,7 @@ from linear_theory.friction.contact import Contact
 from linear_theory.friction.regime import warn_if_viscous
 from linear_theory.scene.scene import Scene
 from linear_theory.speed.result import CrawlSpeed, Estimate, RigidSpeed
+from linear_theory.speed.wave_error import with_wave_error
 from linear_theory.speed.words import model_words
 
 Array = NDArray[np.float64]
@@ -98,7 +99,7 @@ def cycle_speed(
     hint = "make one by Scene(sheet, wave, alpha, effects=...)"
     scene = validation.instance("scene", scene, Scene, hint).resting(load, friction, slip_speed)
     with watched(progress, "cycle_speed"):
-        found = Cycle(scene).speed(Tolerance(rtol, atol))
+        found = with_wave_error(scene, Tolerance(rtol, atol), Cycle(scene).speed)
     warn_if_viscous(scene.contact.friction, found.slip_ratio)
     return found
 

@@ -13,7 +13,7 @@ from fem_check.shell.kinematics.point_state import PointState, dot
 from fem_check.shell.kinematics.rates import Step
 from fem_check.shell.kinematics.region import Entries
 from linear_theory.common import validation
-from linear_theory.common.pairs import outer, product
+from linear_theory.common.pairs import outer, pairs_among, product
 from linear_theory.common.shown import Value
 from linear_theory.friction.law import FrictionLaw
 from linear_theory.friction.laws import Tanh, friction_law
@@ -21,9 +21,6 @@ from linear_theory.scene.scene import Scene
 
 Array = NDArray[np.float64]
 
-
-E_Z = np.array([[0.0], [0.0], [1.0]])
-"""Normal of level ground."""
 
 WEAK = 0.1
 """Largest strain by friction over that by growth at which a shape counts as not affected by friction.
@@ -92,12 +89,16 @@ class Friction(Value, Effect):
 
     def force(self, state: PointState) -> Array:
         """Force of the ground on each point, (components, points)."""
-        return -self._limit(state) * _along(state, self.law.force(self.velocity(state)))
+        velocity, limit = self.velocity(state), self._limit(state)
+        if _is_level(state):  # the law in the plane costs half of that in space
+            return _along(state, -limit * self.law.force(velocity[:2]))
+        return -limit * _along(state, self.law.force(velocity))
 
     def energy(self, state: PointState) -> Array:
         """See Effect. Time step times dissipation potential."""
         scale = self._limit(state) / state.step.moving.rate
-        return np.asarray(scale * self.law.potential(self.velocity(state)))
+        velocity = self.velocity(state)
+        return np.asarray(scale * self.law.potential(velocity[:2] if _is_level(state) else velocity))
 
     def gradient(self, state: PointState) -> Array:
         """See Effect."""
@@ -106,8 +107,10 @@ class Friction(Value, Effect):
     def hessian(self, state: PointState) -> Array:
         """See Effect."""
         scale = self._limit(state) * state.step.moving.rate
-        tangent = self.law.tangent(self.velocity(state))
-        return np.asarray(scale * _tangent_along(state, tangent))[None, None]
+        velocity = self.velocity(state)
+        if _is_level(state):
+            return _spread(scale * self.law.tangent(velocity[:2]))[None, None]
+        return np.asarray(scale * _tangent_along(state, self.law.tangent(velocity)))[None, None]
 
     def _limit(self, state: PointState) -> Array:
         """mu N, (points,)."""
@@ -152,24 +155,33 @@ def _law(slip_speed: float | None, law: FrictionLaw | None) -> FrictionLaw:
     return found
 
 
-def _normal(state: PointState) -> Array | None:
-    """Unit normal of the ground under the points, (3, points or 1); None in the plane."""
-    if state.components == 2:
-        return None
-    return E_Z if state.step.normal is None else state.step.normal
+def _is_level(state: PointState) -> bool:
+    """Whether the sheet is in space on level ground, so that vectors along it lie in the plane."""
+    return state.components == 3 and state.step.normal is None
 
 
 def _along(state: PointState, vector: Array) -> Array:
     """The part along the ground of vectors (components, points)."""
-    normal = _normal(state)
-    return vector if normal is None else np.asarray(vector - normal * dot(normal, vector))
+    if state.components == 2:
+        return vector
+    if state.step.normal is None:
+        return np.stack([vector[0], vector[1], np.zeros_like(vector[0])])
+    normal = state.step.normal
+    return np.asarray(vector - normal * dot(normal, vector))
 
 
 def _tangent_along(state: PointState, tangent: Array) -> Array:
     """P K P of symmetric tensors K (pairs, points), P = 1 - n n along the ground."""
-    normal = _normal(state)
+    normal = state.step.normal
     if normal is None:
         return tangent
     across = product(tangent, normal)
     both = outer(normal, across) + outer(across, normal)
     return np.asarray(tangent - both + dot(normal, across) * outer(normal, normal))
+
+
+def _spread(tangent: Array) -> Array:
+    """Tensors of the plane, (3, points), as those of space, (6, points)."""
+    out = np.zeros((6, *tangent.shape[1:]))
+    out[pairs_among(3, slice(0, 2))] = tangent
+    return out
