@@ -166,7 +166,7 @@ CASES: dict[str, tuple[str, Callable[[], object]]] = {
         lambda: Potential(PLATE, (Friction(0.7, 1.0), Ground(1.0)), REST),
     ),
     "static inertia": (
-        "step: Inertia needs",
+        "step: must have an acceleration for Inertia",
         lambda: Potential(PLATE, (Inertia(1.0, PAPER),), REST, STILL),
     ),
     "current area in statics": (
