@@ -181,7 +181,7 @@ class SampledWave(Sources, Shown):
     @classmethod
     def from_data(cls, asked: Sequence[Any], **data: Any) -> "SampledWave":
         """The wave of what `to_dict` has written; asked: period, harmonics and degree."""
-        period, harmonics, degree = (tuple(v) if isinstance(v, list) else v for v in asked)
+        period, harmonics, degree = asked
         samples = [data[name] for name in (*NAMES, "c") if name in data]
         return cls(*samples, period=period, harmonics=harmonics, degree=degree)
 
