@@ -225,7 +225,7 @@ def test_a_turning_sheet_feels_the_moment_of_its_weight_on_a_slope() -> None:
 
 
 def test_too_steep_is_refused_and_creep_is_not_rest() -> None:
-    with pytest.raises(ValueError, match=r"incline = 0.6: the sheet slides down .* within \+-0.4636 "):
+    with pytest.raises(ValueError, match=r"incline = 0.6: friction cannot hold .* within \+-0.4636 "):
         cycle_speed(sloping(0.6, mu=0.5))
     with pytest.warns(ViscousRegimeWarning):  # at speeds below its slip speed
         still = cycle_speed(sloping(0.2, alpha=0.0))

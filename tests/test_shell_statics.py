@@ -122,7 +122,7 @@ def test_a_failure_keeps_the_last_state_and_its_parameter() -> None:
         return Potential(d, koiter(PAPER), rest, loads=(Load(tip, DeadLoad((0.0, 0.0, 1e-7 * s))),))
 
     with pytest.raises(
-        ConvergenceError, match=r"stuck at 0\.\d+ of the ramp: no equilibrium"
+        ConvergenceError, match=r"continuation failed at load factor 0\.\d+: no equilibrium"
     ) as failure:
         ramp(minimiser, problem, d.zeros(), first=0.5)
     assert 0.59 < failure.value.parameter <= 0.6

@@ -169,5 +169,5 @@ def _in_lengths(scene: Scene, piece: Piece, tolerance: Tolerance) -> LineMotion:
 def _words(scene: Scene, body: str) -> str:
     shape = {"line": "body on a line", "strip": "narrow strip that grows both ways"}[body]
     stretch = f"stretch {scene.growth.law.words}"
-    remarks = stretch, "quasi-static", "shape not affected by friction"
+    remarks = stretch, "quasi-static", "shape not deformed by friction"
     return model_words(shape, None, scene.contact, *remarks)
