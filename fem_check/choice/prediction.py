@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 from fem_check.answer.block import block
 from fem_check.choice.levels import LEVELS, TARGET_EFFECTS, distance
-from fem_check.shell.abilities import left_out, require
+from fem_check.shell.abilities import left_out
 from linear_theory.common import validation
 from linear_theory.common.drawable import Drawable
 from linear_theory.common.errors import (
@@ -152,7 +152,7 @@ def predict(
     scene = Scene.stated(
         sheet, wave, alpha, load, friction, slip_speed, growth_law=growth_law, area=area
     )
-    require(THEORY, scene)
+    THEORY.require(scene)
     tolerance = Tolerance(rtol, atol).of_speed(scene.alpha, scene.unit)
     validation.choice("method", method, METHODS)
     with watched(progress, "predict"):
