@@ -35,6 +35,7 @@ from linear_theory import (
     Sheet,
     SineWave,
     Tanh,
+    Tolerance,
     TravellingWave,
     Viscous,
     crawl_speed,
@@ -328,3 +329,21 @@ def test_viscous_friction_holds_on_any_slope(tangent) -> None:
     assert abs(growing.mean - stepped.mean) <= growing.error + stepped.error
     with pytest.raises(ValueError, match=r"slope = 1.5: friction cannot hold the sheet"):
         cycle_speed(Scene(Sheet(), SineWave(), 0.1, contact=Contact(slope=1.5)))
+
+
+@pytest.mark.parametrize(
+    ("make", "words"),
+    [
+        (lambda: Tanh(1e300), r"slip_speed = 1e\+300: must be from 1e-100 to 1e\+100"),
+        (lambda: Viscous(5e-324), r"speed = 4.94066e-324: must be from 1e-100"),
+        (lambda: Growth(0.1, law="a"), r"law = 'a': must be one of 'exp', 'linear', 'metric'"),
+        (lambda: Growth(0.1, energy_area="a"), r"energy_area = 'a': must be one of 'grown'"),
+        (lambda: Contact("a"), r"load = 'a': must be one of 'current', 'grown'"),
+        (lambda: Gravity(1.0, "grown", area="grown"), r"area = 'grown': must be None if load is given"),
+        (lambda: predict(Sheet(), SineWave(), 800.0), r"alpha = 800: alpha c = 800 stretches by more"),
+        (lambda: Tolerance(1e-3).of_speed(0.1, -1.0), r"unit = -1: must be"),
+    ],
+)
+def test_values_out_of_range_are_named(make, words) -> None:
+    with pytest.raises(ValueError, match=words):
+        make()

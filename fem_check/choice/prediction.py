@@ -23,7 +23,7 @@ from linear_theory.common.threads import one_blas_thread
 from linear_theory.common.tolerance import Tolerance
 from linear_theory.friction.law import FrictionLaw
 from linear_theory.friction.load import Load
-from linear_theory.friction.regime import warn_if_viscous
+from linear_theory.friction.regime import Regime, warn_if_viscous
 from linear_theory.growth.growth import Reference
 from linear_theory.growth.laws import GrowthLaw
 from linear_theory.scene.level import THEORY
@@ -80,6 +80,16 @@ class Prediction(Drawable, Shown):
     def error(self) -> float:
         """Numerical plus model error, absolute."""
         return total_error(self.speed)
+
+    @property
+    def model_error(self) -> float:
+        """Distance of the level to the target, absolute."""
+        return self.speed.model_error
+
+    @property
+    def regime(self) -> Regime:
+        """See `CrawlSpeed.regime`."""
+        return self.speed.regime
 
     def __str__(self) -> str:
         return block(self)
