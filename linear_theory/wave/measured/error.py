@@ -1,7 +1,9 @@
 """How far the wave of a fit may be from the true one, as waves that fit the samples as well."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,6 +33,10 @@ class FitUncertainty(Shown):
     count: int
     size: float
     period_error: float
+
+    def _rows(self) -> Mapping[str, Any]:
+        functions = {"basis": self.wave.basis, "larger": self.larger.basis}
+        return {"share": self.share, "noise": self.noise, "samples": self.count, **functions}
 
     @property
     def share(self) -> float:

@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import solve_triangular
 
+from linear_theory.common.shown import Shown
 from linear_theory.wave.measured.basis import Basis
 from linear_theory.wave.measured.samples import Samples
 
@@ -16,18 +17,20 @@ BLOCK = 4096
 """Samples taken together."""
 
 
-class Fit(NamedTuple):
-    """coefficients (*basis.shape); residual: root mean square over the samples.
-
-    noise: standard deviation of one sample, from the residual. factor: R (size, size), the coefficients
-    having the covariance noise^2 (R^T R)^-1 where the errors of the samples are independent.
-    """
-
+class _Fit(NamedTuple):
     basis: Basis
     coefficients: Array
     residual: float
     noise: float
     factor: Array
+
+
+class Fit(Shown, _Fit):
+    """coefficients (*basis.shape); residual: root mean square over the samples.
+
+    noise: standard deviation of one sample, from the residual. factor: R (size, size), the coefficients
+    having the covariance noise^2 (R^T R)^-1 where the errors of the samples are independent.
+    """
 
 
 def fitted(samples: Samples, basis: Basis) -> Fit:
