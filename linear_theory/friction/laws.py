@@ -14,15 +14,7 @@ from linear_theory.friction.law import FrictionLaw
 Array = NDArray[np.float64]
 
 EXTREME = 1e100
-"""Bound of speed scales and of their inverses, so that tangents and their squares can be computed."""
-
-
-def _scale(name: str, value: float) -> float:
-    """A speed scale within EXTREME."""
-    speed = validation.positive(name, value)
-    if not 1 / EXTREME <= speed <= EXTREME:
-        raise ValueError(f"{name} = {speed:g}: must be from {1 / EXTREME:g} to {EXTREME:g}")
-    return speed
+"""Bound of the speed of viscous friction and of its inverse, so that squares of forces are numbers."""
 
 
 @dataclass(frozen=True)
@@ -64,7 +56,7 @@ class Coulomb(Isotropic):
 class Tanh(Isotropic):
     """Regularised dry friction, f = tanh(r/slip_speed) (eq. 3).
 
-    slip_speed: length per time, from 1e-100 to 1e100, else ValueError. Small against the speeds it is
+    slip_speed: length per time, > 0, else ValueError. Small against the speeds it is
     dry friction, large against them viscous.
     """
 
@@ -72,7 +64,7 @@ class Tanh(Isotropic):
     name: ClassVar[str] = "tanh"
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "slip_speed", _scale("slip_speed", self.slip_speed))
+        object.__setattr__(self, "slip_speed", validation.positive("slip_speed", self.slip_speed))
 
     @property
     def width(self) -> float:
@@ -144,7 +136,10 @@ class Viscous(Isotropic):
     width: ClassVar[float] = math.inf
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "speed", _scale("speed", self.speed))
+        speed = validation.positive("speed", self.speed)
+        if not 1 / EXTREME <= speed <= EXTREME:
+            raise ValueError(f"speed = {speed:g}: must be from {1 / EXTREME:g} to {EXTREME:g}")
+        object.__setattr__(self, "speed", speed)
 
     def speed_at(self, share: float) -> float:
         """See FrictionLaw."""

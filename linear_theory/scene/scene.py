@@ -19,7 +19,8 @@ from linear_theory.common.shown import Shown, in_words
 from linear_theory.friction.contact import Contact
 from linear_theory.friction.laws import friction_law
 from linear_theory.friction.load import Load
-from linear_theory.growth.growth import Growth
+from linear_theory.growth.growth import Growth, Reference
+from linear_theory.growth.laws import growth_law
 from linear_theory.identity import content_key
 from linear_theory.scene.effects import checked_effects, contact_of, in_order
 from linear_theory.sheet.rectangle import Sheet
@@ -353,6 +354,11 @@ def _grown(growth: Growth | None, said: dict[str, Any]) -> Growth:
         return growth
     if "alpha" not in changes:
         raise ValueError("alpha = None: must be given, or growth = Growth(alpha, ...)")
+    names = {part: name for name, part in GROWTH.items()}
+    if "law" in changes:
+        changes["law"] = growth_law(changes["law"], names["law"])
+    if "energy_area" in changes:
+        changes["energy_area"] = Reference.named(names["energy_area"], changes["energy_area"])
     return Growth(**changes)
 
 
