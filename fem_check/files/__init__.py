@@ -1,0 +1,1 @@
+"""Scene files: scenes as text in TOML, with units."""
