@@ -47,7 +47,7 @@ class Quantity:
     kind: str
     text: str
     number: float
-    unit: "pint.Unit | None"
+    unit: Any  # a pint.Unit, named for type checkers only where pint is not yet loaded
 
     @property
     def has_dimension(self) -> bool:

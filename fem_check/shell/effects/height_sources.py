@@ -1,8 +1,8 @@
-"""Three ways to know the height of the ground with its derivatives: differences, given, symbolic."""
+"""Ways to know the height of the ground with its derivatives: differences, given, symbolic."""
 
 import sys
 from collections.abc import Callable
-from typing import Any, Protocol
+from typing import Any, Protocol, runtime_checkable
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,8 +19,9 @@ _PROBES = 7
 """Points for which a function is called to see what it returns: neither one, nor as many as ENTRIES."""
 
 
+@runtime_checkable
 class Source(Protocol):
-    """A height; x, y and its values are (points,)."""
+    """A height; x, y and its values are (points,). An object that is one is used as it is."""
 
     def values(self, x: Array, y: Array) -> Array:
         """f, (points,)."""
@@ -109,6 +110,8 @@ def is_expression(value: object) -> bool:
 
 def source(function: Function, step: float | None) -> Source:
     """Of a function, by what it returns at the origin. Raises ValueError where that is neither."""
+    if isinstance(function, Source):
+        return function
     origin = np.zeros(_PROBES)
     try:
         with np.errstate(all="ignore"):

@@ -1,0 +1,122 @@
+"""What is wrong in a scene file: every mistake with its place, all of them at once."""
+
+import difflib
+import re
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from linear_theory.common import validation
+from linear_theory.common.errors import SheetcrawlError
+
+if TYPE_CHECKING:
+    from pydantic import ValidationError
+
+Place = tuple[str | int, ...]
+"""Names of tables and keys, and places in lists."""
+
+HEADER = re.compile(r"\s*\[\[?\s*([^\]#]+?)\s*\]")
+KEY = re.compile(r"\s*([\w.\"'-]+)\s*=")
+
+
+class SceneFileError(SheetcrawlError, ValueError):
+    """A scene file from which no scene can be made; its text has a line for each of `mistakes`."""
+
+    def __init__(self, mistakes: Iterable[str]) -> None:
+        self.mistakes = tuple(mistakes)
+        super().__init__("\n".join(self.mistakes))
+
+
+class Mistakes:
+    """Collects them while a file is read."""
+
+    def __init__(self) -> None:
+        self._found: list[tuple[Place, str]] = []
+
+    def __bool__(self) -> bool:
+        return bool(self._found)
+
+    def add(self, place: Place, words: str) -> None:
+        """A mistake at a place; words: what follows the name of the table."""
+        self._found.append((place, words))
+
+    @contextmanager
+    def under(self, table: str, *key: str | int) -> Iterator[None]:
+        """Keep a ValueError of what is made of a table, which names its argument."""
+        try:
+            yield
+        except ValueError as problem:
+            self.add((table, *key), " ".join(str(problem).split()))
+
+    def add_refused(self, table: str, problem: "ValidationError", keys: Iterable[str]) -> None:
+        """All that a table was refused for; keys: those that it may have."""
+        for error in problem.errors(include_url=False):
+            place: Place = (table, *error["loc"])
+            self.add(place, f"{_key(place)}{_words(error, keys)}")
+
+    def error(self, path: Path, text: str) -> SceneFileError:
+        """All mistakes of a file with that text, in its order."""
+        lines = [(line_of(text, place), place, words) for place, words in self._found]
+        lines.sort(key=lambda found: found[0])
+        return SceneFileError(
+            f"{path}{f':{number}' if number else ''}: {_table(place)}{words}"
+            for number, place, words in lines
+        )
+
+
+def nearest(name: str, known: Iterable[str]) -> str:
+    """A hint at what may have been meant."""
+    known = tuple(known)
+    close = difflib.get_close_matches(name, known, n=1, cutoff=0.5)
+    return f"did you mean {close[0]!r}?" if close else f"must be one of {', '.join(known) or 'none'}"
+
+
+def line_of(text: str, place: Place) -> int:
+    """The line of a key, of the key or table that it is in, counted from 1; 0 where it is not found."""
+    names = [part for part in place if isinstance(part, str)]
+    best, found, table = 0, 0, ""
+    for number, line in enumerate(text.splitlines(), start=1):
+        header, key = HEADER.match(line), KEY.match(line)
+        if header:
+            table, key = header[1].replace('"', ""), None
+        elif not key:
+            continue
+        said = ".".join(filter(None, [table, key[1].strip("\"'") if key else ""])).split(".")
+        depth = len(said)
+        if said == names[:depth] and depth > best:
+            best, found = depth, number
+    return found
+
+
+def _table(place: Place) -> str:
+    """The name of the table as the file has it."""
+    names = [part for part in place if isinstance(part, str)]
+    table = names if len(place) == 1 else _split(place)[0]
+    return f"[{'.'.join(map(str, table))}] " if table else ""
+
+
+def _split(place: Place) -> tuple[Place, Place]:
+    """The tables and the key with what is in it."""
+    count = next((i for i, part in enumerate(place) if not isinstance(part, str)), len(place))
+    return place[: count - 1], place[count - 1 :]
+
+
+def _key(place: Place) -> str:
+    first, *rest = _split(place)[1]
+    return str(first) + "".join(f"[{part}]" if isinstance(part, int) else f".{part}" for part in rest)
+
+
+def _words(error: Any, keys: Iterable[str]) -> str:
+    """What is wrong with the value of a key, and the value."""
+    kind, given = error["type"], validation.shown(error["input"])
+    if kind == "extra_forbidden":
+        return f": is not a key; {nearest(str(error['loc'][-1]), keys)}"
+    if kind == "missing":
+        return ": must be given"
+    if kind == "model_type":
+        return f" = {given}: must be a table"
+    if kind == "value_error":
+        return f" = {given}: {error['ctx']['error']}"
+    words = re.sub(r"^\w+ should (be|have)", r"must \1", error["msg"])
+    return f" = {given}: {words.replace(' after validation', '').replace('greater than 0', '> 0')}"
