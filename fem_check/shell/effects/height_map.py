@@ -3,7 +3,7 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -46,6 +46,8 @@ class HeightMap(Shown):
     width: float
     length: float
     smoothing: float = 0.0
+    exact: ClassVar[bool] = True
+    """Whether its derivatives need not be checked: they are those of its polynomials."""
 
     def __post_init__(self) -> None:
         heights = np.array(validation.real_array("heights", self.heights))
@@ -90,10 +92,10 @@ class HeightMap(Shown):
         return self._rows_of(x, y, ORDERS[1:3])
 
     def _rows_of(self, x: Array, y: Array, orders: Sequence[tuple[int, int]]) -> Array:
-        """Derivatives by x and y of those orders, (orders, points); 0 across a border that was passed."""
+        """Derivatives by x and y of those orders, (orders, points); 0 across a border once passed."""
         rows = np.stack([self._spline.ev(y, x, dx=by_y, dy=by_x) for by_x, by_y in orders])
         for v, size, axis in ((x, self.width, 0), (y, self.length, 1)):
-            across = [order[axis] > 0 for order in orders]
+            across = np.array([order[axis] > 0 for order in orders])
             rows[np.ix_(across, np.abs(v) > size / 2)] = 0.0
         return rows
 

@@ -108,7 +108,7 @@ def is_expression(value: object) -> bool:
     return sympy is not None and isinstance(value, sympy.Basic)
 
 
-def source(function: Function, step: float | None) -> Source:
+def source(function: Any, step: float | None) -> Source:
     """Of a function, by what it returns at the origin. Raises ValueError where that is neither."""
     if isinstance(function, Source):
         return function
