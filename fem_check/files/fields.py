@@ -1,8 +1,8 @@
 """Types of the entries of a scene file: how they are checked, one by one, and told to editors."""
 
 import math
-from collections.abc import Callable
-from typing import Annotated, Any
+from collections.abc import Callable, Iterable, Iterator
+from typing import Annotated, Any, get_args
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, PlainValidator, WithJsonSchema
 
@@ -16,6 +16,21 @@ class Table(BaseModel):
     model_config = ConfigDict(
         extra="forbid", strict=True, frozen=True, use_attribute_docstrings=True, allow_inf_nan=False
     )
+
+
+def keys_at(kind: type[Table], place: Iterable[str | int]) -> tuple[str, ...]:
+    """Keys of a table, or of the one that stands at a place in it."""
+    for name in place:
+        if isinstance(name, str):
+            kind = next(_tables_in(kind.model_fields[name].annotation), kind)  # lists have no keys
+    return tuple(kind.model_fields)
+
+
+def _tables_in(annotation: Any) -> Iterator[type[Table]]:
+    if isinstance(annotation, type) and issubclass(annotation, Table):
+        yield annotation
+    for part in get_args(annotation):
+        yield from _tables_in(part)
 
 
 def _quantity(kind: str, positive: bool = False) -> Any:

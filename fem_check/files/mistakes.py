@@ -2,11 +2,12 @@
 
 import difflib
 import re
-from collections.abc import Iterable, Iterator
-from contextlib import contextmanager
+from collections.abc import Iterable
 from pathlib import Path
+from types import TracebackType
 from typing import TYPE_CHECKING, Any
 
+from fem_check.files.fields import Table, keys_at
 from linear_theory.common import validation
 from linear_theory.common.errors import SheetcrawlError
 
@@ -41,19 +42,15 @@ class Mistakes:
         """A mistake at a place; words: what follows the name of the table."""
         self._found.append((place, words))
 
-    @contextmanager
-    def under(self, table: str, *key: str | int) -> Iterator[None]:
+    def under(self, *place: str | int) -> "Under":
         """Keep a ValueError of what is made of a table, which names its argument."""
-        try:
-            yield
-        except ValueError as problem:
-            self.add((table, *key), " ".join(str(problem).split()))
+        return Under(self, place)
 
-    def add_refused(self, table: str, problem: "ValidationError", keys: Iterable[str]) -> None:
-        """All that a table was refused for; keys: those that it may have."""
+    def add_refused(self, table: str, problem: "ValidationError", kind: "type[Table]") -> None:
+        """All that a table of that kind was refused for."""
         for error in problem.errors(include_url=False):
             place: Place = (table, *error["loc"])
-            self.add(place, f"{_key(place)}{_words(error, keys)}")
+            self.add(place, f"{_key(place)}{_words(error, keys_at(kind, error['loc'][:-1]))}")
 
     def error(self, path: Path, text: str) -> SceneFileError:
         """All mistakes of a file with that text, in its order."""
@@ -63,6 +60,27 @@ class Mistakes:
             f"{path}{f':{number}' if number else ''}: {_table(place)}{words}"
             for number, place, words in lines
         )
+
+
+class Under:
+    """While a table is worked on: a ValueError becomes a mistake of it, and the work goes on."""
+
+    def __init__(self, mistakes: Mistakes, place: Place) -> None:
+        self._mistakes, self._place = mistakes, place
+
+    def __enter__(self) -> None:
+        pass
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> bool:
+        if not isinstance(error, ValueError):
+            return False
+        self._mistakes.add(self._place, " ".join(str(error).split()))
+        return True
 
 
 def nearest(name: str, known: Iterable[str]) -> str:

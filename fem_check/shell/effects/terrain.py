@@ -50,8 +50,9 @@ class Terrain(Value):
 
     height: a function of arrays x, y (points,) that returns z, an array of their shape or one number;
     or one that returns the rows f, f_x, f_y, f_xx, f_yy, f_xy, (6, points); or a sympy expression in
-    symbols named x and y; or a `HeightMap`. Derivatives of a function are differences with a step of STEP lengths of the
-    sheet, those of an expression are exact; those that are given are compared with differences.
+    symbols named x and y; or a `HeightMap`. Derivatives of a function are differences with a step of
+    STEP lengths of the sheet, those of an expression and of a map are exact; those that are given are
+    compared with differences.
     name: what a function is known by in a snapshot where its code does not tell, as in `FieldWave`.
     length: of the sheet, for the differences; a Scene knows it.
 

@@ -1,0 +1,103 @@
+"""The wave and the growth of a scene file."""
+
+import importlib.util
+from collections.abc import Callable
+from importlib import import_module
+from pathlib import Path
+
+import numpy as np
+
+from fem_check.answer.growth import alpha_of
+from fem_check.files.system import System
+from fem_check.files.tables import GrowthTable, WaveTable
+from linear_theory.growth.bilayer import bilayer
+from linear_theory.growth.growth import Growth, Reference
+from linear_theory.growth.laws import growth_law
+from linear_theory.sheet.rectangle import Sheet
+from linear_theory.wave.protocol import Wave
+from linear_theory.wave.pulse import pulse_wave
+from linear_theory.wave.travelling import SineWave, TravellingWave
+
+MEASURED = "linear_theory.wave.sampled_wave"
+"""The module whose function read(path, period=...) makes a wave of a table of samples, where it exists.
+period: in units of the file, None where the table itself is to say it."""
+
+ONLY = {"width": "pulse", "cosine": "harmonics", "sine": "harmonics", "mean": "harmonics"}
+"""Keys of a wave that only one kind has."""
+
+WAYS = ("alpha", "swelling", "bilayer")
+"""To say how much c grows the sheet."""
+
+
+def wave_of(table: WaveTable, system: System, folder: Path) -> Wave:
+    """The wave. Raises ValueError for keys that do not go together."""
+    if table.csv is not None:
+        return _measured(table, system, folder)
+    kind = table.kind or "sine"
+    for name, owner in ONLY.items():
+        if name in table.model_fields_set and kind != owner:
+            raise ValueError(f"{name}: must be left out, only a wave of kind = {owner!r} has it")
+    period = system.number(table.period, 1.0)
+    if kind == "sine":
+        return SineWave(table.count, period)
+    if kind == "pulse":
+        if table.width is None:
+            raise ValueError("width: must be given for a pulse, such as '20 %' of a wavelength")
+        return pulse_wave(system.number(table.width), table.count, period)
+    cosine, sine = table.cosine or [], table.sine or []
+    size = max(len(cosine), len(sine))
+    even, odd = (np.pad(np.array(part, float), (0, size - len(part))) for part in (cosine, sine))
+    return TravellingWave(even, odd, table.count, period, table.mean)
+
+
+def _measured(table: WaveTable, system: System, folder: Path) -> Wave:
+    """A wave from a table of samples, by the module that reads them."""
+    others = sorted(table.model_fields_set - {"csv", "period"})
+    if others:
+        raise ValueError(f"csv = {table.csv!r}: must be without {', '.join(others)}")
+    if importlib.util.find_spec(MEASURED) is None:
+        raise ValueError(
+            f"csv = {table.csv!r}: this version reads no measured waves; give the wave by its harmonics"
+        )
+    period = None if table.period is None else system.number(table.period)
+    read: Callable[..., Wave] = import_module(MEASURED).read
+    return read(folder / str(table.csv), period=period)
+
+
+def growth_of(table: GrowthTable, system: System, sheet: Sheet, wave: Wave) -> Growth:
+    """How c grows the sheet. Raises ValueError unless it is said in one of the WAYS."""
+    said = [name for name in WAYS if getattr(table, name) is not None]
+    if len(said) != 1:
+        given = " and ".join(said) or "none"
+        raise ValueError(f"{given}: one of {', '.join(WAYS)} must be given, and no other")
+    alpha, coupling = table.alpha or 0.0, system.number(table.curvature_coupling)
+    if table.swelling is not None:
+        alpha = alpha_of(_swelling(table, system), wave, sheet, table.law)
+    if table.bilayer is not None:
+        if table.curvature_coupling is not None:
+            raise ValueError("curvature_coupling: must be left out, it follows from the two layers")
+        alpha, coupling = _two_layers(table, system, sheet)
+    curvature, area = Reference(table.curvature), Reference(table.area)
+    return Growth(alpha, growth_law(table.law), coupling, curvature, area)
+
+
+def _swelling(table: GrowthTable, system: System) -> float:
+    """As a share; a plain number of 1 or more was surely meant in per cent."""
+    assert table.swelling is not None
+    share = system.number(table.swelling)
+    if table.swelling.unit is None and share >= 1:
+        raise ValueError(
+            f"swelling = {share:g}: a plain number is a share, this one {share:g} times the length; "
+            f"must be < 1, or in per cent, as in '{share:g} %'"
+        )
+    return share
+
+
+def _two_layers(table: GrowthTable, system: System, sheet: Sheet) -> tuple[float, float]:
+    """alpha and curvature coupling."""
+    layers = table.bilayer
+    assert layers is not None
+    found = bilayer(
+        system.number(layers.growth), sheet.thickness, layers.thickness_ratio, layers.modulus_ratio
+    )
+    return found.alpha, found.curvature if layers.side == "upper" else -found.curvature
