@@ -36,6 +36,8 @@ STANDARD_GRAVITY = "9.80665 m/s^2"
 LAWS = {Coulomb.name: "dry", Tanh.name: "tanh", Viscous.name: "viscous"}
 """What a file calls the laws of friction."""
 
+TANH = LAWS[Tanh.name]
+
 
 class Effects:
     """Makes effects of their tables."""
@@ -63,9 +65,9 @@ class Effects:
         return makers[name](table)
 
     def _friction(self, table: FrictionTable) -> Friction:
-        if table.law not in (None, "tanh"):
+        if table.law not in (None, TANH):
             raise ValueError(
-                f"law = {table.law!r}: must be 'tanh' where a coefficient is given, or the coefficient "
+                f"law = {table.law!r}: must be {TANH!r} where a coefficient is given, or that "
                 "left out for a sheet that is stiff against its friction"
             )
         for name in ("load", "slope"):
@@ -145,10 +147,10 @@ def with_contact(scene: Scene, table: FrictionTable | None, system: System) -> S
 
 
 def _law(table: FrictionTable, system: System) -> FrictionLaw:
-    name = table.law or ("dry" if table.slip_speed is None else "tanh")
-    if (table.slip_speed is None) == (name == LAWS[Tanh.name]):
+    name = table.law or (LAWS[Coulomb.name] if table.slip_speed is None else TANH)
+    if (table.slip_speed is None) == (name == TANH):
         must = "given for" if table.slip_speed is None else "left out but for"
-        raise ValueError(f"slip_speed: must be {must} law = 'tanh'")
+        raise ValueError(f"slip_speed: must be {must} law = {TANH!r}")
     if table.slip_speed is not None:
         return Tanh(system.number(table.slip_speed))
     return Coulomb() if name == LAWS[Coulomb.name] else Viscous()
