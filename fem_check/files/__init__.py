@@ -1,8 +1,8 @@
 """Scene files: scenes as text in TOML, with units, to be edited by people and read by programs.
 
-fields, tables, bodies   what can be said, by table and key    quantities, system   units
-reading, mistakes        from text to tables                   build ...            to a Scene
-writing, toml            from a Scene to text                  gallery              examples
+fields, tables, bodies   what can be said, by table and key     quantities, system   units
+reading, mistakes        from text to tables                    parts/               to a Scene
+writing, toml            from a Scene to text                   gallery              examples
 """
 
 import lazy_loader

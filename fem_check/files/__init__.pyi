@@ -1,7 +1,7 @@
 """What `fem_check.files` offers: read by `lazy_loader` as it runs, and by type checkers."""
 
-from .build import RunSettings, SceneFile
 from .mistakes import SceneFileError
+from .parts.scene_file import RunSettings, SceneFile
 from .reading import read
 from .writing import write
 

@@ -8,9 +8,9 @@ from typing import Any
 
 from pydantic import ValidationError
 
-from fem_check.files.build import SceneFile, built
 from fem_check.files.fields import Table
 from fem_check.files.mistakes import Mistakes, SceneFileError, nearest
+from fem_check.files.parts.scene_file import SceneFile, built
 from fem_check.files.tables import ALWAYS, REQUIRED, TABLES
 
 PLACE = re.compile(r"(.*?) \(at (?:line (\d+), column (\d+)|(end of document))\)")

@@ -6,13 +6,13 @@ from pathlib import Path
 from typing import Any
 
 from fem_check.answer.units import Units
-from fem_check.files.effects import effects_of, with_contact
 from fem_check.files.fields import Table
 from fem_check.files.mistakes import Mistakes
-from fem_check.files.outlines import mesh_of, sheet_of
+from fem_check.files.parts.effects import effects_of, with_contact
+from fem_check.files.parts.outlines import mesh_of, sheet_of
+from fem_check.files.parts.waves import growth_of, wave_of
 from fem_check.files.system import System, system_of
 from fem_check.files.tables import RunTable
-from fem_check.files.waves import growth_of, wave_of
 from fem_check.mesh.elements import from_data
 from linear_theory.common import validation
 from linear_theory.common.shown import Shown, Value

@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import Any
 
 from fem_check.files.mistakes import Mistakes
+from fem_check.files.parts.terrains import terrain_of
 from fem_check.files.quantities import registry
 from fem_check.files.system import System
 from fem_check.files.tables import (
@@ -14,7 +15,6 @@ from fem_check.files.tables import (
     GroundTable,
     InertiaTable,
 )
-from fem_check.files.terrains import terrain_of
 from fem_check.shell.effects.friction import Friction
 from fem_check.shell.effects.gravity import Gravity
 from fem_check.shell.effects.ground import Ground

@@ -31,7 +31,7 @@ OPERATIONS: dict[type, Callable[[Any, Any], Any]] = {
 def parsed(text: str) -> Any:
     """The sympy expression of a formula in x and y. Raises ValueError for anything but KNOWN.
 
-    >>> from fem_check.files.expression import parsed
+    >>> from fem_check.files.parts.expression import parsed
     >>> print(parsed("0.5*cos(2*pi*y/10) + x**2"))
     x**2 + 0.5*cos(pi*y/5)
     """
