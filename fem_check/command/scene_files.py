@@ -80,7 +80,7 @@ def _said(found: "SceneFile") -> dict[str, str]:
     try:
         way = way_of(found.scene, run.level)
     except ValueError as problem:
-        raise SceneFileError([f"{found.path}: {problem}"]) from None
+        raise SceneFileError(f"{found.path}: {problem}") from None
     seconds = expected_seconds(found.scene, way, run.rtol, run.periods, run.steps)
     accuracy = f"{run.steps} steps a period" if run.steps else f"to {100 * (run.rtol or 0):g} %"
     periods = f", {run.periods} periods after a ramp" if way == "stepped" else ""

@@ -48,7 +48,7 @@ def _check(found: SceneFile, options: Options) -> None:
     try:
         way = way_of(found.scene, found.run.level)
     except ValueError as problem:
-        raise SceneFileError([f"{found.path}: {problem}"]) from None
+        raise SceneFileError(f"{found.path}: {problem}") from None
     for name in ("plot", "movie"):
         if way == "stepped" and getattr(options, name) is not None:
             raise ValueError(

@@ -22,11 +22,12 @@ KEY = re.compile(r"\s*([\w.\"'-]+)\s*=")
 
 
 class SceneFileError(SheetcrawlError, ValueError):
-    """A scene file from which no scene can be made; its text has a line for each of `mistakes`."""
+    """A scene file from which no scene can be made; its message has a line for each mistake."""
 
-    def __init__(self, mistakes: Iterable[str]) -> None:
-        self.mistakes = tuple(mistakes)
-        super().__init__("\n".join(self.mistakes))
+    @property
+    def mistakes(self) -> tuple[str, ...]:
+        """Each with its place in the file."""
+        return tuple(str(self).splitlines())
 
 
 class Mistakes:
@@ -56,10 +57,11 @@ class Mistakes:
         """All mistakes of a file with that text, in its order."""
         lines = [(line_of(text, place), place, words) for place, words in self._found]
         lines.sort(key=lambda found: found[0])
-        return SceneFileError(
+        told = (
             f"{path}{f':{number}' if number else ''}: {_table(place)}{words}"
             for number, place, words in lines
         )
+        return SceneFileError("\n".join(told))
 
 
 class Under:

@@ -31,9 +31,9 @@ def parsed(text: str, path: Path) -> SceneFile:
     try:
         data = tomllib.loads(text)
     except tomllib.TOMLDecodeError as problem:
-        raise SceneFileError([_not_toml(path, str(problem))]) from None
+        raise SceneFileError(_not_toml(path, str(problem))) from None
     except RecursionError:
-        raise SceneFileError([f"{path}: is not TOML: its lists are nested too deep"]) from None
+        raise SceneFileError(f"{path}: is not TOML: its lists are nested too deep") from None
     mistakes = Mistakes()
     tables = _tables(data, mistakes)
     found = built(tables, list(data), path, mistakes)
@@ -54,7 +54,7 @@ def _text(path: Path) -> str:
         problem = "is not TOML: it is no text in UTF-8"
     except (OSError, ValueError) as error:  # the latter for a name that no file can have
         problem = f"cannot be read: {getattr(error, 'strerror', None) or error}"
-    raise SceneFileError([f"{path}: {problem}"])
+    raise SceneFileError(f"{path}: {problem}")
 
 
 def _not_toml(path: Path, problem: str) -> str:
