@@ -2,6 +2,7 @@
 
 import difflib
 import re
+from collections import Counter
 from collections.abc import Iterable
 from pathlib import Path
 from types import TracebackType
@@ -96,17 +97,25 @@ def line_of(text: str, place: Place) -> int:
     """The line of a key, of the key or table that it is in, counted from 1; 0 where it is not found."""
     names = [part for part in place if isinstance(part, str)]
     best, found, table = 0, 0, ""
+    seen: Counter[str] = Counter()
     for number, line in enumerate(text.splitlines(), start=1):
         header, key = HEADER.match(line), KEY.match(line)
         if header:
             table, key = header[1].replace('"', ""), None
+            seen[table] += 1
         elif not key:
             continue
         said = ".".join(filter(None, [table, key[1].strip("\"'") if key else ""])).split(".")
         depth = len(said)
-        if said == names[:depth] and depth > best:
+        if said == names[:depth] and depth > best and _is_item(place, table, seen[table]):
             best, found = depth, number
     return found
+
+
+def _is_item(place: Place, table: str, count: int) -> bool:
+    """Whether the place is in that table, the count-th one of its name where they are a list."""
+    depth = len(table.split("."))
+    return depth >= len(place) or not isinstance(place[depth], int) or place[depth] == count - 1
 
 
 def _table(place: Place) -> str:

@@ -143,7 +143,8 @@ def with_contact(scene: Scene, table: FrictionTable | None, system: System) -> S
         return scene
     law = _law(table, system)
     load = scene.contact.load if table.load is None else Load(table.load)
-    return scene.but(contact=Contact(load, law, table.slope or scene.contact.slope))
+    slope = scene.contact.slope if table.slope is None else table.slope
+    return scene.but(contact=Contact(load, law, slope))
 
 
 def _law(table: FrictionTable, system: System) -> FrictionLaw:

@@ -1,0 +1,633 @@
+"""Scene files: what is written is read again, units are pint's, and mistakes are named, all of them."""
+
+import math
+import tomllib
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pint
+import pytest
+import skfem
+import sympy
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from fem_check import (
+    Bending,
+    DeadLoad,
+    Friction,
+    Gravity,
+    Ground,
+    Inertia,
+    Material,
+    Membrane,
+    Outline,
+    bilayer,
+)
+from fem_check.answer.growth import alpha_of
+from fem_check.files import SceneFileError, gallery, read, write
+from fem_check.files.mistakes import line_of
+from fem_check.files.parts.scene_file import RunSettings
+from fem_check.files.reading import parsed
+from fem_check.files.schema import schema
+from fem_check.files.tables import TABLES
+from fem_check.files.toml import text_of
+from fem_check.files.writing import toml_of
+from fem_check.shell.effects.loads import EdgeMoment
+from linear_theory import (
+    Contact,
+    Coulomb,
+    FieldWave,
+    Load,
+    Scene,
+    Sheet,
+    SineWave,
+    Tanh,
+    TravellingWave,
+    Viscous,
+    pulse_wave,
+)
+
+HERE = Path("scene.toml")
+UNITS = pint.UnitRegistry(cache_folder=None)
+
+
+def scene_of(text: str, folder: Path = Path()) -> Scene:
+    return parsed(text, folder / "scene.toml").scene
+
+
+def mistakes_of(text: str, folder: Path = Path()) -> list[str]:
+    """Without the name of the file."""
+    with pytest.raises(SceneFileError) as refused:
+        parsed(text, folder / "scene.toml")
+    return [line.partition("scene.toml")[2].lstrip(":") for line in refused.value.mistakes]
+
+
+@pytest.mark.parametrize("name", gallery.names())
+def test_a_scene_of_the_gallery_is_written_and_read(name: str, tmp_path: Path) -> None:
+    file = parsed(gallery.text(name), HERE)
+    path = write(file.scene, tmp_path / "again.toml", file.run)
+    again = read(path)
+    assert again.scene == file.scene
+    assert again.scene.key() == file.scene.key()
+    assert again.run == file.run
+    assert again.units is None
+    assert toml_of(again.scene, again.run) == path.read_text()
+    assert gallery.title(name)
+    assert [p.name for p in tmp_path.iterdir()] == ["again.toml"]
+
+
+def test_the_gallery_has_what_was_promised() -> None:
+    assert set(gallery.names()) == {
+        *("paper", "hydrogel", "inchworm", "trapezoid", "hole"),
+        *("turning", "bumpy", "pulse", "piezo", "viscous"),
+    }
+    with pytest.raises(ValueError, match="'gel': is not a scene of the gallery; there are paper"):
+        gallery.text("gel")
+
+
+def test_the_paper_is_the_paper() -> None:
+    assert scene_of(gallery.text("paper")) == Scene(Sheet(), SineWave(), 0.25)
+    assert scene_of("[growth]\nalpha = 0.25") == Scene(Sheet(), SineWave(), 0.25)
+
+
+SIZES = st.floats(0.1, 50.0)
+NAMES = ("exp", "linear", "metric")
+AMPLITUDES = st.lists(st.floats(-1, 1), min_size=1, max_size=3)
+X, Y = sympy.symbols("x y")
+HEIGHTS = st.builds(
+    lambda a, p, q: a * sympy.sin(p * X + 1) * sympy.exp(-((Y / q) ** 2)) + a * sympy.tanh(X / 7) / 3,
+    st.floats(-0.1, 0.1),
+    st.floats(0.1, 3),
+    st.integers(2, 9),
+)
+
+
+@st.composite
+def waves(draw: Any) -> TravellingWave:
+    count, period = draw(st.integers(-3, 3).filter(bool)), draw(SIZES)
+    kind = draw(st.integers(0, 2))
+    if kind == 0:
+        return SineWave(count, period)
+    if kind == 1:
+        return pulse_wave(draw(st.floats(0.1, 0.9)), count, period)
+    cosine = draw(AMPLITUDES)
+    return TravellingWave(cosine, cosine[::-1], count, period, draw(st.floats(-1, 1)))
+
+
+@st.composite
+def scenes(draw: Any) -> Scene:
+    """All that a file can hold."""
+    sheet = Sheet(draw(SIZES), draw(SIZES), draw(st.floats(-0.9, 0.5)), draw(SIZES))
+    material = Material(sheet.thickness, sheet.poisson, draw(st.sampled_from([1.0, 1e6, 0.3])))
+    growth = {
+        "growth_law": draw(st.sampled_from(NAMES)),
+        "area": draw(st.sampled_from(["grown", "undeformed"])),
+    }
+    alpha, effects, space = draw(st.floats(-0.05, 0.05)), [], False
+    contact = draw(st.sampled_from([None, Coulomb(), Viscous(), Tanh(0.01 / 3)]))
+    weight = draw(st.sampled_from([Load.CURRENT, Load.GROWN, Load.MATERIAL]))
+    if draw(st.booleans()):
+        effects = [Gravity(draw(st.floats(1e-9, 1.0)), weight, draw(st.floats(-0.5, 0.5)))]
+        space = draw(st.booleans())
+        if space:
+            height = draw(st.none() | HEIGHTS)
+            ground = Ground(draw(SIZES), draw(st.floats(0, 1)), weight, height, "printed")
+            effects += [Bending(material), ground]
+            growth["curvature_coupling"] = draw(st.floats(-1, 1))
+            growth["curvature"] = draw(st.sampled_from(["grown", "undeformed"]))
+        if contact is None:
+            effects.append(Friction(draw(st.floats(0.1, 2)), draw(SIZES)))
+        if draw(st.booleans()):
+            effects.append(Inertia(draw(SIZES), material))
+        if draw(st.booleans()):
+            effects.append(DeadLoad((0.1, -0.2, 1 / 3)[: 3 if space else 2]))
+    if effects or draw(st.booleans()):
+        effects = [Membrane(material), *draw(st.permutations(effects))]
+    load = (Load.GROUND if space else weight) if effects[1:] else draw(st.sampled_from([weight]))
+    said = (
+        None if contact is None else Contact(load, contact, 0.0 if effects else draw(st.floats(0, 0.2)))
+    )
+    cells = draw(st.none() | st.tuples(st.integers(1, 9), st.integers(1, 9)))
+    element = draw(st.sampled_from([None, skfem.ElementQuadBFS(), skfem.ElementQuadP(3)]))
+    return Scene(
+        sheet,
+        draw(waves()),
+        alpha,
+        effects=effects,
+        contact=said,
+        cells=cells,
+        element=element,
+        **growth,
+    )
+
+
+@settings(max_examples=60, deadline=None)
+@given(scenes())
+def test_random_scenes_are_the_same_again(scene: Scene) -> None:
+    text = toml_of(scene)
+    again = scene_of(text)
+    assert again == scene
+    assert toml_of(again) == text
+
+
+def test_scenes_write_and_read_themselves(tmp_path: Path) -> None:
+    mesh = Outline([(-0.25, -0.5), (0.25, -0.5), (0.1, 0.5), (-0.1, 0.5)]).mesh(0.3)
+    scene = Scene(Sheet(), SineWave(), 0.1, mesh=mesh)
+    path = scene.to_toml(tmp_path / "deep" / "scene.toml")
+    assert Scene.from_toml(path) == Scene.from_toml(str(path)) == scene
+    scene.but(alpha=0.2).to_toml(path)
+    assert Scene.from_toml(path).alpha == 0.2
+    settings = RunSettings("cycle", None, 3, 40)
+    assert read(write(scene, path, settings)).run == settings
+
+
+@pytest.mark.parametrize(
+    ("scene", "words"),
+    [
+        (
+            Scene(Sheet(), FieldWave(lambda x, y, t: 0 * x + y + t, 1.0, name="w"), 0.1),
+            "wave: a FieldWave",
+        ),
+        (
+            Scene(Sheet(), SineWave(), 0.1, effects=[Gravity(1e-4), Membrane(Material(0.03, 0.5))]),
+            "must be Membrane to be written",
+        ),
+        (
+            Scene(
+                Sheet(),
+                SineWave(),
+                0.1,
+                effects=[
+                    Membrane(Material(0.03, 0.5)),
+                    Gravity(1e-4),
+                    Ground(0.5, height=lambda x, y: 0.01 * np.cos(y) + 0 * x),
+                ],
+            ),
+            "a scene file holds no functions",
+        ),
+        (
+            Scene(
+                Sheet(),
+                SineWave(),
+                0.1,
+                effects=[
+                    Membrane(Material(0.03, 0.5)),
+                    Gravity(1e-4),
+                    Ground(0.5, height=0.01 * sympy.log(5 + X)),
+                ],
+            ),
+            "log",
+        ),
+    ],
+    ids=["wave", "order", "function", "formula"],
+)
+def test_what_no_file_holds_is_refused_and_nothing_written(
+    scene: Scene, words: str, tmp_path: Path
+) -> None:
+    with pytest.raises(ValueError, match=words):
+        scene.to_toml(tmp_path / "scene.toml")
+    assert not list(tmp_path.iterdir())
+
+
+def test_an_effect_without_a_table_is_refused() -> None:
+    effects = [Membrane(Material(0.03, 0.5)), EdgeMoment(0.1), Gravity(1e-4), Ground(0.5)]
+    with pytest.raises(ValueError, match=r"effects\[1\]: a EdgeMoment has no table"):
+        toml_of(Scene(Sheet(), SineWave(), 0.1, effects=effects))
+
+
+SHELL = """
+[sheet]
+length = "4 cm"
+width = "15 mm"
+thickness = "800 um"
+young = "0.5 MPa"
+[wave]
+period = "2 min"
+[growth]
+alpha = 0.01
+curvature_coupling = "5 1/m"
+[bending]
+[gravity]
+weight = "8 Pa"
+incline = "3 deg"
+[ground]
+stiffness = "50 Pa/mm^2"
+damping = "2 Pa*s/mm"
+[friction]
+coefficient = 0.7
+slip_speed = "0.1 mm/s"
+[inertia]
+density = "1100 kg/m^3"
+"""
+
+
+def test_units_are_those_of_pint() -> None:
+    """Each number by hand: lengths in cm, times in min, stresses in 0.5 MPa."""
+    scene, q = scene_of(SHELL), UNITS.Quantity
+    length, time, stress = q("1 cm"), q("1 min"), q("0.5 MPa")
+
+    def by(text: str, unit: Any) -> Any:
+        return pytest.approx((q(text) / unit).to("dimensionless").magnitude, rel=1e-14)
+
+    friction, gravity, ground = (scene.find(kind) for kind in (Friction, Gravity, Ground))
+    assert scene.sheet.length == 4.0
+    assert scene.sheet.width == by("15 mm", length)
+    assert scene.sheet.thickness == by("800 um", length)
+    assert scene.period == 2.0
+    assert scene.curvature_coupling == by("5 / m", 1 / length)
+    assert gravity.weight == by("8 Pa", stress)
+    assert gravity.incline == pytest.approx(math.radians(3), rel=1e-14)
+    assert ground.stiffness == by("50 Pa/mm^2", stress / length**2)
+    assert ground.damping == by("2 Pa*s/mm", stress * time / length)
+    assert friction.slip_speed == by("0.1 mm/s", length / time)
+    assert scene.find(Inertia).density == by("1100 kg/m^3", stress * time**2 / length**2)
+    assert scene.find(Membrane).material.young == 1.0
+    units = parsed(SHELL, HERE).units
+    assert units is not None
+    assert (units.length, units.time) == ("cm", "min")
+
+
+@pytest.mark.filterwarnings("ignore::linear_theory.ViscousRegimeWarning")
+def test_another_system_of_units_gives_the_same_speed() -> None:
+    """The same sheet in mm and s, and in inches and minutes, to the roundoff of the solution."""
+    from fem_check.choice.ways import answer
+
+    other = (
+        SHELL.replace('"4 cm"', f'"{40 / 25.4!r} inch"').replace('"2 min"', '"120 s"')
+    )  # fmt: skip
+    speeds = []
+    for text in (SHELL, other):
+        flat = text[: text.index("[growth]")] + '[growth]\nswelling = "5 %"\n'
+        file = parsed(flat, HERE)
+        found = answer(file.scene, "predict", rtol=0.1)
+        assert file.units is not None
+        speeds.append(UNITS.Quantity(found.mean, file.units.speed).to("mm/s").magnitude)
+    assert speeds[0] == pytest.approx(speeds[1], rel=1e-9)
+
+
+def test_weight_of_a_density() -> None:
+    scene = scene_of(SHELL.replace('weight = "8 Pa"', 'density = "1.1 g/cm^3"'))
+    expected = 1100 * 9.80665 * 800e-6 / 0.5e6
+    assert scene.find(Gravity).weight == pytest.approx(expected, rel=1e-13)
+
+
+def test_growth_in_three_ways() -> None:
+    head = '[sheet]\nlength = "40 mm"\nthickness = "1 mm"\n[wave]\nperiod = "1 s"\n'
+    swelling = scene_of(f'{head}[growth]\nswelling = "12 %"\nlaw = "linear"')
+    assert swelling.alpha == alpha_of(0.12, swelling.wave, swelling.sheet, "linear")
+    layers = '[growth.bilayer]\ngrowth = "20 %"\nthickness_ratio = 2.0\nmodulus_ratio = 0.5\n'
+    for side, sign in (("upper", 1), ("lower", -1)):
+        scene = scene_of(f'{head}[bending]\n{layers}side = "{side}"')
+        alpha, beta = bilayer(0.2, 1.0, 2.0, 0.5)
+        assert (scene.alpha, scene.curvature_coupling) == (alpha, sign * beta)
+
+
+def test_effects_keep_the_order_of_their_tables() -> None:
+    text = "[growth]\nalpha = 0.1\n{}\n"
+    tables = ["[bending]", "[ground]\nstiffness = 0.5", "[gravity]\nweight = 1e-4"]
+    for order in (tables, tables[::-1]):
+        scene = scene_of(text.format("\n".join(order)))
+        names = [type(effect).__name__.lower() for effect in scene.effects[1:]]
+        assert names == [table.partition("]")[0][1:] for table in order]
+
+
+BASE = '[sheet]\nlength = "40 mm"\nyoung = "1 MPa"\n[wave]\nperiod = "8 s"\n[growth]\nalpha = 0.01\n'
+PLAIN = "[growth]\nalpha = 0.01\n"
+SPACE = PLAIN + "[bending]\n[gravity]\nweight = 1e-4\n[ground]\nstiffness = 0.5\n"
+
+REFUSED = {
+    "unit of something else": ('[sheet]\nlength = "40 kg"', "1", "length = '40 kg': is not a length"),
+    "no unit": ('[sheet]\nlength = "40 mmm"', "2", "[sheet] length = '40 mmm': 'mmm' is no unit"),
+    "no number": ('[wave]\nperiod = "soon"', "2", "[wave] period = 'soon': must be a time such"),
+    "truth": ("[sheet]\nwidth = true", "2", "[sheet] width = True: must be a length"),
+    "nan": ("[sheet]\nwidth = nan", "2", "[sheet] width = nan: must be finite"),
+    "nan as text": ('[sheet]\nwidth = "nan mm"', "2", "[sheet] width = 'nan mm': must be finite"),
+    "inf": ("[growth]\nalpha = inf", "2", "[growth] alpha = inf: must be a finite number"),
+    "negative": ("[sheet]\nthickness = -1", "2", "[sheet] thickness = -1: must be > 0"),
+    "poisson": ("[sheet]\npoisson = 0.7", "2", "[sheet] poisson = 0.7: must be in (-1, 0.5]"),
+    "key": ("[sheet]\nwidht = 1", "2", "[sheet] widht: is not a key; did you mean 'width'?"),
+    "key like none": ("[bending]\nq = 1", "2", "[bending] q: is not a key; must be one of none"),
+    "key in a hole": (
+        '[outline]\nshape = "rectangle"\n[[outline.holes]]\ndiamter = 1',
+        "4",
+        "[outline] holes[0].diamter: is not a key; did you mean 'diameter'?",
+    ),
+    "table": ("[grond]\n", "1", "[grond] is not a table of a scene; did you mean 'ground'?"),
+    "loose key": ("lenght = 3\n", "1", "[lenght] is not a table"),
+    "no table": ("sheet = 3\n", "1", "[sheet] is 3: must be a table"),
+    "count": ("[wave]\ncount = 0", "2", "[wave] count = 0: must be a non-zero integer"),
+    "count not whole": ("[wave]\ncount = 1.5", "2", "[wave] count = 1.5: must be an integer"),
+    "kind": ('[wave]\nkind = "puls"', "2", "[wave] kind = 'puls': must be 'sine', 'pulse' or"),
+    "width of a sine": ("[wave]\nwidth = 0.2", "1", "[wave] width: must be left out, only"),
+    "no width": ('[wave]\nkind = "pulse"', "1", "[wave] width: must be given for a pulse"),
+    "narrow": ('[wave]\nkind = "pulse"\nwidth = "1 %"', "1", "width = 0.01: must be in [0.02, 1)"),
+    "no harmonics": ('[wave]\nkind = "harmonics"', "1", "must be one-dimensional, of one length >= 1"),
+    "amplitude": (
+        '[wave]\nkind = "harmonics"\nsine = [1, "a"]',
+        "3",
+        "[wave] sine[1] = 'a': must be a valid number",
+    ),
+    "slope as angle": ('[gravity]\nweight = 1\nincline = "5 %"', "3", "= '5 %': is not an angle"),
+    "angle as share": ('[run]\nrtol = "5 deg"', "2", "[run] rtol = '5 deg': is not a share"),
+    "tolerance": ("[run]\nrtol = 2", "1", "[run] rtol = 2: must be in [1e-13, 1)"),
+    "rtol and steps": ("[run]\nrtol = 0.1\nsteps = 9", "1", "steps = 9: must be left out where rtol"),
+    "cells": ("[run]\ncells = [4]", "2", "[run] cells = [4]: must have at least 2 items"),
+    "element": ('[run]\nelement = "os.system(1)"', "1", "must be the name of one of scikit-fem"),
+    "slip speed of dry": (
+        '[friction]\nlaw = "dry"\nslip_speed = 1',
+        "1",
+        "[friction] slip_speed: must be left out but for law = 'tanh'",
+    ),
+    "no slip speed": ('[friction]\nlaw = "tanh"', "1", "[friction] slip_speed: must be given for law"),
+    "coefficient alone": (
+        "[friction]\ncoefficient = 1.0",
+        "1",
+        "[friction] slip_speed: must be given with a coefficient",
+    ),
+    "coefficient of dry": (
+        '[friction]\nlaw = "dry"\ncoefficient = 1.0',
+        "1",
+        "[friction] law = 'dry': must be 'tanh' where a coefficient is given",
+    ),
+    "no load": ("[friction]\ncoefficient = 1.0\nslip_speed = 0.1", "", "must come with Gravity"),
+    "no ground": ("[bending]\n[gravity]\nweight = 1.0", "", "Gravity must come with Ground"),
+    "weight and density": ("[gravity]\n", "1", "[gravity] weight, density: one of them must be given"),
+    "plain density": ("[gravity]\ndensity = 1", "1", "[gravity] density: must have a unit"),
+    "two outlines": (
+        '[outline]\nshape = "ellipse"\nmesh = "a.msh"',
+        "1",
+        "[outline] shape and mesh: one of shape, corners, mesh, vertices must be given",
+    ),
+    "no outline": ("[outline]\nsize = 1", "1", "[outline] none: one of shape"),
+    "trapezoid": ('[outline]\nshape = "trapezoid"', "1", "[outline] rear: must be given for shape"),
+    "rear of an ellipse": (
+        '[outline]\nshape = "ellipse"\nrear = 1',
+        "1",
+        "[outline] rear: must be left out but for shape = 'trapezoid'",
+    ),
+    "no mesh file": ('[outline]\nmesh = "a.msh"', "1", "mesh = 'a.msh': there is no such"),
+    "hole without size": (
+        '[outline]\nshape = "rectangle"\n[[outline.holes]]\nx = 0',
+        "1",
+        "[outline] holes[0].diameter: must be given for shape = 'circle'",
+    ),
+    "hole outside": (
+        '[outline]\nshape = "rectangle"\n[[outline.holes]]\nx = 3\ndiameter = 0.1',
+        "1",
+        "[outline] holes[0]: must lie within corners",
+    ),
+    "unit beside plain": (
+        '[outline]\ncorners = [[0, 0], [1, 0], [0, 1]]\nunit = "mm"',
+        "1",
+        "[outline] unit = 'mm': must be left out, all other numbers are plain",
+    ),
+    "unit of what": ('[outline]\nunit = "kg"', "2", "[outline] unit = 'kg': must be a unit of length"),
+    "elements": (
+        "[outline]\nvertices = [[0, 0], [1, 0], [0, 1]]\nelements = [[0, 1, 3]]",
+        "1",
+        "[outline] elements: must be numbers of vertices, from 0 to 2",
+    ),
+    "other size": (
+        "[outline]\ncorners = [[0, 0], [40, 0], [0, 40]]",
+        "1",
+        "[outline] mesh",
+    ),
+    "measured wave": ('[wave]\ncsv = "a.csv"\ncount = 2', "1", "csv = 'a.csv': must be without count"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", REFUSED)
+def test_a_mistake_is_named_with_its_place(name: str) -> None:
+    text, line, words = REFUSED[name]
+    growth = "" if "[growth]" in text else "\n[growth]\nalpha = 0.01\n"
+    found = mistakes_of(text + growth)
+    assert len(found) == 1, found
+    assert words in found[0]
+    assert " ".join(found[0].split()) == found[0].strip()
+    if line and "is not a length" not in words:
+        assert found[0].startswith(f"{line}: "), found[0]
+
+
+GROWTHS = {
+    "none": ("[growth]\n", "[growth] none: one of alpha, swelling, bilayer must be given"),
+    "two": ('[growth]\nalpha = 0.1\nswelling = "3 %"', "[growth] alpha and swelling: one of"),
+    "per cent": ("[growth]\nswelling = 12", "[growth] swelling = 12: a plain number is a share"),
+    "no bending": (
+        "[growth]\nalpha = 0.1\ncurvature_coupling = 1",
+        "curvature_coupling = 1: must be 0 without the effect Bending",
+    ),
+    "law": ('[growth]\nalpha = 0.1\nlaw = "log"', "[growth] law = 'log': must be 'exp', 'linear' or"),
+    "bilayer": ("[growth]\nbilayer = 3", "[growth] bilayer = 3: must be a table"),
+    "missing": ("", "[growth]: must be given, with alpha, swelling or bilayer"),
+    "too much": (
+        '[growth]\nalpha = 1.5\nlaw = "linear"\n[gravity]\nweight = 1.0',
+        "alpha c = -1.5 is not within -1",
+    ),
+}
+
+
+@pytest.mark.parametrize("name", GROWTHS)
+def test_a_mistake_of_growth_is_named(name: str) -> None:
+    text, words = GROWTHS[name]
+    (found,) = mistakes_of(text)
+    assert words in found
+
+
+TERRAINS = {
+    "none": ("", "[ground] none: one of amplitude, expression, map, heights"),
+    "eq. 13": ("amplitude = 0.1", "wavelength_x: must be given with amplitude"),
+    "formula": ('expression = "log(x)"', "expression = 'log(x)': 'log(x)' is not understood"),
+    "program": ("expression = \"__import__('os')\"", "is not understood"),
+    "map": ('map = "a.npy"\nwidth = 3\nlength = 3', "map = 'a.npy': there is no such file"),
+    "size": ('map = "a.npy"', "width: must be given for a map"),
+    "small": ("heights = [[1.0, 2.0]]\nwidth = 0.5\nlength = 9", "width = 0.5: must be >= 1"),
+    "ragged": ("heights = [[1.0], [1.0, 2.0]]\nwidth = 3\nlength = 3", "rows of one length"),
+    "few": ("heights = [[1.0]]\nwidth = 3\nlength = 3", "heights has shape (1, 1): must be (6, 6)"),
+    "beside": ('expression = "x"\nwidth = 3', "width: must be left out beside expression"),
+    "kink": ('expression = "sqrt(x**2)"', "must be smooth"),
+}
+
+
+@pytest.mark.parametrize("name", TERRAINS)
+def test_a_mistake_of_the_terrain_is_named(name: str) -> None:
+    text, words = TERRAINS[name]
+    (found,) = mistakes_of(f"{SPACE}[ground.terrain]\n{text}")
+    assert words in found
+
+
+MIXED = {
+    "width": ("[sheet]\nwidth = 3", "needs a unit, as in '40 mm', beside [sheet] length = '40 mm'"),
+    "slip": ("[friction]\nslip_speed = 3", "slip_speed = 3: needs a unit, as in '0.1 mm/s'"),
+}
+
+
+@pytest.mark.parametrize("name", MIXED)
+def test_numbers_with_and_without_units_are_not_mixed(name: str) -> None:
+    text, words = MIXED[name]
+    table, _, rest = text.partition("\n")
+    mixed = BASE.replace(f"{table}\n", f"{text}\n") if table in BASE else f"{BASE}{text}\n"
+    (found,) = mistakes_of(mixed)
+    assert rest.partition(" ")[0] in found
+    assert words in found
+
+
+def test_what_units_need_is_asked_for() -> None:
+    assert mistakes_of('[sheet]\nwidth = "3 mm"\n[growth]\nalpha = 0.1') == [
+        " [wave] period: must be given, such as '8 s', beside [sheet] width = '3 mm'",
+        "1: [sheet] length: must be given, such as '40 mm', beside [sheet] width = '3 mm'",
+    ]
+    (young,) = mistakes_of(BASE.replace('young = "1 MPa"\n', "") + '[gravity]\nweight = "8 Pa"\n')
+    assert "young: must be given, such as '1 MPa', beside [gravity] weight = '8 Pa'" in young
+    assert scene_of(f'{BASE}[gravity]\nweight = "8 Pa"\nincline = 0\n').find(Gravity).incline == 0
+
+
+def test_all_mistakes_are_told_in_the_order_of_the_file() -> None:
+    text = """
+[sheet]
+length = "40 kg"
+widht = 3
+
+[wave]
+kind = "puls"
+[growth]
+alpha = "much"
+[gravity]
+weight = 0
+[outline]
+shape = "rectangle"
+[[outline.holes]]
+diameter = 0.1
+[[outline.holes]]
+diameter = "2 kg"
+"""
+    found = mistakes_of(text)
+    assert [int(line.partition(":")[0]) for line in found] == [3, 4, 7, 9, 11, 17]
+    # parts that are right, each for itself, are tried as well
+    text = "[sheet]\nwidht = 1\n[wave]\nwidth = 0.2\n[growth]\nalpha = 0.1\n[run]\nrtol = 3\n"
+    assert [line.partition("]")[0] for line in mistakes_of(text)] == [
+        "2: [sheet",
+        "3: [wave",
+        "7: [run",
+    ]
+
+
+def test_lines_of_keys() -> None:
+    text = '[a]\nb = 1\n"c" = 2\na.d = 3\n[a.e]\nf = 4\n# f = 5\n[[a.g]]\nh = 1\n'
+    places = {
+        ("a",): 1, ("a", "b"): 2, ("a", "c"): 3, ("a", "e", "f"): 6, ("a", "e", "x"): 5,
+        ("a", "g", 0, "h"): 9, ("z",): 0, ("a", "nothing"): 1,
+    }  # fmt: skip
+    assert {place: line_of(text, place) for place in places} == places
+
+
+@pytest.mark.parametrize("name", ["inchworm", "hole", "bumpy"])
+def test_a_file_that_was_cut_off_is_a_scene_or_refused(name: str) -> None:
+    """Nothing but SceneFileError, wherever it ends."""
+    text = gallery.text(name)
+    start, rng = text.index("[sheet]"), np.random.default_rng(0)
+    for end in rng.integers(start, text.rindex("[ground" if name == "bumpy" else "["), 40):
+        with pytest.raises(SceneFileError):
+            parsed(text[: int(end)] + "\n[run]\nrtol = 5\n", HERE)
+
+
+@settings(max_examples=150, deadline=None)
+@given(st.sampled_from(["hydrogel", "viscous", "paper"]), st.data())
+def test_a_damaged_file_is_a_scene_or_refused(name: str, data: Any) -> None:
+    text = gallery.text(name)
+    at = data.draw(st.integers(text.index("[sheet]"), len(text) - 1))
+    changed = text[:at] + data.draw(st.text(max_size=3)) + text[at + data.draw(st.integers(0, 9)) :]
+    try:
+        found: Any = parsed(changed, HERE).scene
+    except SceneFileError as refused:
+        found = refused
+    lines = getattr(found, "mistakes", None)
+    assert isinstance(found, Scene) if lines is None else lines
+    assert all(line.startswith("scene.toml") for line in lines or ())
+
+
+@pytest.mark.parametrize(
+    "unit", ["m/0", "m**9**9**9**9", "(9**9)**9", "m**1000", "1/", "__import__", "m" * 99]
+)
+def test_what_is_no_unit_is_refused_at_once(unit: str) -> None:
+    (found,) = mistakes_of(f'[sheet]\nlength = "40 {unit}"\n[growth]\nalpha = 0.1')
+    assert "is no unit" in found
+
+
+def test_what_is_no_file_of_text_is_refused(tmp_path: Path) -> None:
+    binary = tmp_path / "a.toml"
+    binary.write_bytes(b"\xff\xfe\x00[sheet]")
+    cases = {
+        binary: "is not TOML: it is no text in UTF-8",
+        tmp_path: "is a folder, must be a scene file",
+    }
+    cases[tmp_path / "none.toml"] = "there is no such file"
+    cases[binary / "b.toml"] = "cannot be read: Not a directory"
+    for path, words in cases.items():
+        with pytest.raises(SceneFileError, match=words):
+            read(path)
+    with pytest.raises(SceneFileError, match="cannot be read"):
+        read("a\0b.toml")
+    assert mistakes_of("[sheet\nlength = 1") == ["1: is not TOML: Expected ']' at the end of a table "
+                                                 "declaration at column 7"]  # fmt: skip
+    assert "is not TOML" in mistakes_of("a = " + "[" * 5000)[0]
+    assert "at its end" in mistakes_of('a = """')[0]
+
+
+@given(st.dictionaries(st.sampled_from("abc"), st.text() | st.floats(allow_nan=False) | st.integers()))
+def test_toml_is_what_python_reads(entries: dict[str, Any]) -> None:
+    tables = {"one": entries, "two": {"in": entries, "list": [list(entries.values())]}}
+    assert tomllib.loads(text_of(tables, head="a\nb")) == tables
+
+
+def test_the_schema_names_all_tables_and_keys() -> None:
+    found = schema()
+    assert set(found["properties"]) == set(TABLES)
+    for name, kind in TABLES.items():
+        entries = found["$defs"][kind.__name__]["properties"]
+        assert set(entries) == set(kind.model_fields), name
+        assert all(entry.get("description") for entry in entries.values()), name
+    assert found["$defs"]["SheetTable"]["additionalProperties"] is False
+    length = found["$defs"]["SheetTable"]["properties"]["length"]
+    assert "40 mm" in str(length)
