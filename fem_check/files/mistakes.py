@@ -18,6 +18,9 @@ if TYPE_CHECKING:
 Place = tuple[str | int, ...]
 """Names of tables and keys, and places in lists."""
 
+ARGUMENT = re.compile(r"(\w+)(?: = |: |,)")
+"""The name at the start of a message of the library."""
+
 HEADER = re.compile(r"\s*\[\[?\s*([^\]#]+?)\s*\]")
 KEY = re.compile(r"\s*([\w.\"'-]+)\s*=")
 
@@ -35,14 +38,20 @@ class Mistakes:
     """Collects them while a file is read."""
 
     def __init__(self) -> None:
-        self._found: list[tuple[Place, str]] = []
+        self._found: list[tuple[Place, str, str]] = []
 
     def __bool__(self) -> bool:
         return bool(self._found)
 
     def add(self, place: Place, words: str) -> None:
         """A mistake at a place; words: what follows the name of the table."""
-        self._found.append((place, words))
+        self._found.append((place, _table(place), words))
+
+    def add_raised(self, table: Place, words: str) -> None:
+        """What was raised by the work on a table; the words may begin with one of its keys."""
+        key = ARGUMENT.match(words)
+        place = (*table, key[1]) if key and table else table
+        self._found.append((place, f"[{'.'.join(map(str, table))}] " if table else "", words))
 
     def under(self, *place: str | int) -> "Under":
         """Keep a ValueError of what is made of a table, which names its argument."""
@@ -56,12 +65,9 @@ class Mistakes:
 
     def error(self, path: Path, text: str) -> SceneFileError:
         """All mistakes of a file with that text, in its order."""
-        lines = [(line_of(text, place), place, words) for place, words in self._found]
+        lines = [(line_of(text, place), f"{table}{words}") for place, table, words in self._found]
         lines.sort(key=lambda found: found[0])
-        told = (
-            f"{path}{f':{number}' if number else ''}: {_table(place)}{words}"
-            for number, place, words in lines
-        )
+        told = (f"{path}{f':{number}' if number else ''}: {words}" for number, words in lines)
         return SceneFileError("\n".join(told))
 
 
@@ -82,7 +88,7 @@ class Under:
     ) -> bool:
         if not isinstance(error, ValueError):
             return False
-        self._mistakes.add(self._place, " ".join(str(error).split()))
+        self._mistakes.add_raised(self._place, " ".join(str(error).split()))
         return True
 
 
