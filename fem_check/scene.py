@@ -1,4 +1,4 @@
-"""What is asked of finite elements: the same scenes as of `linear_theory`."""
+"""The scene, shared with `linear_theory`."""
 
 from linear_theory.growth.bilayer import bilayer
 from linear_theory.scene.scene import Scene

@@ -1,4 +1,4 @@
-"""The version, looked up when it is asked for: `import fem_check` loads nothing."""
+"""The version, determined on first use: `import fem_check` loads nothing."""
 
 from linear_theory.common.version import current_version
 

@@ -1,4 +1,4 @@
-"""How fast a sheet driven by a travelling wave of growth crawls: closed form, series, balance."""
+"""Speed of a sheet driven by a travelling wave of growth: closed forms, series, friction balance."""
 
 from linear_theory.common.errors import (
     BeyondReachWarning,
@@ -11,7 +11,8 @@ from linear_theory.common.version import current_version
 from linear_theory.deformation.airy import AirySeries, airy_series
 from linear_theory.deformation.ritz import RitzField, ritz_field
 from linear_theory.friction.contact import Contact
-from linear_theory.friction.laws import Coulomb, FrictionLaw, Tanh, Viscous
+from linear_theory.friction.law import FrictionLaw
+from linear_theory.friction.laws import Coulomb, Tanh, Viscous
 from linear_theory.friction.load import Load
 from linear_theory.growth.bilayer import bilayer
 from linear_theory.growth.growth import Growth
@@ -36,6 +37,7 @@ from linear_theory.speed.result import CrawlSpeed, Estimate
 from linear_theory.speed.second_order import SecondOrder, second_order
 from linear_theory.speed.si import Scale, speed_si
 from linear_theory.wave.given import FieldWave
+from linear_theory.wave.measured import SampledWave
 from linear_theory.wave.pulse import pulse_wave
 from linear_theory.wave.travelling import SineWave, TravellingWave
 
@@ -59,6 +61,7 @@ __all__ = [
     "Metric",
     "NotConvergedError",
     "RitzField",
+    "SampledWave",
     "Scale",
     "Scene",
     "SecondOrder",

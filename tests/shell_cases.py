@@ -53,6 +53,18 @@ def shell(
     )
 
 
+def trapezoid(xi1: Array, xi2: Array) -> Array:
+    """A flat `Surface`, 0.5 wide at xi_2 = -1/2 and 0.8 at 1/2: its parameter lines are oblique."""
+    slope = 0.3
+    width = 0.65 + slope * xi2
+    jet = np.zeros((6, 3, *xi1.shape))
+    jet[0, 0], jet[0, 1] = xi1 * width, xi2
+    jet[1, 0] = width
+    jet[2, 0], jet[2, 1] = xi1 * slope, 1
+    jet[5, 0] = slope
+    return jet
+
+
 def at(axis: int, value: float) -> Callable[[Array], NDArray[np.bool_]]:
     """Points of the parameter domain on a line."""
     return lambda xi: np.isclose(xi[axis], value)

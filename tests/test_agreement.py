@@ -11,7 +11,7 @@ import pytest
 
 from fem_check.plane_stress.field import plane_stress_field
 from linear_theory import Sheet, SineWave, TravellingWave, airy_series, ritz_field
-from linear_theory.balance.period import Crawl, first_resolution
+from linear_theory.balance.crawl import Crawl, first_resolution
 from linear_theory.friction.contact import Contact
 
 WAVES = {

@@ -118,7 +118,7 @@ def test_good_values_are_taken(name):
 @pytest.mark.parametrize(
     ("call", "hint"),
     [
-        (lambda: crawl_speed(WAVE, SHEET, 0.1), "the order is sheet, wave, alpha"),
+        (lambda: crawl_speed(WAVE, SHEET, 0.1), "the arguments are sheet, wave, alpha"),
         (lambda: predict(SHEET, growth, 0.1), r"FieldWave\(function, period\)"),
         (lambda: predict(SHEET, SineWave, 0.1), r"SineWave\(\.\.\.\)"),
         (lambda: predict(Sheet, WAVE, 0.1), r"write Sheet\(\)"),

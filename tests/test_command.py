@@ -118,7 +118,7 @@ def test_wave_of_harmonics_and_all_options(capsys):
         (["--alpha", "0.1", "--speed"], "--speed"),
         (["--alpha", "1.5", "--growth-law", "linear"], "alpha c = -1.5 is not within -1"),
         ([*SPEED, "--length", "40 kg"], "--length '40 kg': is not a length"),
-        ([*SPEED, "--length", "40 mmm"], "'mmm' is no unit"),
+        ([*SPEED, "--length", "40 mmm"], "'mmm' is not a known unit"),
         ([*SPEED, "--length", "forty mm"], "such as '40 mm'"),
         ([*SPEED, "--length", "-40 mm", "--period", "8 s"], "length = -40: must be > 0"),
         (
@@ -133,14 +133,14 @@ def test_wave_of_harmonics_and_all_options(capsys):
         (["speed", "--growth", "12"], "'12 %'"),
         (["speed", "--growth", "-5 %"], "--growth '-5 %': must be > 0"),
         (["speed", "--growth", "0 %"], "--growth '0 %': must be > 0"),
-        ([*SPEED, "--alpha", "0.1"], "must be without --alpha"),
+        ([*SPEED, "--alpha", "0.1"], "must not be combined with --alpha"),
         ([*SPEED, "--pulse", "1.2"], "--pulse 1.2: must be in"),
-        ([*SPEED, "--pulse", "0.2", "--sine", "1"], "must be without --sine"),
+        ([*SPEED, "--pulse", "0.2", "--sine", "1"], "must not be combined with --sine"),
         ([*SPEED, "--plot", "crawl.docx"], "must end in .png"),
         ([*SPEED, "--movie", "crawl.avi"], "must end in .gif or .mp4"),
-        ([*SPEED, "--json", "--csv"], "--json: must be without --csv"),
+        ([*SPEED, "--json", "--csv"], "--json: must not be combined with --csv"),
         ([*SPEED, "12"], "'12': must follow an option"),
-        (["crawl"], "'crawl' is not a command; there are speed, new, check, schema and examples"),
+        (["crawl"], "'crawl' is not a command: must be speed, new, check, schema or examples"),
     ],
 )
 def test_bad_arguments_get_one_line_and_status_2(capsys, arguments, named):
@@ -227,7 +227,7 @@ def test_ctrl_c_is_one_line(monkeypatch, capsys):
 
     monkeypatch.setattr("fem_check.command.speed.predict", interrupted)
     status, out, err = run(capsys, "--alpha", "0.1")
-    told = "sheetcrawl: stopped; nothing is kept, the same command starts anew\n"
+    told = "sheetcrawl: interrupted; no partial result was kept, run the command again\n"
     assert (status, out, err) == (INTERRUPTED, "", told)
 
 
@@ -250,9 +250,7 @@ def test_a_signal_ends_the_program_with_one_line():
     time.sleep(0.5)
     program.send_signal(signal.SIGINT)
     out, err = program.communicate(timeout=60)
-    told = (
-        "sheetcrawl: predict was stopped; it keeps nothing to go on from, the same call starts anew\n"
-    )
+    told = "sheetcrawl: predict was interrupted; no partial result was kept, call it again\n"
     assert (program.returncode, out, err) == (INTERRUPTED, "", told)
 
 
@@ -354,8 +352,8 @@ def test_why_names_every_level(capsys):
     for level in LEVELS:
         assert f"{level}: " in told
     for level, why, _ in found.passed:
-        assert f"{level}: not taken: {why}" in told
-    assert f"{found.level}: taken: it meets the tolerance" in told
+        assert f"{level}: not chosen: {why}" in told
+    assert f"{found.level}: chosen: it meets the tolerance" in told
     assert "cycle: not tried" in told
 
 

@@ -17,7 +17,7 @@ from linear_theory import (
     line_speed,
     ritz_field,
 )
-from linear_theory.balance.period import Crawl, first_resolution
+from linear_theory.balance.crawl import Crawl, first_resolution
 from linear_theory.friction.contact import Contact
 from linear_theory.friction.laws import Coulomb, Tanh, Viscous
 from tests import reference_balance
@@ -335,7 +335,7 @@ def test_results_carry_their_cost_and_assumptions():
 
 
 def test_a_tolerance_that_is_missed_is_flagged(monkeypatch):
-    monkeypatch.setattr("linear_theory.balance.period._MOST_TIMES", 8)
+    monkeypatch.setattr("linear_theory.balance.crawl.MOST_TIMES", 8)
     speed = crawl_speed(PAPER, SINE, 1e-3, rtol=1e-5)
     assert not speed.converged
     assert speed.error > 1e-5 * abs(speed.mean)
@@ -344,7 +344,7 @@ def test_a_tolerance_that_is_missed_is_flagged(monkeypatch):
 def test_sideways_motion_at_few_times_is_flagged(monkeypatch):
     square = Sheet(width=1.0)
     exact = crawl_speed(square, SINE, 0.1, rtol=1e-4)
-    monkeypatch.setattr("linear_theory.balance.period._MOST_TIMES", 8)
+    monkeypatch.setattr("linear_theory.balance.crawl.MOST_TIMES", 8)
     speed = crawl_speed(square, along(1), 0.1, rtol=1e-3)
     off = abs(speed.rigid_mean[0] - exact.mean)
     assert not speed.converged

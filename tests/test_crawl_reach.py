@@ -124,17 +124,17 @@ def test_what_is_known_of_the_nonlinear_sheet_is_said_in_words():
     assert known.reach == f"within {known.model_error:.1g} of the nonlinear sheet"
     pulse = crawl_speed(PAPER, TravellingWave([0.5, 0.3], [0.2, 0.1]), 0.1, rtol=0.3)
     assert math.isnan(pulse.model_error)
-    assert pulse.reach == "distance to the nonlinear sheet not known"
-    assert replace(pulse, model_error=0.0).reach == "no distance to the nonlinear sheet"
+    assert pulse.reach == "distance to the nonlinear sheet unknown"
+    assert replace(pulse, model_error=0.0).reach == "agrees with the nonlinear sheet"
 
 
 def test_predict_says_in_its_reason_what_is_not_known():
     pulse = TravellingWave([0.5, 0.3], [0.2, 0.1])
     found = predict(PAPER, pulse, 0.1, method="strip")
-    assert found.reason == "asked for; distance to the nonlinear sheet not known"
+    assert found.reason == "requested; distance to the nonlinear sheet unknown"
     with warnings.catch_warnings(category=BeyondReachWarning, action="ignore"):
         found = predict(PAPER, SINE, 0.6, method="second order")
-    assert found.reason.startswith("asked for; beyond the reach of the theory: growth")
+    assert found.reason.startswith("requested; beyond the reach of the theory: growth")
     assert not found.converged
 
 

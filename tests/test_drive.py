@@ -20,7 +20,7 @@ from linear_theory import (
     line_balance,
     ritz_field,
 )
-from linear_theory.balance.period import Crawl, first_resolution
+from linear_theory.balance.crawl import Crawl, first_resolution
 from linear_theory.friction.contact import Contact
 from linear_theory.wave.places import on_axis, spread
 

@@ -202,7 +202,7 @@ def test_time_left_from_the_rate_so_far() -> None:
     clock = Clock()
     progress = output.Progress("fig3", total=4, clock=clock)
     clock.now += 3
-    assert progress.line() == "fig3:   0%, 3 s, time left not known yet"
+    assert progress.line() == "fig3:   0%, 3 s, time left unknown"
     clock.now += 27
     progress.advance()
     assert progress.line() == "fig3:  25%, 30 s, about 1 min 30 s left"
@@ -234,7 +234,7 @@ def test_one_slow_step_still_shows() -> None:
         while not stream.getvalue() and time.monotonic() < deadline:
             time.sleep(0.005)
     lines = stream.getvalue().splitlines()
-    assert lines[0] == "slow:   0%, 0 s, time left not known yet"
+    assert lines[0] == "slow:   0%, 0 s, time left unknown"
     assert lines[-1].startswith("slow: done in ")
 
 

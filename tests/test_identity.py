@@ -252,9 +252,9 @@ REFUSED: dict[str, tuple[Any, str]] = {
     "a generator": ((i for i in range(3)), "generator"),
     "a file": (sys.stdout, "cannot be identified"),
     "a lock": (threading.Lock(), "lock"),
-    "a counter": (counter(), "changes count"),
-    "random numbers": (np.random.default_rng(0), "not the same again"),
-    "random numbers of Python": (random.Random(0), "not the same again"),
+    "a counter": (counter(), "assigns to count"),
+    "random numbers": (np.random.default_rng(0), "not reproducible"),
+    "random numbers of Python": (random.Random(0), "not reproducible"),
     "a function of them": (function("f = lambda x: np.random.rand() * x"), "random"),
     "a function with them": (
         function("f = lambda x: rng.normal() * x", rng=np.random.default_rng(0)),
@@ -267,12 +267,12 @@ REFUSED: dict[str, tuple[Any, str]] = {
     "names made at run time": (function("f = lambda x: eval('x + 1')"), "global eval"),
     "a global that is written": (
         function("n = 0\ndef f(x):\n global n\n n += 1\n return n"),
-        "changes the global name n",
+        "assigns to the global name n",
     ),
     "an import": (function("def f(x):\n import conftest\n return conftest.g(x)"), "imports conftest"),
     "a dummy symbol": (sympy.Dummy("x") + 1, "dummy"),
     "a ufunc of Python": (np.frompyfunc(lambda x: x, 1, 1), "ufunc"),
-    "an iterator": (itertools.count(), "not the same again"),
+    "an iterator": (itertools.count(), "not reproducible"),
 }
 
 

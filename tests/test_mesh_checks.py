@@ -85,10 +85,10 @@ def crossed_sheets():
 FAULTS = {
     "seam": (
         halves(),
-        r"10 vertices lie on edges .* first 4 and 25 at x = -0.25, y = 0: .* merge them",
+        r"10 vertices lie on edges .* first 4 and 25 at x = -0.25, y = 0: merge these",
     ),
-    "seam in single precision": (halves(shift=3e-8), "merge them"),
-    "hanging nodes": (halves(across=4), r"9 vertices lie on edges .* not joined to"),
+    "seam in single precision": (halves(shift=3e-8), "merge these"),
+    "hanging nodes": (halves(across=4), r"9 vertices lie on edges .* not connected"),
     "a hanging node": (
         skfem.MeshTri(
             np.array([[0, 2, 1, 1, 0, 2], [0, 0, 0, 1, 1, 1]], float),
@@ -101,36 +101,36 @@ FAULTS = {
             np.array([[0, 2, 1, 1, 0, 2], [0, 0, 0, 1, -1, -1]], float),
             np.array([[0, 1, 3], [0, 2, 4], [2, 1, 5], [2, 4, 5]]).T,
         ),
-        r"1 vertices lie on edges .* first 2 at x = 1, y = 0 on the edge from 0 to 1: divide that edge",
+        r"1 vertices lie on edges .* first 2 at x = 1, y = 0 on the edge from 0 to 1: split that edge",
     ),
     "elements twice": (
         doubled(TRIANGLES, lambda centre: centre[1] > 0.25),
-        r"16 of 80 elements are there twice; leave one of each out: ",
+        r"16 of 80 elements are duplicates; remove one of each pair: ",
     ),
     "three at an edge": (
         skfem.MeshTri(
             np.array([[0, 1, 0, 1, 0.5], [0, 0, 1, 1, -0.5]]),
             np.array([[0, 0, 0], [1, 1, 1], [2, 3, 4]]),
         ),
-        "3 of 3 elements are at an edge that more than two share: 0, 1, 2",
+        "3 of 3 elements are at an edge shared by more than two: 0, 1, 2",
     ),
     "inverted": (moved(TRIANGLES, middle(TRIANGLES), (0.3, 0.0)), "are inverted"),
-    "flat": (moved(TRIANGLES, middle(TRIANGLES), (0.125, 0.0)), "inverted or without area"),
-    "folded quadrilateral": (moved(QUADS, middle(QUADS), (0.2, 0.2)), "inverted or without area"),
-    "overlapping itself": (ramp(), "elements lie on each other: the boundary crosses itself"),
+    "flat": (moved(TRIANGLES, middle(TRIANGLES), (0.125, 0.0)), "inverted or have no area"),
+    "folded quadrilateral": (moved(QUADS, middle(QUADS), (0.2, 0.2)), "inverted or have no area"),
+    "overlapping itself": (ramp(), "elements overlap: the boundary crosses itself"),
     "two sheets joined crosswise": (
         crossed_sheets(),
-        r"elements lie on each other: they have 2\.125 times",
+        r"elements overlap: their total area is 2\.125 times",
     ),
     "pieces": (
         beside(TRIANGLES, skfem.MeshTri(TRIANGLES.p + 3, TRIANGLES.t)),
         "has 2 separate pieces, must be one; elements 0 and 64 are in two",
     ),
-    "hinge": (hinged(), "parts meet at single vertices alone, as at hinges: 44"),
-    "pinched ring": (pinched(), "as at hinges: 1, 4, 6"),
+    "hinge": (hinged(), r"parts are connected only by single vertices \(hinges\): 44"),
+    "pinched ring": (pinched(), r"\(hinges\): 1, 4, 6"),
     "unused vertex": (
         skfem.MeshTri(np.hstack([TRIANGLES.p, [[0.1], [0.1]]]), TRIANGLES.t),
-        "1 vertices belong to no element: 45; leave them out",
+        "1 vertices belong to no element: 45; remove them",
     ),
     "curved sides": (skfem.MeshTri2.init_circle(1), "mesh = MeshTri2: must be triangles"),
     "in space": (skfem.MeshTet(), "mesh = MeshTet1: must be triangles or quadrilaterals in the plane"),

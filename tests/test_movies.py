@@ -151,7 +151,7 @@ def test_a_missing_encoder_is_named_before_the_work(speed, tmp_path, monkeypatch
     [
         ({"periods": 0}, "periods = 0"),
         ({"frames": 1}, "frames = 1"),
-        ({"periods": 1000}, "make 24000 frames, must be at most"),
+        ({"periods": 1000}, "gives 24000 frames, must be at most"),
         ({"fps": 0}, "fps = 0"),
         ({"width": 100}, "width = 100: must be in"),
         ({"exaggerate": -1}, "exaggerate = -1"),
@@ -163,7 +163,7 @@ def test_bad_numbers_are_named(speed, tmp_path, bad, words):
 
 
 def test_a_body_on_a_line_has_no_film(tmp_path):
-    with pytest.raises(ValueError, match="no shape to film"):
+    with pytest.raises(ValueError, match="must have a shape"):
         line_balance(SineWave(), 0.1).movie(tmp_path / "line.gif")
 
 

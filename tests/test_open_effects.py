@@ -7,9 +7,10 @@ import numpy as np
 import pytest
 
 from fem_check import Friction, Gravity, Material, Membrane, Scene, cycle_speed, simulate
-from fem_check.shell.effects.effect import Effect, identity
+from fem_check.shell.effects.effect import Effect
 from fem_check.shell.kinematics.point_state import PointState
 from linear_theory import Sheet, SineWave, crawl_speed
+from linear_theory.common.pairs import identity
 from linear_theory.common.shown import Value
 
 MATERIAL = Material(0.03, 0.5)

@@ -112,7 +112,7 @@ def test_symbols_are_names_of_the_code():
         name
         for kind in (linear_theory.Sheet, linear_theory.SineWave, fem_check.Scene, fem_check.Friction)
         for name in kind.__dataclass_fields__
-    } | set(linear_theory.Growth.__dataclass_fields__)
+    } | {*linear_theory.Growth.__dataclass_fields__, *linear_theory.Tanh.__dataclass_fields__}
     kinds = {name: getattr(fem_check, name) for name in fem_check.__all__}
     kinds |= {"RestState": found("fem_check.shell.kinematics.rest_state.RestState")}
     assert len(named) == 13

@@ -258,7 +258,7 @@ def test_bad_arguments_are_named(theory):
         theory.plot("shape")
     with pytest.raises(ValueError, match=r"what = 'side': the sheet lies in the plane; must be one of"):
         theory.plot("side")
-    with pytest.raises(ValueError, match=r"what = None: must be one of speed, sheet, path where ax"):
+    with pytest.raises(ValueError, match=r"what = None: must be one of speed, sheet, path if ax"):
         theory.plot(ax=axes())
     with pytest.raises((TypeError, ValueError), match=r"^ax"):
         theory.plot("speed", ax=3)
@@ -268,6 +268,16 @@ def test_bad_arguments_are_named(theory):
         theory.plot("path", periods=0)
     with pytest.raises(ValueError, match=r"length_factor"):
         Units("mm", "s", length_factor=0)
+
+
+def test_the_import_alone_loads_numpy_and_no_other_large_package():
+    code = (
+        "import sys, linear_theory;"
+        "large = {'scipy', 'sympy', 'mpmath', 'matplotlib', 'skfem', 'pandas'};"
+        "sys.exit(' '.join(large & set(sys.modules)) or 0)"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
 
 
 def test_who_only_computes_loads_no_matplotlib():

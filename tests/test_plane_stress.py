@@ -238,7 +238,7 @@ def test_poisson_ratio_comes_from_the_sheet_unless_given():
         ({"poisson": 0.7}, r"poisson = 0.7: must be in \(-1, 0.5\]"),
         (
             {"outline": MeshTri([[0, 1, 2.0], [0, 0, 0.0]], [[0], [1], [2]])},
-            "outline: 1 of 1 elements are inverted or without area",
+            "outline: 1 of 1 elements are inverted or have no area",
         ),
         (
             {

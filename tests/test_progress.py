@@ -73,7 +73,7 @@ def test_true_prints_on_stderr(capsys):
     CALLS["crawl_speed"](progress=True)
     printed = capsys.readouterr()
     assert printed.out == ""
-    assert "friction through the period 100%, 0 s left" in printed.err
+    assert "friction balance over the period 100%, 0 s left" in printed.err
     assert printed.err.endswith("\n")
 
 
@@ -88,7 +88,7 @@ def test_ctrl_c_says_in_a_line_what_is_kept(name):
     def interrupt(progress):
         raise KeyboardInterrupt
 
-    told = f"^{name} was stopped; it keeps nothing to go on from, the same call starts anew$"
+    told = f"^{name} was interrupted; no partial result was kept, call it again$"
     with pytest.raises(KeyboardInterrupt, match=told):
         CALLS[name](progress=interrupt)
     seen = []

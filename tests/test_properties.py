@@ -35,7 +35,7 @@ from linear_theory import (
     line_balance,
     ritz_field,
 )
-from linear_theory.balance.period import Crawl
+from linear_theory.balance.crawl import Crawl
 from linear_theory.common.errors import BeyondReachWarning, ViscousRegimeWarning
 from linear_theory.scene.scene import Scene
 from tests import reference_line

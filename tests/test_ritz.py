@@ -328,8 +328,8 @@ def test_stress_is_hooke_of_the_elastic_strain():
         ({"degree": 2}, "degree = 2: must be >= 3"),
         ({"degree": 7.5}, "degree = 7.5: must be one integer"),
         ({"degree": (5, 5, 5)}, r"degree = \(5, 5, 5\): must be one integer or \(across, along\)"),
-        ({"degree": 3000}, "degree = 3000: must make a matrix of <="),
-        ({"degree": 5, "rtol": 1e-3}, "degree = 5, rtol = 0.001: must be one of the two"),
+        ({"degree": 3000}, "degree = 3000: must be smaller, its matrix has more than"),
+        ({"degree": 5, "rtol": 1e-3}, "degree = 5, rtol = 0.001: must not both be given"),
         ({"rtol": 0.0}, "rtol = 0: must be in"),
         ({"rtol": np.nan}, "rtol contains nan: must be finite"),
         ({"rtol": 1e-15}, "rtol = 1e-15: must be in"),
@@ -355,7 +355,7 @@ def test_bad_points_and_times():
 
 def test_a_tolerance_that_needs_too_much_memory_is_refused_with_the_best_field(monkeypatch):
     monkeypatch.setattr(ritz, "MOST_NUMBERS", 15_000)
-    with pytest.raises(NotConvergedError, match="rtol = 1e-10: would need degrees"):
+    with pytest.raises(NotConvergedError, match="rtol = 1e-10: requires degrees"):
         ritz_field(Sheet(), SineWave(), rtol=1e-10)
     rough = FieldWave(lambda x, y, t: np.sign(y - 0.1 + 0 * t), period=1.0)
     with pytest.raises(NotConvergedError) as caught:

@@ -1,7 +1,5 @@
 """What scene files say of outlines, uneven ground and measured waves."""
 
-import sys
-import types
 from pathlib import Path
 from typing import Any
 
@@ -14,13 +12,12 @@ from PIL import Image
 
 from fem_check import Ground, Outline, Terrain
 from fem_check.files import SceneFileError
-from fem_check.files.parts import waves
 from fem_check.files.parts.expression import parsed as formula
 from fem_check.files.parts.expression import text_of
 from fem_check.files.reading import parsed
 from fem_check.files.writing import toml_of
 from fem_check.shell.effects.height_map import HeightMap
-from linear_theory import Scene, Sheet, SineWave
+from linear_theory import SampledWave, Scene, Sheet, SineWave
 from linear_theory.identity import content_key
 
 Array = NDArray[np.float64]
@@ -292,23 +289,43 @@ def test_what_is_no_map_is_refused(tmp_path: Path) -> None:
     assert "what the number 1 stands for" in mistake_of(f'{IN_MM_SPACE}map = "b.npy"{size}', tmp_path)
 
 
-def test_measured_waves_are_read_where_there_is_a_reader(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    text = f'{GROWTH}[wave]\ncsv = "wave.csv"\n'
-    name = "tests.no_such_reader"
-    monkeypatch.setattr(waves, "MEASURED", name)
-    assert "this version reads no measured waves" in mistake_of(text)
-    reader: Any = types.ModuleType(name)
-    reader.__spec__ = types.SimpleNamespace(name=name)
-    seen = []
+def samples(noise: float) -> tuple[Array, Array, Array]:
+    """y (40 mm), t (8 s) and c of a sine with noise."""
+    y, t = np.linspace(-20, 20, 21), np.linspace(0, 8, 12, endpoint=False)
+    c = np.sin(2 * np.pi * (y[:, None] / 40 - t / 8))
+    return y, t, c + noise * np.random.default_rng(0).normal(size=c.shape)
 
-    def read(path: Path, *, period: float | None) -> SineWave:
-        seen.append((path, period))
-        return SineWave(2, period or 3.0)
 
-    reader.read = read
-    monkeypatch.setitem(sys.modules, name, reader)
-    assert scene_of(text, tmp_path).wave == SineWave(2, 3.0)
-    assert scene_of(f"{text}period = 4", tmp_path).wave == SineWave(2, 4.0)
-    assert seen == [(tmp_path / "wave.csv", None), (tmp_path / "wave.csv", 4.0)]
+@pytest.mark.parametrize("noise", [0.0, 0.02])
+def test_measured_waves_are_those_of_the_library(noise: float, tmp_path: Path) -> None:
+    y, t, c = samples(noise)
+    rows = np.stack([v.ravel() for v in np.broadcast_arrays(y[:, None], t, c)], axis=1)
+    np.savetxt(tmp_path / "wave.csv", rows, delimiter=",", header="y,t,c", comments="")
+    text = IN_MM.replace('period = "8 s"', 'period = "8 s"\ncsv = "wave.csv"')
+    scene = scene_of(text, tmp_path)
+    assert scene.wave == SampledWave.from_csv(tmp_path / "wave.csv", period=8.0)
+    assert scene_of(toml_of(scene)) == scene  # without the file
+    asked = scene_of(text.replace("csv =", "harmonics = 2\ndegree = 9\ncsv ="), tmp_path)
+    assert asked.wave == SampledWave.from_csv(tmp_path / "wave.csv", period=8.0, harmonics=2, degree=9)
+    assert scene_of(toml_of(asked)) == asked
+    free = Scene(Sheet(40.0, 20.0), SampledWave(y, t, c), 0.01)
+    assert scene_of(toml_of(free)) == free
+    x = np.linspace(-10, 10, 5)
+    wide = Scene(
+        Sheet(40.0, 20.0),
+        SampledWave(x, y, t, c + 0 * x[:, None, None], period=8.0, degree=(1, 8)),
+        0.01,
+    )
+    assert scene_of(toml_of(wide)) == wide
+
+
+def test_a_measured_wave_that_cannot_be_read_is_refused(tmp_path: Path) -> None:
+    text = IN_MM.replace('period = "8 s"', 'period = "8 s"\ncsv = "wave.csv"')
+    assert "csv = 'wave.csv': there is no such file" in mistake_of(text, tmp_path)
+    path = tmp_path / "wave.csv"
+    path.write_text("y,time,c\n1,2,3\n")
+    assert "column" in mistake_of(text, tmp_path)
+    path.write_text("y,t,c\n1,2,x\n")
+    words = mistake_of(text, tmp_path)
+    assert "wave.csv, line 2, column 'c' has 'x'" in words
+    assert words.startswith(f"{tmp_path}/scene.toml:") or "[wave]" in words

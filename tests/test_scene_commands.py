@@ -138,7 +138,7 @@ def test_speed_of_a_sheet_that_bends_is_told_in_its_units(capsys: Any) -> None:
     assert "60 × 30 × 1.5 mm" in out
     assert "curvature " in out
     assert "bending" not in out[out.index("left out") :]
-    assert "friction that deforms the sheet" in out[out.index("left out") :]
+    assert "deformation by friction" in out[out.index("left out") :]
     assert "inertia" in out[out.index("left out") :]
 
 

@@ -9,7 +9,7 @@ from fem_check.shell.cycle.shapes import cycle_of_shapes
 from fem_check.shell.effects.koiter import Membrane
 from fem_check.shell.material import Material
 from linear_theory import FieldWave, Sheet, SineWave, TravellingWave, crawl_speed, second_order
-from linear_theory.balance.period import Resolution
+from linear_theory.balance.crawl import Resolution
 from linear_theory.deformation.load_cases import mixed_norms
 from linear_theory.deformation.ritz import ritz_field
 from linear_theory.deformation.second.field import SecondOrderField, second_order_field

@@ -23,12 +23,12 @@ from fem_check.shell.kinematics.surface import (
     Flat,
     SpherePart,
     Surface,
-    Trapezoid,
 )
 from fem_check.shell.material import Material
 from fem_check.shell.statics.potential import Load, Potential
 from fem_check.shell.statics.sparsity import Sparsity
 from linear_theory.growth.growth import Growth
+from tests.shell_cases import trapezoid
 
 Array = NDArray[np.float64]
 
@@ -65,7 +65,7 @@ def check(potential: Potential, u: Array, scale: float, seed: int) -> None:
 
 SURFACES = {
     "flat": Flat(),
-    "trapezoid": Trapezoid(0.5, 0.8),
+    "trapezoid": trapezoid,
     "ring": AnnulusSector(),
     "cylinder": Cylinder(0.7),
     "sphere": SpherePart(0.7),
@@ -108,7 +108,7 @@ PLANAR = [skfem.ElementQuad2, skfem.ElementTriP2, skfem.ElementTriP4, skfem.Elem
 @pytest.mark.parametrize("element", PLANAR)
 @pytest.mark.parametrize("material", MATERIALS)
 def test_membrane_in_the_plane(element: Callable[[], object], material: str) -> None:
-    d = sheet(element(), Trapezoid(0.5, 0.8), 2)
+    d = sheet(element(), trapezoid, 2)
     rng = np.random.default_rng(2)
     rest = grown_state(d.interior, rng.normal(size=d.interior.size), Growth(0.2))
     check(Potential(d, (Membrane(MATERIALS[material]),), rest), 0.01 * rng.normal(size=d.size), 0.01, 2)

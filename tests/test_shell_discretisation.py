@@ -18,17 +18,16 @@ from fem_check.shell.kinematics.surface import (
     Flat,
     SpherePart,
     Surface,
-    Trapezoid,
 )
 from fem_check.shell.material import Material, elastic_tensor
 from fem_check.shell.statics import linear_solver
 from fem_check.shell.statics.potential import Potential
 from fem_check.shell.statics.sparsity import Sparsity
-from tests.shell_cases import koiter
+from tests.shell_cases import koiter, trapezoid
 
 RNG = np.random.default_rng(0)
 
-SURFACES = [Flat(0.2), Trapezoid(0.5, 0.8), AnnulusSector(), Cylinder(0.7), SpherePart(0.7)]
+SURFACES = [Flat(0.2), trapezoid, AnnulusSector(), Cylinder(0.7), SpherePart(0.7)]
 SHELLS = [skfem.ElementQuadBFS(), skfem.ElementTriArgyris()]
 LAGRANGE = [skfem.ElementQuad1(), skfem.ElementQuad2(), skfem.ElementTriP2(), skfem.ElementTriP4()]
 
@@ -107,7 +106,7 @@ def test_curvature_of_reference_surfaces() -> None:
         (Cylinder(0.7), 0.0, -0.5 / 0.7),
         (SpherePart(0.7), 1 / 0.49, -1 / 0.7),
         (AnnulusSector(), 0.0, 0.0),
-        (Trapezoid(0.5, 0.8), 0.0, 0.0),
+        (trapezoid, 0.0, 0.0),
     ):
         region = Discretisation(mesh, skfem.ElementQuadBFS(), surface).interior
         (a11, a22, a12), (b11, b22, b12) = region.metric, region.curvature

@@ -14,7 +14,7 @@ from fem_check.shell.model import ShellModel
 from fem_check.shell.statics.newton import Minimiser
 from fem_check.shell.statics.ramp import ramp
 from linear_theory import Sheet, TravellingWave
-from linear_theory.balance.period import Crawl, first_resolution
+from linear_theory.balance.crawl import Crawl, first_resolution
 from linear_theory.motion.rigid import RigidNorm
 
 ANGLES = 2 * np.pi * np.arange(12) / 12

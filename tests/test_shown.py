@@ -19,11 +19,12 @@ from fem_check.shell.cycle.frame import BodyFrame
 from fem_check.shell.cycle.shapes import cycle_of_shapes
 from fem_check.shell.cycle.speed import Cycle
 from fem_check.shell.effects.loads import EdgeMoment
-from fem_check.shell.kinematics.surface import AnnulusSector, Cylinder, Flat, SpherePart, Trapezoid
+from fem_check.shell.kinematics.surface import AnnulusSector, Cylinder, Flat, SpherePart
 from fem_check.shell.model import ShellModel
 from fem_check.shell.statics.equilibrium import Equilibrium
 from fem_check.shell.stepping.run import Progress
 from linear_theory.common.shown import LINES, WIDTH, Shown, in_words, number, with_error
+from linear_theory.friction.law import Response
 from linear_theory.growth.bilayer import Couplings
 
 PACKAGES = (linear_theory, fem_check)
@@ -67,6 +68,12 @@ def many_harmonics():
 def turning():
     wave = linear_theory.FieldWave(lopsided, period=1.0)
     return linear_theory.crawl_speed(SHEET, wave, alpha=0.25, rtol=5e-2)
+
+
+def measured():
+    y, t = np.linspace(-0.5, 0.5, 12), np.arange(10) / 10
+    c = np.sin(2 * np.pi * (y[:, None] - t)) + 0.1 * np.cos(40 * y[:, None] * t)
+    return linear_theory.SampledWave(y, t, c, period=1.0)
 
 
 @cache
@@ -120,6 +127,7 @@ MADE = {
     "Exp": linear_theory.Exp,
     "FieldWave": lambda: linear_theory.FieldWave(lambda x, y, t: np.sin(y - t), 1.0, name="a & <b>"),
     "FieldDrive": lambda: linear_theory.FieldWave(lopsided, period=1.0).on(SHEET),
+    "FitUncertainty": lambda: measured().uncertainty,
     "Flat": Flat,
     "Friction": lambda: fem_check.Friction(0.7, 0.01),
     "FrictionField": lambda: linear_theory.friction_field(field("AirySeries"), 0.1, [0.1, 0.2], 0, 0.1),
@@ -128,6 +136,7 @@ MADE = {
     "HeightMap": lambda: fem_check.HeightMap(np.zeros((9, 9)), 1.0, 2.0),
     "Growth": lambda: linear_theory.Growth(0.25),
     "Inertia": lambda: fem_check.Inertia(1.0, MATERIAL),
+    "IsotropicResponse": lambda: linear_theory.Tanh(0.1).at(np.ones((2, 3))),
     "Linear": linear_theory.Linear,
     "Material": lambda: MATERIAL,
     "Membrane": lambda: MEMBRANE,
@@ -139,14 +148,18 @@ MADE = {
     ),
     "Path": lambda: linear_theory.rigid_path(turning(), periods=20),
     "PlaneStressField": lambda: field("PlaneStressField"),
+    "PolynomialDrive": lambda: measured().on(SHEET),
+    "PolynomialWave": lambda: measured().smooth,
     "Poses": lambda: trajectory().path,
     "Potential": potential,
     "Prediction": lambda: fem_check.predict(SHEET, SINE, alpha=0.05, rtol=0.1),
     "Progress": lambda: Progress(0.1, 2.0, 7, 0, 1.0, 20.0),
     "Region": lambda: ShellModel(full_scene()).discretisation.interior,
+    "Response": lambda: Response(linear_theory.Coulomb(), np.ones((2, 3))),
     "RestState": lambda: ShellModel(planar()).rest(0.2),
     "RigidSpeed": lambda: turning().turning,
     "RitzField": lambda: field("RitzField"),
+    "SampledWave": measured,
     "Scale": lambda: linear_theory.Scale(0.04, 8.0),
     "Scene": full_scene,
     "Scene on a mesh": lambda: planar(mesh=fem_check.Outline.trapezoid(0.5, 0.5, 1.0).mesh(0.3)),
@@ -163,7 +176,6 @@ MADE = {
     "TimeFactors": lambda: many_harmonics().factors([0.0, 0.1]),
     "Tolerance": lambda: linear_theory.Tolerance(1e-3),
     "Trajectory": trajectory,
-    "Trapezoid": lambda: Trapezoid(0.5, 0.4),
     "TravellingDrive": lambda: field("PlaneStressField").drive,
     "TravellingWave": lambda: linear_theory.TravellingWave([1.0, 0.5], [0.0, 0.0]),
     "TravellingWave of many": many_harmonics,
@@ -269,7 +281,7 @@ def test_plain_data_is_json(name):
 
 
 def test_internals_of_effects_are_not_shown():
-    assert repr(fem_check.Friction(0.7, 0.01)) == "Friction(coefficient=0.7, slip_speed=0.01)"
+    assert repr(fem_check.Friction(0.7, 0.01)) == "Friction(coefficient=0.7, law=Tanh(slip_speed=0.01))"
     with pytest.raises(TypeError):
         fem_check.Friction(0.7, 0.01, entries=(1,))
 

@@ -1,6 +1,9 @@
 """BLAS is held at one thread inside of what the package computes, and at the user's number after it."""
 
 import multiprocessing
+import os
+import subprocess
+import sys
 import threading
 from collections.abc import Callable, Iterator
 
@@ -112,6 +115,22 @@ def test_speeds_and_friction_of_a_known_field_are_found_at_one_thread():
         seen.clear()
         call()
         assert 1 in seen
+
+
+def test_the_blas_of_scipy_is_limited_where_it_was_not_loaded_before():
+    code = (
+        "import linear_theory; from linear_theory.common.threads import one_blas_thread\n"
+        "with one_blas_thread:\n"
+        "    import scipy.linalg, threadpoolctl\n"
+        "    blas = threadpoolctl.ThreadpoolController().select(user_api='blas').info()\n"
+        "    print({library['num_threads'] for library in blas})"
+    )
+    environment = {**os.environ, "OPENBLAS_NUM_THREADS": "2", "MKL_NUM_THREADS": "2"}
+    environment.pop("OMP_NUM_THREADS", None)
+    done = subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, check=True, env=environment
+    )
+    assert done.stdout == "{1}\n"
 
 
 def test_nested_use_and_exceptions_restore():

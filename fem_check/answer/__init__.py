@@ -1,1 +1,1 @@
-"""Answers for people: numbers with their errors and units, and what they mean, in a dozen lines."""
+"""Answers for people: numbers with errors, units and their meaning, in a dozen lines."""

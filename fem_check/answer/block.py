@@ -1,6 +1,6 @@
-"""A speed on the screen: what was asked, how fast and which way, how sure, assumptions and cost.
+"""A speed on the screen: the question, speed and direction, accuracy, assumptions and cost.
 
-The command prints it, and so does `print` of a `Prediction` in Python.
+The command prints this block, and so does `print` of a `Prediction` in Python.
 """
 
 import math
@@ -21,19 +21,19 @@ if TYPE_CHECKING:
     from fem_check.choice.prediction import Prediction
 
 WIDTH = 80
-"""Columns, unless said otherwise."""
+"""Default width of the block, in columns."""
 
 STEPPED = "stepped"
 """The level on which friction acts back on the sheet."""
 
 LABEL = 10
-"""Columns of the words on the left."""
+"""Columns taken by the labels on the left."""
 
 LEVEL_WORDS = {
-    "strip": "the closed balance of a narrow strip",
-    "first order": "theory of small strain",
-    "second order": "theory of second order in alpha",
-    "cycle": "the cycle of shapes",
+    "strip": "the closed-form balance of a narrow strip",
+    "first order": "small-strain theory",
+    "second order": "second-order theory in alpha",
+    "cycle": "a cycle of static shapes",
     "stepped": "steps in time",
 }
 """What a level is, by its name in `levels.LEVELS` or `ways.WAYS`."""
@@ -45,10 +45,10 @@ OWN = {
 """What the error of the model is of levels that are not compared with the nonlinear flat sheet."""
 
 Line = tuple[str, str]
-"""The words on the left, and the text."""
+"""Label on the left, and text."""
 
 GLUED = re.compile(r"(?<=\d) (?=\S)|(?<=[=×±]) | (?=[=×±])")
-"""Blanks at which no line ends: those of a number and its unit, of sums and equations."""
+"""Blanks at which no line is broken: between a number and its unit, around operators."""
 
 
 def block(
@@ -59,8 +59,8 @@ def block(
 ) -> str:
     """The answer in lines of at most `width` columns.
 
-    units: lengths L of the sheet and periods T of the wave unless given. hints: where to find more,
-    after what is left out and after the cost.
+    units: by default the length L of the sheet and the period T of the wave. hints: where to find
+    more, appended to the lines "left out" and "took".
     """
     q = found.scene
     units = units or Units.of_sheet(q.sheet.length, q.period)
@@ -100,13 +100,13 @@ def _growth(scene: Scene, units: Units) -> str:
 
 
 def _own_units(units: Units) -> str:
-    """What L and T are in the units of the question, where they are not 1."""
+    """Values of L and T in the units of the question, where they are not 1."""
     named = (units.length, units.length_factor), (units.time, units.time_factor)
     return "".join(f", {name} = {1 / factor:.6g}" for name, factor in named if factor != 1)
 
 
 def _answer(found: "Prediction", units: Units) -> Iterator[Line]:
-    """Speed, direction, the other motions, and whether the tolerance is met."""
+    """Speed, direction, sideways motion and turning, and whether the tolerance is met."""
     error = _error(found)
     shown = measured(units.of_speed(found.mean), units.of_speed(error))
     way = heading(found.scene.drive, found.mean, error)
@@ -120,18 +120,20 @@ def _answer(found: "Prediction", units: Units) -> Iterator[Line]:
 
 
 def _missed(found: "Prediction") -> str:
-    """That the tolerance is not met, and by how much; in per cent of the speed."""
+    """A missed tolerance and the error, in per cent of the speed."""
     size = abs(found.mean) / 100
     asked = f"the tolerance, {plain(found.tolerance.allowed(found.mean) / size) if size else '0'} %"
     if math.isnan(found.error) and found.level not in OWN:
-        return f"{asked}, is not known to be met: the distance to the nonlinear sheet is not known"
+        return f"{asked}, may not be met: the model error (distance to the nonlinear sheet) is unknown"
     return f"{asked}, is not met: the error is {rounded_up(_error(found) / size) if size else 'inf'} %"
 
 
 def _accuracy(found: "Prediction", units: Units) -> str:
-    """Relative error, and the errors of the numbers and of the model."""
+    """Relative error, with its numerical and model parts."""
     speed = found.speed
-    numbers = f"numerical {rounded_up(units.of_speed(speed.error))}"
+    numbers = f"numerical {rounded_up(units.of_speed(speed.error - speed.wave_error))}"
+    if speed.wave_error:
+        numbers += f", noise of the measured wave {rounded_up(units.of_speed(speed.wave_error))}"
     model = f"model {_model(found, units)}"
     if found.mean == 0 and _error(found) == 0:
         return f"exact: nothing moves ({numbers}, {model})"
@@ -145,7 +147,7 @@ def _model(found: "Prediction", units: Units) -> str:
     if math.isnan(error) and found.level in OWN:
         return OWN[found.level]
     if math.isnan(error):
-        return "not known: how far this theory is from the nonlinear sheet was not measured here"
+        return "unknown: the distance of this theory to the nonlinear sheet was not measured here"
     if error == 0:
         return "0: this is the nonlinear flat sheet"
     return f"{rounded_up(units.of_speed(error))}, its distance to the nonlinear flat sheet"
@@ -160,21 +162,21 @@ def _assumed(found: "Prediction", units: Units, hints: tuple[str, str]) -> Itera
 
 
 def _friction(found: "Prediction", units: Units) -> str:
-    """The regime and what it means."""
+    """The friction regime and its meaning."""
     regime, law = found.speed.regime, found.scene.contact.friction
-    sticks = "; part of the sheet rests at times" if found.speed.sticks else ""
+    sticks = "; part of the sheet sticks at times" if found.speed.sticks else ""
     where = ""
     if law.regularised and math.isfinite(found.speed.slip_ratio):
-        share = f"{plain(100 * found.speed.slip_ratio, 2)} % of the fastest slip"
+        share = f"{plain(100 * found.speed.slip_ratio, 2)} % of the largest sliding speed"
         where = f" (slip speed {plain(units.of_speed(law.width))} {units.speed}, {share})"
     felt = next((effect.mu for effect in found.scene.effects if effect.mu), None)
     if felt is not None and found.level == STEPPED:
         return f"{regime}: coefficient {plain(felt)}, which deforms the sheet, too{where}{sticks}"
     means = {
-        "dry": "any coefficient gives this speed while the sheet is stiff",
-        "mixed": "between dry and viscous, so that the slip speed matters",
-        "viscous": "force in proportion to the slip; any coefficient gives this speed",
-        "none": "nothing rubs",
+        "dry": "the speed does not depend on the coefficient while the sheet is stiff",
+        "mixed": "between dry and viscous, the speed depends on the slip speed",
+        "viscous": "force proportional to the sliding velocity; the coefficient does not matter",
+        "none": "no friction acts",
     }
     return f"{regime}: {means[regime]}{where}{sticks}"
 
@@ -188,12 +190,12 @@ def _hinted(text: str, hint: str) -> str:
 
 
 def _error(found: "Prediction") -> float:
-    """Of numbers and model where that is known, else of the numbers alone."""
+    """Numerical plus model error where the latter is known, else the numerical error alone."""
     return found.speed.error if math.isnan(found.error) else found.error
 
 
 def wrapped(label: str, text: str, width: int = WIDTH) -> str:
-    """A line with its label, continued under its own start."""
+    """A labelled line, with continuation lines indented to the text."""
     indent = " " * (2 + LABEL)
     filled = textwrap.fill(
         GLUED.sub("\N{NO-BREAK SPACE}", text),
@@ -207,13 +209,13 @@ def wrapped(label: str, text: str, width: int = WIDTH) -> str:
 
 
 def why(found: "Prediction", width: int = WIDTH) -> str:
-    """Every level with what it was good for: those that were not taken, and the one that was."""
+    """Why each level was or was not chosen."""
     taken = (
-        "taken: it meets the tolerance" if found.converged else "taken, though it misses the tolerance"
+        "chosen: it meets the tolerance" if found.converged else "chosen, but it misses the tolerance"
     )
-    if not found.passed and found.reason.startswith("asked for"):
-        taken = f"taken: {found.reason}"
-    rows = [(one.level, f"not taken: {one.why}", one.seconds) for one in found.passed]
+    if not found.passed and found.reason.startswith("requested"):
+        taken = f"chosen: {found.reason}"
+    rows = [(one.level, f"not chosen: {one.why}", one.seconds) for one in found.passed]
     rows.append((found.level, taken, found.speed.seconds))
     seen = {level for level, _, _ in rows}
     lines = [f"{level}: {text} ({_seconds(spent)})" for level, text, spent in rows]

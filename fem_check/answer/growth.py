@@ -1,4 +1,4 @@
-"""Growth as one measures it, a share of the length, and the coupling alpha of the theory."""
+"""Measured growth, as a relative change of length, and the growth coupling alpha of the theory."""
 
 from typing import NamedTuple
 
@@ -12,27 +12,27 @@ from linear_theory.wave.protocol import Drive, Wave
 from linear_theory.wave.sampled import drive
 
 POINTS = 33
-"""Each way, at which growth of any shape is looked at."""
+"""Sampling points in each direction at which growth of any form is evaluated."""
 
 
 class Extremes(NamedTuple):
-    """Largest and smallest change of length by growth, as a share of the length: 0.12 is 12 %."""
+    """Largest and smallest relative change of length by growth: 0.12 is 12 %."""
 
     crest: float
     trough: float
 
 
 def extremes(scene: Scene) -> Extremes:
-    """Of a scene, over the sheet and a period."""
+    """Extremes of growth over the sheet and one period of a scene."""
     c = scene.alpha * _growth(scene.drive)
     stretch = scene.growth.law.stretch(np.array([c.max(), c.min()]))
     return Extremes(float(stretch[0] - 1), float(stretch[1] - 1))
 
 
 def alpha_of(crest: float, wave: Wave, sheet: Sheet, law: GrowthLaw | str = "exp") -> float:
-    """alpha > 0 with which lengths at the crest of the wave grow by the share `crest` > 0.
+    """alpha > 0 for which lengths at the crest of the wave grow by the fraction `crest` > 0.
 
-    law: of growth, or its name; the stretch is 1 + crest where c is largest. Raises ValueError for
+    law: growth law or its name; the stretch is 1 + crest where c is largest. Raises ValueError for
     other values and for a wave that is nowhere positive.
 
     >>> import math
@@ -44,12 +44,14 @@ def alpha_of(crest: float, wave: Wave, sheet: Sheet, law: GrowthLaw | str = "exp
     crest = validation.positive("growth", crest)
     largest = float(_growth(drive(wave, sheet)).max())
     if largest <= 0:
-        raise ValueError(f"growth = {crest:g}: the wave has no crest, its largest c is {largest:g}")
+        raise ValueError(
+            f"growth = {crest:g}: the wave must be positive somewhere, its largest c is {largest:g}"
+        )
     return growth_law(law).strain(crest) / largest
 
 
 def _growth(drive: Drive) -> np.ndarray[tuple[int, ...], np.dtype[np.float64]]:
-    """c at places and times that leave out no extreme by much."""
+    """c at points and times dense enough to come close to every extremum."""
     width, length = drive.sheet.width, drive.sheet.length
     x, y = (s * np.linspace(-0.5, 0.5, POINTS) for s in (width, length))
     return drive.growths(np.repeat(x, POINTS), np.tile(y, POINTS))

@@ -1,4 +1,4 @@
-"""Which way a sheet goes, in words; to the side and turning, too."""
+"""The direction of motion of a sheet in words, with sideways motion and turning."""
 
 import math
 from collections.abc import Iterator
@@ -19,7 +19,7 @@ def heading(drive: Drive, mean: float, error: float) -> str:
     if mean == 0 and error == 0:
         return "at rest"
     if not abs(mean) > error:
-        return "direction not known"
+        return "direction unknown"
     way = direction(drive)
     if way == 0:
         return "towards +y" if mean > 0 else "towards −y"
@@ -27,7 +27,7 @@ def heading(drive: Drive, mean: float, error: float) -> str:
 
 
 def per_period(found: "Prediction", units: Units, error: float) -> str:
-    """The way of one period, in the unit of length, or as a share of the length L of the sheet."""
+    """Distance travelled per period, in the unit of length or in per cent of the sheet's length L."""
     scene = found.scene
     way, wrong = (size * scene.period for size in (found.mean, error))
     if units == Units.of_sheet(scene.sheet.length, scene.period):
@@ -38,7 +38,7 @@ def per_period(found: "Prediction", units: Units, error: float) -> str:
 
 
 def sideways_and_turning(speed: CrawlSpeed, period: float, units: Units) -> Iterator[tuple[str, str]]:
-    """Lines for a motion that is not mirror symmetric, none for others. Errors are of the numbers."""
+    """Extra lines for a motion without mirror symmetry, with numerical errors; else none."""
     if speed.turning is None:
         return
     (across, _, rate), (across_error, _, rate_error) = speed.turning.mean, speed.turning.error

@@ -1,20 +1,20 @@
-"""Numbers with their errors as people read them; an error that is shown is never below the true one."""
+"""Numbers with errors, rounded for people; the error is always rounded up."""
 
 import math
 from decimal import ROUND_CEILING, ROUND_HALF_EVEN, Decimal
 from typing import NamedTuple
 
 FINEST = 1e-7
-"""Of a value: no error is shown smaller, since nobody reads more digits."""
+"""Smallest error shown, relative to the value: nobody reads more digits."""
 
 PLAIN = 1e-4, 1e6
-"""Sizes between which numbers are written without a power of ten."""
+"""Range of magnitudes in which numbers are written without a power of ten."""
 
 MINUS = "\N{MINUS SIGN}"
 
 
 class Shown(NamedTuple):
-    """A value and its error, in words for a line; error is empty where the value is exact."""
+    """A value and its error as text; error is empty where the value is exact."""
 
     value: str
     error: str
@@ -32,8 +32,8 @@ class Shown(NamedTuple):
 def measured(value: float, error: float) -> Shown:
     """A value with its error, which is rounded up to one digit, or two where the first is 1.
 
-    The value has the last digit of the error; what its rounding adds is part of the error shown. An
-    error that is not finite leaves three digits and an empty error.
+    The value is rounded to the last digit of the error, and the error shown includes this rounding.
+    If the error is not finite, the value has three digits and the error is empty.
 
     >>> from fem_check.answer.rounding import measured
     >>> print(measured(0.098312, 0.000141).with_unit("mm/s"))
@@ -56,7 +56,7 @@ def measured(value: float, error: float) -> Shown:
 
 
 def rounded_up(size: float) -> str:
-    """A size >= 0 in one digit, or two where the first is 1, rounded up.
+    """A number >= 0 rounded up to one digit, or two where the first is 1.
 
     >>> from fem_check.answer.rounding import rounded_up
     >>> print(rounded_up(0.00021), rounded_up(1.41), rounded_up(0), rounded_up(3e-9))
@@ -70,7 +70,7 @@ def rounded_up(size: float) -> str:
 
 
 def plain(value: float, digits: int = 3) -> str:
-    """A number without an error, in so many digits.
+    """A number without an error, to `digits` significant digits.
 
     >>> from fem_check.answer.rounding import plain
     >>> print(plain(0.8), plain(-0.10702), plain(40.0))
@@ -84,11 +84,11 @@ def _signed(number: Decimal) -> str:
 
 
 def _last_place(error: Decimal) -> int:
-    """Power of ten of the last digit shown of an error."""
+    """Power of ten of the last digit of the error that is shown."""
     first = error.adjusted()
     return first - 1 if error.scaleb(-first) < 2 else first
 
 
 def _decimal(number: float) -> Decimal:
-    """The shortest decimal that is this double, so that 0.3 is not above 0.3."""
+    """The shortest decimal that represents this double, so that rounding up 0.3 gives 0.3."""
     return Decimal(repr(float(number)))

@@ -1,4 +1,4 @@
-"""Units in which an answer is told and drawn."""
+"""Units in which an answer is printed and drawn."""
 
 from dataclasses import dataclass
 
@@ -7,10 +7,11 @@ from linear_theory.common import validation
 
 @dataclass(frozen=True)
 class Units:
-    """Names of the units of length and time, and what one unit of the sheet is in them.
+    """Names of the units of length and time, and their conversion factors.
 
-    Numbers are told and drawn times length_factor and time_factor: a sheet of length 1 that is 40 mm
-    long has length = "mm", length_factor = 40. Raises ValueError for factors that are not positive.
+    Lengths and times are multiplied by length_factor and time_factor: for a sheet of length 1 that
+    is 40 mm long, length = "mm" and length_factor = 40. Raises ValueError for factors that are not
+    positive.
 
     >>> from fem_check.output import Units
     >>> units = Units("mm", "s", length_factor=40.0, time_factor=8.0)
@@ -29,7 +30,7 @@ class Units:
 
     @classmethod
     def of_sheet(cls, length: float, period: float) -> "Units":
-        """Lengths of the sheet, L, and periods of the wave, T."""
+        """Units L, the length of the sheet, and T, the period of the wave."""
         return cls("L", "T", 1 / length, 1 / period)
 
     @property
@@ -39,7 +40,7 @@ class Units:
 
     @property
     def speed_factor(self) -> float:
-        """What one unit of length per unit of time is in it."""
+        """Conversion factor of speeds."""
         return self.length_factor / self.time_factor
 
     def of_length(self, length: float) -> float:

@@ -6,30 +6,30 @@ from linear_theory.wave.protocol import Drive
 from linear_theory.wave.travelling import TravellingWave
 
 PULSE = 0.4
-"""Share of a wavelength above half height, below which a wave is a pulse; that of a sine is 1/2."""
+"""Fraction of a wavelength above half height below which a wave is called a pulse (sine: 1/2)."""
 
 PHASES = 4096
 
 
 def direction(drive: Drive) -> int:
-    """1 for a wave that runs towards +y, -1 towards -y, 0 where that is not said by a number."""
+    """1 for a wave that runs towards +y, -1 towards -y, 0 for a general wave c(x, y, t)."""
     series = drive.series
     return 0 if series is None or not series.moves else int(np.sign(series.count))
 
 
 def arrows(drive: Drive, speed: float) -> tuple[str, str]:
-    """The wave and the sheet with the way they go, +y to the right."""
+    """Labels of wave and sheet with arrows along their motion, +y to the right."""
     ways = {1: "{} ──▶", -1: "◀── {}", 0: "{}"}
     return ways[direction(drive)].format("wave"), ways[int(np.sign(speed))].format("sheet")
 
 
 def wave_words(drive: Drive) -> str:
-    """How many waves of what form are on the sheet."""
+    """Number and form of the waves on the sheet."""
     wave = drive.series
     if wave is None:
-        return "a wave c(x, y, t)"
+        return str(getattr(drive.wave, "words", "a wave c(x, y, t)"))
     if not wave.moves:
-        return "growth that stands still"
+        return "growth constant in time"
     count = abs(wave.count)
     if wave.sine_amplitude is not None:
         return f"{_counted(count, 'sine wave')} on the sheet"
@@ -40,7 +40,7 @@ def wave_words(drive: Drive) -> str:
 
 
 def above_half(wave: TravellingWave) -> float:
-    """Share of a wavelength in which c is above the middle of its range, in one piece; else 1."""
+    """Fraction of a wavelength where c is above the middle of its range; 1 if not one interval."""
     c = wave.profile(2 * np.pi / PHASES * np.arange(PHASES))
     above = c > (c.max() + c.min()) / 2
     pieces = int(np.sum(above & ~np.roll(above, 1)))

@@ -1,1 +1,1 @@
-"""The levels that answer a question, and the choice between them."""
+"""The levels of theory, and the choice of the cheapest that meets a tolerance."""

@@ -1,18 +1,19 @@
-"""The levels that answer the question, from cheap to general, each a function of the same scene.
+"""The levels of theory, from cheap to general, each a function of the same scene.
 
-    strip         closed balance of a narrow isotropic strip, finite strain      microseconds to ms
+    strip         closed-form balance of a narrow isotropic strip, finite strain microseconds to ms
     first order   small strain (eqs 10, 11), series or Ritz                      tens of ms
     second order  V_1 alpha + V_2 alpha^2 of the nonlinear sheet                 tenths of a second
-    cycle         the nonlinear sheet itself, statics and friction balance       tenths of a second on
+    cycle         the nonlinear sheet itself, statics and friction balance       tenths of a second up
 
-The target of all is the planar nonlinear sheet of the stated growth law, area measure and load, so
-stiff that friction does not change its shape. The last level is that sheet; how far the others are from
-it is known where it was measured (`linear_theory.speed.model_error`).
+The target is the planar nonlinear sheet with the stated growth law, area measure and load, so stiff
+that friction does not change its shape. The last level is that sheet; the distance of the others to it
+is known where it was measured (`linear_theory.speed.model_error`).
 """
 
 import math
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 
 from fem_check.mesh.elements import default_cells
 from fem_check.shell.cycle.speed import Cycle
@@ -24,29 +25,30 @@ from linear_theory.scene.scene import Scene
 from linear_theory.speed.crawl import drawn_deformation, theory_speed
 from linear_theory.speed.model_error import model_error
 from linear_theory.speed.result import CrawlSpeed
+from linear_theory.speed.wave_error import with_wave_error
 
 MESHES = (1, 2, 4)
-"""Factors of the default cells that the nonlinear sheet is tried with, coarse to fine."""
+"""Refinement factors of the default cells tried for the nonlinear sheet, coarse to fine."""
 
 HELPED = 0.5
-"""Share of the error that a finer mesh leaves at most where the mesh is what makes it: order 2 and more
-leave a quarter. Else a wave too rough in time does, and four times the work would be in vain."""
+"""A finer mesh must reduce the error at least to this fraction, else the mesh is not what limits it:
+convergence of order 2 leaves a quarter. A wave too rough in time is not helped by finer meshes."""
 
 
 Level = Callable[[Scene, Tolerance], CrawlSpeed]
-"""Answers for a planar scene to a tolerance."""
+"""Speed of a planar scene to a tolerance."""
 
 
 def strip(scene: Scene, tolerance: Tolerance) -> CrawlSpeed:
-    """The narrow strip, as long as the sheet; ValueError for a wave that depends on x."""
+    """A narrow strip as long as the sheet. Raises ValueError for a wave that depends on x."""
     if scene.drive.depends_on_x:
-        raise ValueError("method = 'strip': cannot represent a wave that depends on x, 'cycle' can")
+        raise ValueError("method = 'strip': must be 'cycle' for a wave that depends on x")
     found, distance = line_crawl(scene, tolerance, "strip"), model_error("strip", scene)
     return replace(found, model_error=distance, deformation=drawn_deformation(scene))
 
 
 def first_order(scene: Scene, tolerance: Tolerance) -> CrawlSpeed:
-    """Small strain; the target's growth law and energy area do not enter."""
+    """Small strain, independent of the target's growth law and energy area."""
     return theory_speed(scene, tolerance, order=1)
 
 
@@ -56,7 +58,11 @@ def second_order(scene: Scene, tolerance: Tolerance) -> CrawlSpeed:
 
 
 def cycle(scene: Scene, tolerance: Tolerance) -> CrawlSpeed:
-    """The target, on finer meshes as long as the tolerance is not met and they help."""
+    """The target, on finer and finer meshes until the tolerance is met or they no longer help."""
+    return with_wave_error(scene, tolerance, partial(_numbers_of_cycle, scene))
+
+
+def _numbers_of_cycle(scene: Scene, tolerance: Tolerance) -> CrawlSpeed:
     seconds, before = 0.0, math.inf
     for factor in MESHES:
         fine = finer(scene, factor)
@@ -70,7 +76,7 @@ def cycle(scene: Scene, tolerance: Tolerance) -> CrawlSpeed:
 
 
 def finer(scene: Scene, factor: int) -> Scene:
-    """A planar scene with `factor` times its cells each way."""
+    """A planar scene with `factor` times its cells in each direction."""
     across, along = scene.cells or default_cells(scene.drive, planar=True)
     return scene.but(cells=(factor * across, factor * along))
 
@@ -81,15 +87,15 @@ LEVELS: dict[str, Level] = {
     "second order": second_order,
     "cycle": cycle,
 }
-"""By name, cheapest first; the last one is the target."""
+"""The levels by name, cheapest first; the last one is the target."""
 
 TARGET = "cycle"
-"""The level that is the target."""
+"""Name of the level that is the target."""
 
 TARGET_EFFECTS = (Membrane,)
-"""Classes of the effects that the target knows: see `abilities.left_out` for those that it does not."""
+"""Classes of the effects in the target; `abilities.left_out` lists those that it neglects."""
 
 
 def distance(level: str, scene: Scene) -> float:
-    """Between that level and the target, absolute, as far as it was measured; else NaN."""
+    """Distance between that level and the target, absolute, where it was measured; else NaN."""
     return 0.0 if level == TARGET else model_error(level, scene)

@@ -1,4 +1,4 @@
-"""The answer to a tolerance: the cheapest level whose numerical and model error meet it together."""
+"""The speed to a given tolerance, by the cheapest level whose numerical plus model error meets it."""
 
 import math
 import time
@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 from fem_check.answer.block import block
 from fem_check.choice.levels import LEVELS, TARGET_EFFECTS, distance
-from fem_check.shell.abilities import left_out, require
+from fem_check.shell.abilities import left_out
 from linear_theory.common import validation
 from linear_theory.common.drawable import Drawable
 from linear_theory.common.errors import (
@@ -21,9 +21,9 @@ from linear_theory.common.progress import Report, part_of, watched
 from linear_theory.common.shown import Shown, number
 from linear_theory.common.threads import one_blas_thread
 from linear_theory.common.tolerance import Tolerance
-from linear_theory.friction.laws import FrictionLaw
+from linear_theory.friction.law import FrictionLaw
 from linear_theory.friction.load import Load
-from linear_theory.friction.regime import warn_if_viscous
+from linear_theory.friction.regime import Regime, warn_if_viscous
 from linear_theory.growth.growth import Reference
 from linear_theory.growth.laws import GrowthLaw
 from linear_theory.scene.level import THEORY
@@ -36,26 +36,27 @@ from linear_theory.wave.protocol import Wave
 METHODS = ("auto", *LEVELS)
 
 SHARE = 0.5
-"""Of the tolerance, for the error of the model; the rest is for the numbers."""
+"""Fraction of the tolerance allotted to the numerical error; the rest is for the model error."""
 
 
 @dataclass(frozen=True)
 class Prediction(Drawable, Shown):
-    """A speed with the level that gave it.
+    """A speed and the level that gave it.
 
-    speed: its `error` is that of the numbers and `model_error` the distance to the target, NaN where it
-    is unknown (never so for method = "auto"). level: a key of `levels.LEVELS`; reason: why this one and
-    none of those before it, in words. converged: whether `error` meets the tolerance that was asked
-    for. seconds: of all that was tried. left_out: what the target itself leaves out, in words: a flat
-    sheet of no thickness on which friction acts and nothing else. scene, tolerance: what was asked, and
-    how exactly. passed: the levels that were not taken, and why. `str` tells all of it in a
-    dozen lines (see `answer.block`), in lengths L of the sheet and periods T of the wave.
+    speed: `speed.error` is the numerical error and `speed.model_error` the distance to the target, NaN
+    where unknown (never for method = "auto"). level: a key of `levels.LEVELS`; reason: why this level
+    was chosen and no cheaper one, in words. converged: whether `error`, numerical plus model error,
+    meets the tolerance. seconds: total time, with the levels that were tried in vain. left_out: effects
+    that the target itself neglects, in words: it is a flat sheet without thickness on which friction
+    alone acts. scene, tolerance: the question. passed: the levels that were not chosen, and why. `str`
+    prints the answer in a dozen lines (see `answer.block`), in units of the length L of the sheet and
+    the period T of the wave.
 
     >>> from fem_check import predict
     >>> from linear_theory import Sheet, SineWave
     >>> found = predict(Sheet(), SineWave(), alpha=0.25, rtol=0.2)
     >>> print(f"V = {found.mean:.2f} +- {found.error:.2f} L/T: {found.reason}")
-    V = 0.10 +- 0.01 L/T: strip is near enough
+    V = 0.10 +- 0.01 L/T: strip meets the tolerance
     >>> print(str(found).splitlines()[2])
       speed     0.101 ± 0.015 L/T, along the wave; 10.1 % of L per period
     """
@@ -77,8 +78,18 @@ class Prediction(Drawable, Shown):
 
     @property
     def error(self) -> float:
-        """Of numbers and model together, absolute."""
+        """Numerical plus model error, absolute."""
         return total_error(self.speed)
+
+    @property
+    def model_error(self) -> float:
+        """Distance of the level to the target, absolute."""
+        return self.speed.model_error
+
+    @property
+    def regime(self) -> Regime:
+        """See `CrawlSpeed.regime`."""
+        return self.speed.regime
 
     def __str__(self) -> str:
         return block(self)
@@ -87,7 +98,10 @@ class Prediction(Drawable, Shown):
         return f"Prediction: {speed_in_words(self.mean, self.error, self.converged)}"
 
     def _rows(self) -> Mapping[str, Any]:
-        errors = f"{self.speed.error:.2g} of numbers, {number(self.speed.model_error)} of the model"
+        numerical, wave = self.speed.error - self.speed.wave_error, self.speed.wave_error
+        errors = f"{numerical:.2g} numerical, {number(self.speed.model_error)} model"
+        if wave:
+            errors += f", {wave:.2g} wave"
         answer = {"level": self.level, "reason": self.reason, "error": errors}
         left_out = {"left_out": "; ".join(self.left_out)} if self.left_out else {}
         friction = {"regime": self.speed.regime, "model": self.speed.model}
@@ -104,7 +118,7 @@ class _Passed(NamedTuple):
 
 
 class Passed(Shown, _Passed):
-    """A level that was not taken, why, in words, and the seconds that it took to see that."""
+    """A level that was not chosen, why (in words), and the time spent on it in seconds."""
 
 
 def predict(
@@ -122,21 +136,21 @@ def predict(
     *,
     progress: bool | Report | None = None,
 ) -> Prediction:
-    """How fast the nonlinear sheet crawls, by the cheapest level that is known to be near enough.
+    """Speed of the nonlinear sheet, by the cheapest level known to meet the tolerance.
 
-    The target is a planar sheet that grows by growth_law, counts its energy per area, carries load and
-    is too stiff for friction to change its shape; arguments as in `crawl_speed`, or a planar `Scene`.
-    method = "auto" takes
-    of "strip", "first order", "second order" and "cycle" the first one whose error and model error
-    together are below max(rtol |mean|, atol), atol = 1e-3 rtol alpha^2 L/T unless given; a level whose
-    model error is unknown (see `model_error`) is never taken. Any of the names takes that level.
-    A tolerance that the last level misses shows in `converged`; what the target leaves out (bending,
-    and with it the thickness; the ground; friction that deforms the sheet), in `left_out`: scenes with
-    these effects are for `cycle_speed` and `simulate`. progress: True prints on stderr, a function is
+    The target is a planar sheet that grows by growth_law, with its elastic energy counted per `area`
+    and the normal load `load`, too stiff for friction to change its shape; arguments as in
+    `crawl_speed`, or a planar `Scene`. method = "auto" tries "strip", "first order", "second order" and
+    "cycle" in this order and returns the first whose numerical plus model error is below
+    max(rtol |mean|, atol), atol = 1e-3 rtol alpha^2 L/T unless given; a level whose model error is
+    unknown (see `model_error`) is skipped. The name of a level as method selects that level.
+    `converged` is False if even the last level misses the tolerance. `left_out` lists what the target
+    neglects (bending, and with it the thickness; the ground; deformation by friction): for scenes with
+    these effects use `cycle_speed` and `simulate`. progress: True prints on stderr, a function is
     called with a `linear_theory.common.progress.Progress`.
 
-    Raises ValueError for bad input and what the level that is asked for raises. Warns as `crawl_speed`
-    does of the level that answers.
+    Raises ValueError for bad input and what the chosen level raises. Warns as `crawl_speed` does, for
+    the level that gives the answer.
 
     >>> from fem_check import predict
     >>> from linear_theory import Sheet, SineWave
@@ -148,14 +162,14 @@ def predict(
     scene = Scene.stated(
         sheet, wave, alpha, load, friction, slip_speed, growth_law=growth_law, area=area
     )
-    require(THEORY, scene)
+    THEORY.require(scene)
     tolerance = Tolerance(rtol, atol).of_speed(scene.alpha, scene.unit)
     validation.choice("method", method, METHODS)
     with watched(progress, "predict"):
         if method == "auto":
             found = _cheapest(scene, tolerance)
         else:
-            found = _answer(scene, method, tolerance, "asked for")
+            found = _answer(scene, method, tolerance, "requested")
             found = replace(found, reason=f"{found.reason}; {found.speed.reach}")
     warn_if_viscous(scene.contact.friction, found.speed.slip_ratio)
     warn_if_beyond(scene.alpha, found.speed.beyond_reach)
@@ -163,12 +177,12 @@ def predict(
 
 
 def total_error(speed: CrawlSpeed) -> float:
-    """Of numbers and model together, absolute; NaN where that of the model is unknown."""
+    """Numerical plus model error, absolute; NaN where the model error is unknown."""
     return speed.error + speed.model_error
 
 
 def _cheapest(scene: Scene, tolerance: Tolerance) -> Prediction:
-    """Try those levels in turn that could do, the target last."""
+    """Try the levels that may meet the tolerance in turn, the target last."""
     passed: list[Passed] = []
     largest = math.inf
     for level in LEVELS:
@@ -181,21 +195,21 @@ def _cheapest(scene: Scene, tolerance: Tolerance) -> Prediction:
                 obstacle = str(failure)
             else:
                 if found.converged:
-                    return _explained(found, f"{level} is near enough", passed)
+                    return _explained(found, f"{level} meets the tolerance", passed)
                 largest = abs(found.mean) + found.error
                 obstacle = f"error {found.error:.1g} is above {tolerance.allowed(found.mean):.1g}"
         passed.append(Passed(level, obstacle, time.perf_counter() - begin))
-    return _explained(found, "the last level", passed)
+    return _explained(found, f"{level} is the last level", passed)
 
 
 def _explained(found: Prediction, reason: str, passed: list[Passed]) -> Prediction:
-    """With the reason why this level was taken, and none of those before."""
+    """The prediction with the reasons for this level and against those before it."""
     others = "".join(f"; not {one.level}: {one.why}" for one in passed)
     return replace(found, reason=reason + others, passed=tuple(passed))
 
 
 def _obstacle(scene: Scene, level: str, allowed: float) -> str:
-    """Why a level cannot do, seen without solving it; empty if it may. allowed: error, at the most."""
+    """Why a level cannot meet the tolerance, known without solving; empty if it may. allowed: error."""
     model = distance(level, scene)
     if math.isnan(model):
         return "its model error is unknown here"
@@ -207,7 +221,7 @@ def _obstacle(scene: Scene, level: str, allowed: float) -> str:
 @one_blas_thread
 def _answer(scene: Scene, level: str, tolerance: Tolerance, reason: str) -> Prediction:
     with warnings.catch_warnings():
-        for kind in (ViscousRegimeWarning, BeyondReachWarning):  # `predict` says it, of the answer
+        for kind in (ViscousRegimeWarning, BeyondReachWarning):  # `predict` warns, for the answer
             warnings.simplefilter("ignore", kind)
         with part_of(level):
             speed = LEVELS[level](scene, tolerance.share(SHARE))

@@ -10,7 +10,7 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from fem_check.choice.prediction import Prediction, predict
-from fem_check.shell.abilities import CYCLE, STEPPED, left_out, require
+from fem_check.shell.abilities import CYCLE, STEPPED, left_out
 from fem_check.shell.cycle.speed import cycle_speed
 from fem_check.shell.effects.friction import Friction
 from fem_check.shell.model import ShellModel
@@ -48,7 +48,7 @@ def way_of(scene: Scene, asked: str = "auto") -> str:
     """
     validation.choice("level", asked, ("auto", *WAYS))
     if asked != "auto":
-        require(WAYS[asked], scene)
+        WAYS[asked].require(scene)
         return asked
     for name, level in WAYS.items():
         if not level.objections(scene):

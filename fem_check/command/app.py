@@ -1,4 +1,4 @@
-"""The commands and what they do, as the parser sees them; the work is imported when it is asked for."""
+"""The commands as the parser sees them; the code that does the work is imported when needed."""
 
 from importlib.metadata import version
 from pathlib import Path
@@ -25,7 +25,7 @@ app = App(
     help_format="plaintext",
     default_parameter=Parameter(negative=()),
     result_action="return_value",
-    suppress_keyboard_interrupt=False,  # `program` says a line
+    suppress_keyboard_interrupt=False,  # `program` prints a line
 )
 app.register_install_completion_command(add_to_startup=False)
 

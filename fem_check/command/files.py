@@ -1,4 +1,4 @@
-"""Whether pictures and films can be made and written, found out before the work that they are for."""
+"""Checks, before any work, that pictures and films can be made and written."""
 
 from fem_check.command.options import Options
 
@@ -6,10 +6,10 @@ PICTURES = (".png", ".pdf", ".svg")
 
 
 def check_files(options: Options) -> None:
-    """Raise ValueError for a file of another kind, and OSError for one that cannot be written."""
+    """Raise ValueError for an unknown file type, and OSError for a file that cannot be written."""
     if options.plot is None and options.movie is None:
         return
-    from fem_check.output import writers  # matplotlib, for those who want pictures
+    from fem_check.output import writers  # here: it loads matplotlib
     from fem_check.output.files import writable
 
     if options.plot is not None:

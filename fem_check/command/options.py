@@ -19,23 +19,23 @@ Amplitudes = Annotated[tuple[float, ...], Parameter(group=WAVE, consume_multiple
 
 @dataclass(frozen=True, kw_only=True)
 class Options:
-    """What is asked for. Quantities are text: a number with a unit, or plain, in units of the sheet."""
+    """All options. Quantities are text: a number with a unit, or a plain one in units of the sheet."""
 
     length: Annotated[str | None, In(group=SHEET)] = None
-    """Along the wave, e.g. "40 mm". Plain numbers are in units of the sheet; 1 unless given."""
+    """Length along the wave, e.g. "40 mm". Plain numbers are in units of the sheet; 1 by default."""
     width: Annotated[str | None, In(group=SHEET)] = None
-    """Across; 0.5 unless given, half the length where that has a unit."""
+    """Width across; by default 0.5, or half the length if that has a unit."""
     thickness: Annotated[str | None, In(group=SHEET)] = None
-    """0.03 unless given, 3 % of the length where that has a unit; without effect on a flat sheet."""
+    """Thickness; by default 0.03, or 3 % of the length if that has a unit; unused for a flat sheet."""
     poisson: Annotated[float, In(group=SHEET)] = 0.5
     """Poisson ratio."""
 
     period: Annotated[str | None, In(group=WAVE)] = None
-    """Of the wave, e.g. "8 s". 1 unless given."""
+    """Period of the wave, e.g. "8 s"; 1 by default."""
     count: Annotated[int, In(group=WAVE)] = 1
-    """Waves on the sheet; negative runs the other way, towards -y."""
+    """Number of waves on the sheet; a negative number runs towards -y."""
     pulse: Annotated[float | None, In(group=WAVE)] = None
-    """A smooth pulse instead of a sine, above half its crest in this share of a wavelength, 0.02 to 1:
+    """A smooth pulse instead of a sine; its width at half height in wavelengths, 0.02 to 1:
     c = exp(k (cos phi - 1)), k = ln 2/(1 - cos(pi share)), phi = 2 pi (count y/L - t/T)."""
     sine: Amplitudes = ()
     """Amplitudes of sin phi, sin 2 phi, ... instead of one sine."""
@@ -43,30 +43,30 @@ class Options:
     """Amplitudes of cos phi, cos 2 phi, ..."""
 
     growth: Annotated[str | None, In(group=GROWTH)] = None
-    """Of lengths at the crest of the wave, e.g. "12 %". It sets alpha by the growth law: the stretch,
-    exp(alpha c), 1 + alpha c or (1 + 2 alpha c)^(1/2), is 1.12 where c is largest."""
+    """Growth of lengths at the crest of the wave, e.g. "12 %". It sets alpha by the growth law: the
+    stretch, exp(alpha c), 1 + alpha c or (1 + 2 alpha c)^(1/2), is 1.12 where c is largest."""
     alpha: Annotated[float | None, In(group=GROWTH)] = None
-    """The growth coupling itself, instead; may be negative."""
+    """The growth coupling, instead of --growth; may be negative."""
     growth_law: Annotated[Literal["exp", "linear", "metric"], In(group=GROWTH)] = "exp"
-    """How lengths grow with alpha c, in the order of the stretches above."""
+    """Law of the stretch as a function of alpha c, in the order of the formulas above."""
     area: Annotated[Literal["grown", "undeformed"], In(group=GROWTH)] = "grown"
-    """In which elastic energy is counted."""
+    """Reference area of the elastic energy density."""
 
     load: Annotated[Literal["current", "grown", "material"], In(group=MODEL)] = "current"
-    """Weight on the ground: grows with the current or the grown area, or stays with the material."""
+    """Normal load: proportional to the current or the grown area, or conserved with the material."""
     friction: Annotated[Literal["coulomb", "tanh", "viscous"], In(group=MODEL)] = "coulomb"
-    """Dry, dry but for slow slip, or in proportion to slip."""
+    """Friction law: dry, dry but regularised at small slip, or proportional to the slip."""
     slip_speed: Annotated[str | None, In(group=MODEL)] = None
-    """Of tanh friction, e.g. "0.1 mm/s"."""
+    """Slip speed of tanh friction, e.g. "0.1 mm/s"."""
 
     rtol: Annotated[str, In(group=COST)] = "1e-2"
-    """Relative error of numbers and model together, e.g. "1 %"."""
+    """Relative tolerance for the numerical plus model error, e.g. "1 %"."""
     atol: Annotated[str | None, In(group=COST)] = None
-    """Absolute error that is good enough, a speed."""
+    """Absolute tolerance for the same error, a speed."""
     method: Annotated[
         Literal["auto", "strip", "first order", "second order", "cycle"], In(group=COST)
     ] = "auto"
-    """The level that answers; auto takes the cheapest that is known to meet the tolerance."""
+    """Level of theory; auto chooses the cheapest that is known to meet the tolerance."""
 
     json: Annotated[bool, In(group=OUTPUT)] = False
     """Print the answer as JSON, in the units of the question."""
@@ -77,4 +77,4 @@ class Options:
     movie: Annotated[Path | None, In(group=OUTPUT)] = None
     """Write a film of the crawling sheet: .gif, or .mp4 with the extra `movies`."""
     why: Annotated[bool, In(group=OUTPUT)] = False
-    """Say of each level whether it was taken, and why."""
+    """Print for each level whether it was chosen, and why."""

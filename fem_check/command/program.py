@@ -1,4 +1,4 @@
-"""The program: words in, exit status out, and one line for whatever goes wrong."""
+"""The program: arguments in, exit status out, and one line on stderr for any failure."""
 
 import contextlib
 import os
@@ -15,9 +15,9 @@ def main(arguments: Sequence[str] | None = None) -> NoReturn:
         status = _run(sys.argv[1:] if arguments is None else arguments)
         sys.stdout.flush()
     except KeyboardInterrupt as stopped:
-        _complain(str(stopped) or "stopped; nothing is kept, the same command starts anew")
+        _complain(str(stopped) or "interrupted; no partial result was kept, run the command again")
         status = INTERRUPTED
-    except BrokenPipeError:  # who reads has seen enough
+    except BrokenPipeError:  # the reader has closed the pipe
         _forget_output()
         status = CLOSED_PIPE
     except OSError as problem:
@@ -28,7 +28,7 @@ def main(arguments: Sequence[str] | None = None) -> NoReturn:
 
 
 def _run(arguments: Sequence[str]) -> int:
-    """The status of what the words ask for."""
+    """Run the command given by the arguments and return its exit status."""
     from cyclopts import CycloptsError, UnusedCliTokensError
 
     from fem_check.command.app import app
@@ -48,11 +48,11 @@ def _run(arguments: Sequence[str]) -> int:
 
 
 def _complain(problem: str) -> None:
-    """One line on stderr."""
+    """Print a problem as one line on stderr."""
     print(f"sheetcrawl: {' '.join(problem.split())}", file=sys.stderr)
 
 
 def _forget_output() -> None:
-    """Let what is not yet written go nowhere, or the interpreter would try again at its end."""
-    with contextlib.suppress(OSError, ValueError):  # a stream that stands for stdout has no number
+    """Discard unwritten output, which the interpreter would otherwise try to write at exit."""
+    with contextlib.suppress(OSError, ValueError):  # a replacement of stdout has no file number
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())

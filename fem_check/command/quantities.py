@@ -25,13 +25,13 @@ OPTIONS = {
     "slip_speed": "speed",
     "atol": "speed",
 }
-"""What the options with a dimension are, by name."""
+"""Dimension of each option that has one."""
 
 
 class Asked(NamedTuple):
-    """A question, how well it is to be answered, and the units that its numbers are in.
+    """A scene, the tolerance, and the units of the numbers given.
 
-    units: None for plain numbers, which are told in units of the sheet.
+    units: None for plain numbers, which are in units of the sheet.
     """
 
     scene: Scene
@@ -41,7 +41,7 @@ class Asked(NamedTuple):
 
 
 def asked(options: Options) -> Asked:
-    """What the options ask. Raises ValueError that names the option, its value and what to do."""
+    """The question posed by the options. Raises ValueError with the option, its value and a remedy."""
     given = {
         name: quantity(name, text, kind)
         for name, kind in OPTIONS.items()
@@ -67,7 +67,7 @@ def quantity(name: str, text: str, kind: str) -> Quantity:
 
 
 def share(name: str, text: str) -> float:
-    """A share, plain or in per cent."""
+    """A fraction, plain or in per cent."""
     found = quantity(name, text, "share")
     return found.into("dimensionless")
 
@@ -77,9 +77,9 @@ def _option(name: str) -> str:
 
 
 def _common_units(given: dict[str, Quantity]) -> "tuple[pint.Unit, pint.Unit] | None":
-    """Units of length and time of the question; None where all numbers are plain.
+    """Units of length and time of the question; None if all numbers are plain.
 
-    Raises ValueError where some are plain and others are not.
+    Raises ValueError if some are plain and others are not.
     """
     named = [(name, one) for name, one in given.items() if one.unit is not None]
     if not named:
@@ -108,7 +108,7 @@ def _in(names: "tuple[pint.Unit, pint.Unit] | None", kind: str, one: Quantity) -
 
 
 def _sheet(numbers: dict[str, float], with_units: bool, poisson: float) -> Sheet:
-    """The sheet; what is not given is that of the paper, in proportion where lengths have a unit."""
+    """The sheet; by default that of the paper, scaled in proportion if lengths have a unit."""
     sizes = {name: numbers[name] for name in ("length", "width", "thickness") if name in numbers}
     if with_units:
         paper = Sheet()
@@ -121,10 +121,10 @@ def _wave(options: Options, period: float) -> TravellingWave:
     harmonics = bool(options.sine or options.cosine)
     if options.pulse is not None:
         if harmonics:
-            raise ValueError(f"--pulse {options.pulse:g}: must be without --sine and --cosine")
+            raise ValueError(f"--pulse {options.pulse:g}: must not be combined with --sine or --cosine")
         if not NARROWEST <= options.pulse < 1:
             raise ValueError(
-                f"--pulse {options.pulse:g}: must be in [{NARROWEST:g}, 1), a share of the wavelength"
+                f"--pulse {options.pulse:g}: must be in [{NARROWEST:g}, 1), in wavelengths"
             )
         return pulse_wave(options.pulse, options.count, period)
     if not harmonics:
@@ -137,23 +137,25 @@ def _wave(options: Options, period: float) -> TravellingWave:
 
 
 def _alpha(options: Options, wave: TravellingWave, sheet: Sheet) -> float:
-    """Given, or from the growth at the crest."""
+    """alpha as given, or from the growth at the crest."""
     if options.growth is None:
         if options.alpha is None:
             raise ValueError("--growth: must be given, such as '12 %' of length, or --alpha instead")
         return options.alpha
     if options.alpha is not None:
-        raise ValueError(f"--growth {options.growth!r}: must be without --alpha {options.alpha:g}")
+        raise ValueError(
+            f"--growth {options.growth!r}: must not be combined with --alpha {options.alpha:g}"
+        )
     crest = quantity("growth", options.growth, "share")
     value = crest.into("dimensionless")
     if crest.unit is None and value >= 1:
         raise ValueError(
-            f"--growth {options.growth!r}: a plain number is a share, this one {value:g} times the "
+            f"--growth {options.growth!r}: a plain number is a fraction, here {value:g} times the "
             f"length; must be < 1, or in per cent, as in '{value:g} %'"
         )
     if not value > 0:
         raise ValueError(
             f"--growth {options.growth!r}: must be > 0 at the crest of the wave, as in '12 %'; for a "
-            "wave that shrinks lengths give a negative --alpha"
+            "wave that contracts the sheet give a negative --alpha"
         )
     return alpha_of(value, wave, sheet, options.growth_law)

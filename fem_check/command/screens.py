@@ -1,4 +1,4 @@
-"""What the program says of itself: the screen without arguments, and the examples."""
+"""The welcome screen, shown without arguments, and the examples."""
 
 from importlib.metadata import version
 
@@ -14,20 +14,20 @@ FIRST = (
     PULSE,
     "sheetcrawl speed --alpha 0.1 --width 0.2 --rtol 0.02 --why",
 )
-"""To be pasted."""
+"""Commands to paste."""
 
 SPEED = 'sheetcrawl speed --growth "10 %"'
 
 MORE = (
     (
-        "In mm/s; half as wide as long unless said otherwise",
+        "With units; by default half as wide as long",
         'sheetcrawl speed --length "2 cm" --period "0.5 s" --growth "5 %"',
     ),
-    ("The error that you can live with", f'{SPEED} --rtol "20 %"'),
+    ("A larger tolerance", f'{SPEED} --rtol "20 %"'),
     ("Two waves on the sheet, towards -y", f'{SPEED} --count -2 --rtol "5 %"'),
-    ("Any periodic wave, by its harmonics", f'{SPEED} --sine 1 0.2 --cosine 0 0.1 --rtol "5 %"'),
-    ("Friction that is not quite dry", f'{SPEED} --friction tanh --slip-speed 0.01 --rtol "5 %"'),
-    ("For programs", f"{SPEED} --json"),
+    ("Any periodic wave, by its Fourier series", f'{SPEED} --sine 1 0.2 --cosine 0 0.1 --rtol "5 %"'),
+    ("Regularised dry friction", f'{SPEED} --friction tanh --slip-speed 0.01 --rtol "5 %"'),
+    ("JSON, for programs", f"{SPEED} --json"),
     ("V(t) as a table", f"{SPEED} --csv"),
     ("A picture", f"{SPEED} --plot crawl.png"),
     ("A film", f"{SPEED} --movie crawl.gif"),
@@ -49,11 +49,11 @@ BEYOND = (
     ("outlines at small strain", "fem_check.plane_stress_field(Outline(...), wave)"),
     ("waves c(x, y, t), turning, paths", "FieldWave(...), rigid_path(...)"),
 )
-"""What the command does not do, and what in Python does."""
+"""Tasks beyond the command, and their calls in Python."""
 
-SPEED_HELP = f"""How fast the sheet crawls, how sure that is, and what it cost.
+SPEED_HELP = f"""How fast the sheet crawls, how accurate that is, and what it cost.
 
-Quantities have units, as in "40 mm", "8 s", "12 %"; plain numbers are in units of the sheet.
+Quantities may have units, as in "40 mm", "8 s", "12 %"; plain numbers are in units of the sheet.
 
   {FIRST[0]}
   {FILES[2][1]}
@@ -74,7 +74,7 @@ SCHEMA_HELP = f"""Print the JSON Schema of scene files, by which editors know ta
   {FILES[3][1]}
 """
 
-EXAMPLES_HELP = "More examples, and what in Python does what the command leaves out."
+EXAMPLES_HELP = "More examples, and the Python calls for tasks beyond this command."
 
 
 def listed() -> list[str]:
@@ -83,32 +83,32 @@ def listed() -> list[str]:
 
 
 def welcome() -> str:
-    """The screen without arguments."""
+    """The welcome screen, shown without arguments."""
     pasted = "\n".join(f"  {line}" for line in FIRST)
     return f"""sheetcrawl {version("sheetcrawl")}
-How fast a thin sheet crawls when a wave of growth runs through it, and how sure that is
+How fast a thin sheet crawls when a wave of growth runs through it, and how accurate that is
 
-To try, paste one of
+Examples to paste
 
 {pasted}
 
-What else there is
+Other commands
 
   sheetcrawl speed --help         all options: sheet, wave, growth, friction, tolerance, output
   sheetcrawl new --list           scene files with comments: bending, ground, outlines, weight, terrain
   sheetcrawl check scene.toml     what a scene file says, by which level it is answered, at what cost
-  sheetcrawl examples             more examples, pictures and films; what the answer leaves out
-  sheetcrawl --install-completion completion of commands and options by your shell
+  sheetcrawl examples             more examples, pictures and films; what to do in Python
+  sheetcrawl --install-completion shell completion of commands and options
   sheetcrawl --version
 
 In Python: from fem_check import predict; help(predict)"""
 
 
 def examples() -> str:
-    """Commands by what they are for, and Python for the rest."""
+    """Commands by purpose, and the Python calls for everything else."""
     lines = [f"{title}\n  {command}\n" for title, command in (*MORE, *FILES)]
     lines += ["Scene files to start from, for sheetcrawl new", *listed(), ""]
     width = max(len(title) for title, _ in BEYOND)
-    lines.append("What the command leaves out, in Python (help(name) shows an example of each)")
+    lines.append("Beyond the command, in Python (help(name) shows an example of each)")
     lines += [f"  {title:<{width}}  {call}" for title, call in BEYOND]
     return "\n".join(lines)

@@ -23,7 +23,7 @@ from linear_theory.common.errors import SheetcrawlError
 from linear_theory.common.progress import Report
 
 WIDEST = 100
-"""Columns of the answer, at the most."""
+"""Largest width of the answer, in columns."""
 
 HINTS = "sheetcrawl examples", "--why"
 
@@ -34,7 +34,7 @@ def speed(options: Options, path: Path | None = None) -> int:
     Raises ValueError for bad options and files, before any work.
     """
     if options.json and options.csv:
-        raise ValueError("--json: must be without --csv, one of them is printed")
+        raise ValueError("--json: must not be combined with --csv")
     check_files(options)
     if path is None:
         question = asked(options)
@@ -63,7 +63,7 @@ def _predicted(question: Asked, method: str, report: Report) -> Prediction:
 
 
 def _told(found: Prediction, units: Units | None, options: Options) -> str:
-    """The answer as it is printed."""
+    """The answer as printed."""
     if options.json:
         return json.dumps(record(found, units), indent=1)
     if options.csv:
@@ -76,7 +76,7 @@ def _told(found: Prediction, units: Units | None, options: Options) -> str:
 
 
 def record(found: Prediction, units: Units | None) -> dict[str, Any]:
-    """The answer for programs, in the units of the question; what is unknown is None."""
+    """The answer for programs, in the units of the question; unknown values are None."""
     speed = found.speed
     numbers = {
         "mean": found.mean,
@@ -108,9 +108,9 @@ def table(found: Prediction, units: Units | None) -> str:
 
 
 def _draw(found: Prediction, units: Units | None, options: Options) -> None:
-    """The picture and the film that are asked for."""
+    """Write the requested picture and film."""
     if options.plot is not None:
-        from fem_check.output.files import replacing  # and matplotlib with it
+        from fem_check.output.files import replacing  # here: it loads matplotlib
 
         (first, *_) = found.plot(units=units)
         with replacing(options.plot) as part:

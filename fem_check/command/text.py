@@ -1,4 +1,4 @@
-"""Text on streams that cannot show all of it."""
+"""Text for streams whose encoding lacks some characters."""
 
 from typing import TextIO
 
@@ -14,7 +14,7 @@ ASCII: dict[str, str | int | None] = {
 
 
 def printable(text: str, stream: TextIO) -> str:
-    """The text in characters that the stream's encoding has."""
+    """The text with substitutes for characters missing in the stream's encoding."""
     encoding = getattr(stream, "encoding", None) or "ascii"
     try:
         text.encode(encoding)

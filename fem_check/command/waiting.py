@@ -1,4 +1,4 @@
-"""A line on the terminal while an answer takes its time: what is done, how far, and how long yet."""
+"""A progress line on the terminal: the present task, the fraction done and the time left."""
 
 import math
 import sys
@@ -12,11 +12,11 @@ if TYPE_CHECKING:
     from rich.progress import Progress as Bar
 
 PATIENCE = 2.0
-"""Seconds after which the line appears."""
+"""Delay in seconds before the line appears."""
 
 
 class Waiting:
-    """Shows progress on stderr, where that is a terminal, and takes it away at the end."""
+    """Shows progress on stderr if that is a terminal, and erases it at the end."""
 
     def __init__(self) -> None:
         self._start = time.monotonic()
@@ -36,7 +36,7 @@ class Waiting:
             self._bar.stop()
 
     def report(self, progress: Progress) -> None:
-        """Draw the line, once patience is at its end."""
+        """Draw the line, after the delay."""
         if not self._terminal or time.monotonic() - self._start < PATIENCE:
             return
         if self._bar is None:
@@ -48,7 +48,7 @@ class Waiting:
 
 
 def _bar() -> "Bar":
-    """Started; rich draws it, and knows terminals."""
+    """A started progress bar of rich."""
     from rich.console import Console
     from rich.progress import BarColumn, TextColumn
     from rich.progress import Progress as Bar

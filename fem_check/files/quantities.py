@@ -89,7 +89,7 @@ def read(value: object, kind: str) -> Quantity:
         return Quantity(kind, str(value), number, None)
     unit = _unit(unit_text)
     if unit is None:
-        raise ValueError(f"{unit_text!r} is no unit; {example}")
+        raise ValueError(f"{unit_text!r} is not a known unit; {example}")
     if not _fits(unit, kind):
         raise ValueError(f"is not {_article(kind)} {kind}; {example}")
     return Quantity(kind, str(value), number, unit)

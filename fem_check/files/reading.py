@@ -36,7 +36,7 @@ def parsed(text: str, path: Path) -> SceneFile:
         raise SceneFileError(f"{path}: is not TOML: its lists are nested too deep") from None
     mistakes = Mistakes()
     tables = _tables(data, mistakes)
-    found = built(tables, list(data), path, mistakes)
+    found = built(tables, path, mistakes)
     if found is None or mistakes:
         raise mistakes.error(path, text)
     return found

@@ -4,7 +4,7 @@ A table that is not there is an effect that the scene does not name. Quantities 
 plain numbers in units of the sheet: all with a dimension in the one way or all in the other.
 """
 
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 from pydantic import Field
 
@@ -48,13 +48,26 @@ class SheetTable(Table):
     """Young modulus, e.g. "1 MPa": needed beside weights, ground and inertia with units."""
 
 
+class SamplesTable(Table):
+    """Samples of a measured wave: on the grid of y and t, and x, or scattered, all of one shape."""
+
+    x: list[Any] | None = None
+    """Across."""
+    y: list[Any]
+    """Along."""
+    t: list[Any]
+    """Times, over one period or more."""
+    c: list[Any]
+    """Growth at all of them."""
+
+
 class WaveTable(Table):
     """The wave of growth c(y, t) that runs along the sheet."""
 
     kind: Literal["sine", "pulse", "harmonics"] | None = None
     """A sine unless given; "pulse" is smooth and has a width, "harmonics" any periodic wave."""
     period: Time | None = None
-    """E.g. "8 s"; its unit is the file's unit of time. 1 unless given."""
+    """E.g. "8 s"; its unit is the file's unit of time. 1 unless given; of a measured wave, found."""
     count: Count = 1
     """Waves on the sheet; negative runs towards -y."""
     width: PositiveShare | None = None
@@ -66,7 +79,14 @@ class WaveTable(Table):
     mean: float = 0.0
     """Of harmonics: what is added to all of them."""
     csv: str | None = None
-    """A measured wave instead: a table in a file, its path from the folder of the scene file."""
+    """A measured wave instead: a file with columns y, t, c, and x where c depends on it, in the units
+    of length and time of the scene; its path from the folder of the scene file."""
+    samples: SamplesTable | None = None
+    """The same in the scene file itself."""
+    harmonics: Natural | None = None
+    """Of a measured wave, in time; chosen by what its noise leaves unless given."""
+    degree: int | list[int] | None = None
+    """Of a measured wave: of the polynomial along, or of those across and along; likewise."""
 
 
 class BilayerTable(Table):

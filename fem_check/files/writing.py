@@ -24,6 +24,7 @@ from linear_theory.growth.laws import GROWTH_LAWS
 from linear_theory.identity import content_key
 from linear_theory.scene.effects import contact_of
 from linear_theory.scene.scene import PARTS, Scene
+from linear_theory.wave.measured import SampledWave
 from linear_theory.wave.travelling import SineWave, TravellingWave
 
 HEAD = "A scene of sheetcrawl, in plain numbers: lengths, times and stresses in units of the sheet."
@@ -86,11 +87,21 @@ def _sheet(scene: Scene) -> Entries:
 def _wave(wave: Any) -> Entries:
     if type(wave) is SineWave:
         return {"period": wave.period, "count": wave.count}
+    if type(wave) is SampledWave:
+        return _measured(wave)
     if type(wave) is not TravellingWave:
         kind = type(wave).__name__
         raise ValueError(f"wave: a {kind} cannot be written to a scene file, which holds no functions")
     harmonics = {"cosine": wave.cosine.tolist(), "sine": wave.sine.tolist(), "mean": wave.mean}
     return {"kind": "harmonics", "period": wave.period, "count": wave.count, **harmonics}
+
+
+def _measured(wave: SampledWave) -> Entries:
+    """With its samples, so that no other file is needed."""
+    data = wave.to_dict()
+    names = ("period", "harmonics", "degree")
+    asked = {n: v for n, v in zip(names, data["asked"], strict=True) if v is not None}
+    return {**asked, "samples": {n: data[n] for n in ("x", "y", "t", "c") if n in data}}
 
 
 def _growth(scene: Scene) -> Entries:

@@ -1,1 +1,1 @@
-"""Outlines of sheets, and meshes made of them or given."""
+"""Outlines of sheets and their meshes."""

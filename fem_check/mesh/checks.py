@@ -1,8 +1,8 @@
-"""What a mesh of triangles or quadrilaterals must be before anything is solved on it.
+"""Checks of a mesh of triangles or quadrilaterals before anything is solved on it.
 
-A mesh that is torn, doubled or folded gives an answer all the same, that of another sheet. Every
-entrance for meshes checks them here. All tolerances are shares of the mesh or of an element, so that
-the unit of length does not matter.
+A mesh with gaps, overlaps or folds would silently give the result of another sheet. Every function that
+accepts a mesh checks it here. All tolerances are relative to the mesh or to an element, so that the
+unit of length does not matter.
 """
 
 from typing import Any
@@ -21,33 +21,33 @@ Flags = NDArray[np.bool_]
 Indices = NDArray[np.int64]
 
 FLAT = 1e-12
-"""Sine of an angle of an element below which it has no area."""
+"""Sine of an angle of an element below which its area counts as zero."""
 
 SEAM = 1e-4
-"""Of the shortest edge at a vertex on the boundary: how near it must not come to another edge of the
-boundary. Coordinates in single precision differ by less, and a slit as narrow as that is none."""
+"""Smallest distance of a boundary vertex to another boundary edge, relative to the shortest edge at the
+vertex. Rounding to single precision is smaller, and so narrow a slit is not a real one."""
 
 AREA = 1e-9
-"""Relative difference of the areas of the elements, summed, and the area within the boundary."""
+"""Relative difference between the total area of the elements and the area within the boundary."""
 
 SHORTER = 0.1
-"""By how much of its length a mesh may be shorter than its sheet: the polygon that stands for a curved
-outline is by a few per cent. Other units, or a sheet along the other axis, are further off."""
+"""Fraction of the length by which a mesh may be shorter than its sheet, as polygons of curved outlines
+are by a few per cent. Wrong units, or a sheet along the other axis, deviate more."""
 
 BEYOND = 1e-6
-"""By how much of the length a mesh may reach beyond its sheet: roundoff, of single precision too."""
+"""Fraction of the length by which a mesh may extend beyond its sheet: single-precision roundoff."""
 
 SHOWN = 5
-"""Elements or vertices named in a message."""
+"""Largest number of elements or vertices named in a message."""
 
 
 def check_mesh(mesh: Any, name: str = "mesh") -> None:
-    """Raise ValueError for a mesh that is not one sheet in one piece.
+    """Raise ValueError for a mesh that is not a single, connected, conforming sheet.
 
-    That is where elements have other than straight sides, are flat, inverted, doubled or lie on each
-    other; where vertices are not finite, belong to no element or lie on another edge without being
-    joined to it (seams that were not merged, hanging nodes); where parts hang together by single
-    vertices or not at all. name: of the argument, for the message.
+    Refused are elements with curved sides and degenerate, inverted, duplicate or overlapping elements;
+    vertices that are not finite, belong to no element or lie on another edge without being connected
+    to it (unmerged seams, hanging nodes); parts connected by single vertices or not at all. name: of
+    the argument, for the message.
     """
     if not isinstance(mesh, skfem.Mesh) or mesh.elem not in (skfem.ElementTriP1, skfem.ElementQuad1):
         raise ValueError(
@@ -56,7 +56,7 @@ def check_mesh(mesh: Any, name: str = "mesh") -> None:
         )
     if not np.all(np.isfinite(mesh.p)):
         bad = np.flatnonzero(~np.isfinite(mesh.p).all(0))
-        raise ValueError(f"{name}.p contains values that are not finite, at vertices {_shown(bad)}")
+        raise ValueError(f"{name}.p must be finite, is not at vertices {_shown(bad)}")
     _check_elements(mesh, name)
     _check_facets(mesh, name)
     edges = mesh.facets[:, mesh.boundary_facets()]
@@ -68,8 +68,8 @@ def check_mesh(mesh: Any, name: str = "mesh") -> None:
 def check_fits(mesh: Any, sheet: Sheet, name: str = "mesh") -> None:
     """Raise ValueError for a mesh that is not in the coordinates of its sheet.
 
-    It must lie within the rectangle of the sheet, where growth is looked at beforehand, and be as long,
-    since the length of the sheet is that of the wave.
+    It must lie within the rectangle of the sheet, where growth is checked in advance, and have the same
+    length, since the wave is defined relative to the length of the sheet.
     """
     low, high = mesh.p.min(1), mesh.p.max(1)
     half = np.array([sheet.width, sheet.length]) / 2
@@ -85,12 +85,12 @@ def check_fits(mesh: Any, sheet: Sheet, name: str = "mesh") -> None:
 
 
 def _check_elements(mesh: Any, name: str) -> None:
-    """All vertices belong to elements, no element is flat, folded or has a reflex corner."""
+    """Every vertex belongs to an element, and no element is degenerate, folded or non-convex."""
     unused = np.setdiff1d(np.arange(mesh.p.shape[1]), mesh.t)
     if unused.size:
         raise ValueError(
-            f"{name}: {unused.size} vertices belong to no element: {_shown(unused)}; leave them out "
-            "with mesh.remove_unused_nodes()"
+            f"{name}: {unused.size} vertices belong to no element: {_shown(unused)}; remove them with "
+            "mesh.remove_unused_nodes()"
         )
     corners = mesh.p[:, mesh.t]
     ahead = np.roll(corners, -1, axis=1) - corners
@@ -99,17 +99,17 @@ def _check_elements(mesh: Any, name: str) -> None:
     sides = np.sqrt((ahead**2).sum(0))
     smallest = FLAT * sides * np.roll(sides, 1, axis=0)
     bad = (np.abs(turn) <= smallest).any(0) | ((turn < 0).any(0) & (turn > 0).any(0))
-    _refuse(bad, "inverted or without area; move or leave out their vertices", name)
+    _refuse(bad, "inverted or have no area; move or remove their vertices", name)
 
 
 def _check_facets(mesh: Any, name: str) -> None:
-    """An edge belongs to two elements at most, which lie on different sides of it."""
+    """An edge belongs to at most two elements, which lie on opposite sides of it."""
     _, first, times = np.unique(np.sort(mesh.t, axis=0), axis=1, return_index=True, return_counts=True)
     doubled = np.zeros(mesh.t.shape[1], bool)
     doubled[first[times > 1]] = True
-    _refuse(doubled, "there twice; leave one of each out", name)
+    _refuse(doubled, "duplicates; remove one of each pair", name)
     shared = np.bincount(mesh.t2f.ravel(), minlength=mesh.facets.shape[1])
-    _refuse((shared[mesh.t2f] > 2).any(0), "at an edge that more than two share", name)
+    _refuse((shared[mesh.t2f] > 2).any(0), "at an edge shared by more than two", name)
     inner = np.flatnonzero(mesh.f2t[1] >= 0)
     start, end = mesh.p[:, mesh.facets[:, inner]].transpose(1, 0, 2)
     centre, edge = mesh.p[:, mesh.t].mean(1), end - start
@@ -121,7 +121,7 @@ def _check_facets(mesh: Any, name: str) -> None:
 
 
 def _check_seams(mesh: Any, edges: Indices, name: str) -> None:
-    """No vertex of the boundary lies on an edge of the boundary that is not its own."""
+    """No boundary vertex lies on a boundary edge of which it is not an end."""
     points = _local(mesh)
     lengths = np.sqrt(((points[edges[0]] - points[edges[1]]) ** 2).sum(1))
     reach = np.full(len(points), np.inf)
@@ -141,18 +141,16 @@ def _check_seams(mesh: Any, edges: Indices, name: str) -> None:
     gap = np.linalg.norm(points[[a, b]] - points[i], axis=1)
     if gap.min() <= SEAM * reach[i]:
         twin = (a, b)[int(gap.argmin())]
-        words = (
-            f"first {i} and {twin} at x = {x:.6g}, y = {y:.6g}: one vertex of two numbers, merge them"
-        )
+        words = f"first {i} and {twin} at x = {x:.6g}, y = {y:.6g}: merge these coincident vertices"
     else:
         words = (
-            f"first {i} at x = {x:.6g}, y = {y:.6g} on the edge from {a} to {b}: divide that edge there"
+            f"first {i} at x = {x:.6g}, y = {y:.6g} on the edge from {a} to {b}: split that edge there"
         )
-    raise ValueError(f"{name}: {count} vertices lie on edges that they are not joined to, {words}")
+    raise ValueError(f"{name}: {count} vertices lie on edges to which they are not connected, {words}")
 
 
 def _check_one_piece(mesh: Any, edges: Indices, name: str) -> None:
-    """All elements hang together by edges, and the boundary passes every vertex once at most."""
+    """All elements are connected by edges, and the boundary passes every vertex at most once."""
     count, inner = mesh.t.shape[1], mesh.f2t[:, mesh.f2t[1] >= 0]
     graph = coo_array((np.ones(inner.shape[1]), (inner[0], inner[1])), shape=(count, count))
     pieces, piece = connected_components(graph, directed=False)
@@ -160,8 +158,8 @@ def _check_one_piece(mesh: Any, edges: Indices, name: str) -> None:
     hinges = np.flatnonzero(passed > 2)
     if hinges.size:
         raise ValueError(
-            f"{name}: parts meet at single vertices alone, as at hinges: {_shown(hinges)}; join them "
-            "by an edge or part them"
+            f"{name}: parts are connected only by single vertices (hinges): {_shown(hinges)}; connect "
+            "them by an edge or separate them"
         )
     if pieces > 1:
         other = int(np.flatnonzero(piece != piece[0])[0])
@@ -178,7 +176,7 @@ def _check_overlap(mesh: Any, edges: Indices, name: str) -> None:
     if first.size:
         a, b = edges[:, first[0]], edges[:, second[0]]
         raise ValueError(
-            f"{name}: elements lie on each other: the boundary crosses itself, first the edges between "
+            f"{name}: elements overlap: the boundary crosses itself, first at the edges between "
             f"vertices {a[0]}, {a[1]} and {b[0]}, {b[1]}"
         )
     x, y = points[mesh.t].transpose(2, 0, 1)
@@ -187,13 +185,13 @@ def _check_overlap(mesh: Any, edges: Indices, name: str) -> None:
     enclosed = float(shapely.build_area(shapely.multilinestrings(list(boundary))).area)
     if abs(area - enclosed) > AREA * area:
         raise ValueError(
-            f"{name}: elements lie on each other: they have {area / enclosed:.9g} times the area that "
-            "the boundary encloses"
+            f"{name}: elements overlap: their total area is {area / enclosed:.9g} times the area "
+            "enclosed by the boundary"
         )
 
 
 def _local(mesh: Any) -> Array:
-    """Vertices (n, 2) in units of the mesh from one of them on: products neither cancel nor vanish."""
+    """Vertices (n, 2) relative to one of them, in units of the mesh size, to avoid cancellation."""
     return np.asarray((mesh.p - mesh.p[:, :1]).T / np.ptp(mesh.p, axis=1).max())
 
 

@@ -1,4 +1,4 @@
-"""The elements of a scene: how many, of which mesh and kind, given or as its wave needs them."""
+"""The elements of a scene: cells, mesh and element type, given or chosen for its wave."""
 
 import re
 from collections.abc import Mapping, Sequence
@@ -16,32 +16,33 @@ from linear_theory.sheet.rectangle import Sheet
 from linear_theory.wave.protocol import Drive
 
 PLANAR_CELLS, SHELL_CELLS = 2, 6
-"""Elements across the width by default, of degree 5 in the plane and of BFS in space; along the
-sheet as many as make them about square, and at least twice as many to a wavelength. With 2 x 4 the
-distances between points of the 2 : 1 sheet at alpha = 0.25 are right to 7e-5 of the length."""
+"""Default number of elements across the width, of degree 5 in the plane and BFS in space; along the
+sheet they are about square, with at least twice as many per wavelength. With 2 x 4 elements the
+distances between points of the 2 : 1 sheet at alpha = 0.25 have an error of 7e-5 of the length."""
 
 PLANAR_DEGREE = 5
 
 LONGEST, MOST_CELLS = 256, 100_000
-"""Elements to a wavelength by default, at most: in a strip narrower than a hundredth of the wave they
-are longer than wide, as growth is. And elements of a sheet, whose factor then fits in memory."""
+"""Default limit of elements per wavelength: in a strip narrower than a hundredth of the wave they are
+longer than wide, like the growth field. And of elements of a sheet, whose matrix factor must fit in
+memory."""
 
 CALL = re.compile(r"(Element\w+)\((\d*)\)")
-"""An element as its data says it."""
+"""Form of an element in plain data."""
 
 
 @dataclass(frozen=True, eq=False)
 class Elements(Value):
-    """What a scene says of its elements: cells, mesh and element as in `Scene`; None where nothing."""
+    """cells, mesh and element as in `Scene`, None where not specified."""
 
     cells: tuple[int, int] | None = None
     mesh: Any = None
     element: Any = None
 
     def on(self, sheet: Sheet) -> "Elements":
-        """Checked, with cells as two plain integers. Raises ValueError for what a sheet cannot have."""
+        """These elements, checked for a sheet, with cells as two integers. Raises ValueError."""
         if self.mesh is not None:
-            hint = "outline.mesh(size) makes one of an Outline"
+            hint = "use outline.mesh(size) for an Outline"
             check_mesh(validation.instance("mesh", self.mesh, skfem.Mesh, hint))
             check_fits(self.mesh, sheet)
         if self.element is not None:
@@ -50,11 +51,11 @@ class Elements(Value):
             return self
         if self.mesh is not None:
             shown = validation.shown(self.cells)
-            raise ValueError(f"cells = {shown}: must be None where a mesh is given")
+            raise ValueError(f"cells = {shown}: must be None if a mesh is given")
         return Elements(_two_integers(self.cells), None, self.element)
 
     def identified_by(self) -> object:
-        """What its content key is made of; an element fills up with tables, its call does not."""
+        """The content for its key: the call of the element, whose object caches tables."""
         mesh = self.mesh
         kind = None if mesh is None else (type(mesh).__name__, mesh.doflocs, mesh.t)
         return self.cells, kind, _call(self.element)
@@ -72,9 +73,9 @@ class Elements(Value):
 
 
 def from_data(data: Mapping[str, Any]) -> dict[str, Any]:
-    """cells, mesh and element of a scene, those that are there, as `Scene.to_dict` writes them.
+    """cells, mesh and element of a scene, if present, from the data written by `Scene.to_dict`.
 
-    Raises ValueError for what is no mesh and no element.
+    Raises ValueError for invalid data of a mesh or an element.
     """
     cells, mesh, element = (data.get(name) for name in ("cells", "mesh", "element"))
     found = {} if cells is None else {"cells": tuple(cells)}
@@ -85,15 +86,15 @@ def from_data(data: Mapping[str, Any]) -> dict[str, Any]:
     if element is not None:
         called = CALL.fullmatch(str(element))
         if called is None or not hasattr(skfem, called[1]):
-            raise ValueError(f"element = {element!r}: must be the name of one of scikit-fem, with ()")
+            raise ValueError(f"element = {element!r}: must be a scikit-fem element with (), as text")
         found["element"] = getattr(skfem, called[1])(*map(int, filter(None, [called[2]])))
     return found
 
 
 def default_cells(drive: Drive, planar: bool) -> tuple[int, int]:
-    """Elements across and along: about square, and several to a wavelength, up to LONGEST each.
+    """Elements across and along: about square, and several per wavelength, up to LONGEST each.
 
-    Raises ValueError where that would be too many elements.
+    Raises ValueError for too many elements.
     """
     across = PLANAR_CELLS if planar else SHELL_CELLS
     sheet, waves = drive.sheet, drive.waves_along
@@ -102,7 +103,7 @@ def default_cells(drive: Drive, planar: bool) -> tuple[int, int]:
 
 
 def grid(sheet: Sheet, cells: tuple[int, int]) -> Any:
-    """A skfem.MeshQuad of equal rectangles, so many across and along."""
+    """A skfem.MeshQuad of equal rectangles, `cells` across and along."""
     lines = [
         np.linspace(-size / 2, size / 2, count + 1)
         for size, count in zip((sheet.width, sheet.length), cells, strict=True)
@@ -111,7 +112,7 @@ def grid(sheet: Sheet, cells: tuple[int, int]) -> Any:
 
 
 def default_element(mesh: Any, planar: bool) -> Any:
-    """Degree 4 or 5 in the plane, in space BFS on rectangles and Argyris on triangles."""
+    """In the plane elements of degree 4 or 5, in space BFS on rectangles and Argyris on triangles."""
     quadrilaterals = mesh.t.shape[0] == 4
     if planar:
         return skfem.ElementQuadP(PLANAR_DEGREE) if quadrilaterals else skfem.ElementTriP4()
@@ -119,7 +120,7 @@ def default_element(mesh: Any, planar: bool) -> Any:
 
 
 def _call(element: Any) -> str | None:
-    """How an element of scikit-fem is made."""
+    """The constructor call of a scikit-fem element, as text."""
     if element is None:
         return None
     degree = getattr(element, "p", "") if isinstance(element, skfem.ElementQuadP) else ""
@@ -127,7 +128,7 @@ def _call(element: Any) -> str | None:
 
 
 def _two_integers(cells: Any) -> tuple[int, int]:
-    """Elements across and along, from any sequence of two."""
+    """Elements across and along, from any sequence of two integers."""
     if (
         not isinstance(cells, Sequence | np.ndarray)
         or np.shape(cells) != (2,)
@@ -138,7 +139,6 @@ def _two_integers(cells: Any) -> tuple[int, int]:
     across, along = (validation.integer("cells", count, 1) for count in cells)
     if across * along > MOST_CELLS:
         raise ValueError(
-            f"cells = {across, along}: {across * along} elements are too many to be solved, must be "
-            f"<= {MOST_CELLS}"
+            f"cells = {across, along}: makes {across * along} elements, must be <= {MOST_CELLS}"
         )
     return across, along

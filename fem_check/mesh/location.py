@@ -1,4 +1,4 @@
-"""Points in the triangles of a mesh: finding them, and four-sided cells that fill each triangle.
+"""Location of points in the triangles of a mesh, and quadrilateral cells that fill each triangle.
 
 A point of a triangle has the local coordinates (X, Y), X, Y >= 0, X + Y <= 1, of scikit-fem.
 """
@@ -10,23 +10,25 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 from skfem import MeshTri
 
+from linear_theory.common.quadrature import gauss_legendre
+
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
 
 TOLERANCE = (
-    1e-9  # of a triangle's size: how far outside the mesh roundoff may put a point near the origin
+    1e-9  # tolerance for points outside the mesh by roundoff, relative to the size of a triangle
 )
 DRAWN = 500
-"""Elements that show the shape of a sheet."""
+"""Number of elements sufficient to draw the shape of a sheet."""
 
 _CANDIDATES = 12
 _BLOCK = 2**22  # numbers in one temporary array
 
 
 class TriangleFinder:
-    """Which triangle holds a point, and where in it.
+    """Finds the triangles that contain given points, and the local coordinates there.
 
-    A tree of centroids gives candidates; points that are in none of them are tried in all triangles.
+    A tree of centroids gives candidates; points in none of them are tested in all triangles.
     """
 
     def __init__(self, mesh: MeshTri) -> None:
@@ -54,7 +56,7 @@ class TriangleFinder:
         return np.where(depth < -self._tolerance, -1, triangle), local.T
 
     def _best(self, points: Array, candidates: Indices) -> tuple[Indices, Array, Array]:
-        """Of the candidates (n or 1, k), the one in which each point lies deepest."""
+        """The candidate (n or 1, k) in which each point lies deepest."""
         shift = points[:, None] - self._origin[candidates]
         local = np.einsum(
             "nkij,nkj->nki", np.broadcast_to(self._inverse[candidates], (*shift.shape, 2)), shift
@@ -67,13 +69,13 @@ class TriangleFinder:
 
 
 def quadrilateral_points(order: int) -> tuple[Array, Array]:
-    """Gauss points of the three cells of a triangle: local coordinates and Jacobian.
+    """Gauss points of the three quadrilateral cells of a triangle: local coordinates and Jacobian.
 
-    Each cell reaches from a corner to the centroid, with the middles of two sides as its other
+    Each cell extends from a corner to the centroid, with the midpoints of two sides as its other
     corners. Returns (2, 3, order, order) and (3, order, order), the Jacobian of the bilinear map from
     [-1, 1]^2 to local coordinates, linear along each axis.
     """
-    nodes, _ = np.polynomial.legendre.leggauss(order)
+    nodes, _ = gauss_legendre(order)
     s, t = nodes[:, None], nodes
     corners = np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]])
     points, jacobians = [], []
@@ -97,9 +99,9 @@ def quadrilateral_points(order: int) -> tuple[Array, Array]:
 
 
 def covering(mesh: Any) -> tuple[Array, Indices]:
-    """Points (2, n) and triangles (m, 3) of a mesh, halved until its shape can be drawn.
+    """Points (2, n) and triangles (m, 3) of a mesh, refined until its shape can be drawn.
 
-    A few elements of high degree carry more than their corners show. Quadrilaterals become two
+    The corners of a few elements of high degree do not show their shape. Quadrilaterals become two
     triangles each.
     """
     while mesh.nelements < DRAWN:

@@ -1,7 +1,7 @@
 """Triangle meshes of quadrilaterals and of polygons with holes.
 
-Convex quadrilaterals get a grid of cells that their diagonals cut in four: symmetric wherever the
-outline is. Other polygons are meshed by Netgen.
+Convex quadrilaterals get a grid of cells cut into four by their diagonals, with the symmetries of the
+outline. Other polygons are meshed by Netgen.
 """
 
 from collections.abc import Sequence
@@ -15,11 +15,11 @@ Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
 
 GRADING = 0.3
-"""By how much of the distance from a short side the triangles may grow."""
+"""Growth rate of the triangle size with the distance from a short side."""
 
 
 def quadrilateral_mesh(corners: Array, size: float) -> MeshTri:
-    """Mesh of a convex quadrilateral (4, 2), anticlockwise, with sides of triangles up to `size`."""
+    """Mesh of a convex quadrilateral (4, 2), anticlockwise, with triangle sides up to `size`."""
     sides = np.linalg.norm(np.roll(corners, -1, axis=0) - corners, axis=1)
     n = max(1, int(np.ceil(max(sides[0], sides[2]) / size - 1e-9)))
     m = max(1, int(np.ceil(max(sides[1], sides[3]) / size - 1e-9)))
@@ -33,13 +33,13 @@ def quadrilateral_mesh(corners: Array, size: float) -> MeshTri:
 
 
 def polygon_mesh(loops: Sequence[Array], size: float) -> MeshTri:
-    """Mesh of a polygon with holes, the same on every run.
+    """Mesh of a polygon with holes, reproducible from run to run.
 
-    loops: outline (n, 2), anticlockwise, and holes, clockwise; size: of the triangles, about. Raises
-    ValueError where Netgen finds no mesh, RuntimeError where it is not installed.
+    loops: outline (n, 2), anticlockwise, and holes, clockwise; size: approximate size of the triangles.
+    Raises ValueError if Netgen finds no mesh, RuntimeError if it is not installed.
     """
     geometry, mesh_error = _netgen()
-    # Netgen compares lengths with numbers: it gets coordinates of order 1 about the middle
+    # Netgen has absolute length tolerances: it gets coordinates of order 1 about the centre
     middle = (loops[0].min(axis=0) + loops[0].max(axis=0)) / 2
     unit = 2.0 ** np.floor(np.log2(np.ptp(loops[0], axis=0).max()))
     outline = geometry()
@@ -51,25 +51,25 @@ def polygon_mesh(loops: Sequence[Array], size: float) -> MeshTri:
         found = outline.GenerateMesh(maxh=float(size / unit), grading=GRADING)
     except mesh_error as error:
         raise ValueError(
-            f"size = {size:g}: Netgen does not mesh this outline ({error}); blunt its needles and fill "
-            "its clefts, try another size, or make a mesh elsewhere and give it as a skfem.MeshTri"
+            f"size = {size:g}: Netgen cannot mesh this outline ({error}); blunt sharp corners and fill "
+            "narrow gaps, try another size, or pass a mesh made elsewhere as a skfem.MeshTri"
         ) from None
     points = np.array([vertex.p[:2] for vertex in found.Points()]) * unit + middle
     corners = np.concatenate(loops)
-    points[: len(corners)] = corners  # as given, without roundoff
+    points[: len(corners)] = corners  # exactly as given, without roundoff
     triangles = np.array([[v.nr - 1 for v in triangle.vertices] for triangle in found.Elements2D()])
     return MeshTri(np.ascontiguousarray(points.T), np.ascontiguousarray(triangles.T))
 
 
 def _netgen() -> tuple[Any, Any]:
-    """Netgen's class of outlines and its exception; loaded here, since few need it."""
+    """Netgen's class of outlines and its exception; imported here, since it is rarely needed."""
     try:
         from netgen.geom2d import SplineGeometry
         from netgen.meshing import NgException
     except ImportError as error:
         raise RuntimeError(
             "outlines other than convex quadrilaterals are meshed by Netgen, which cannot be loaded "
-            f"({error}): pip install netgen-mesher, or give a mesh made elsewhere, as skfem.MeshTri"
+            f"({error}): pip install netgen-mesher, or pass a mesh made elsewhere as a skfem.MeshTri"
         ) from None
     return SplineGeometry, NgException
 

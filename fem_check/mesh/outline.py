@@ -1,4 +1,4 @@
-"""The outline of a sheet that need not be a rectangle."""
+"""The outline of a sheet: a polygon with holes."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -19,26 +19,26 @@ Array = NDArray[np.float64]
 MOST_TRIANGLES = 1_000_000
 
 TRIANGLES_PER_SIDE = 40
-"""At most, that grow from a side of the triangles on the outline to larger ones further inside; met in
-1700 random outlines: 22."""
+"""Bound of the number of triangles per boundary side in the transition to larger triangles inside;
+measured for 1700 random outlines: 22."""
 
 NARROWEST = 2e-4
-"""Of the extent of an outline, how near its corners may come to each other and to other sides to be
-meshed. Below 1e-4 Netgen was met that did not end or found no mesh; a sheet as narrow there is no thin
-sheet anyway, which has a thickness of some 1e-2."""
+"""Smallest distance of corners to each other and to other sides that can be meshed, relative to the
+extent of the outline. Below 1e-4 Netgen sometimes did not terminate or found no mesh; a part so narrow
+is no thin sheet anyway, as the thickness is about 1e-2."""
 
 SAME = 1e-12
-"""Of the extent of an outline, the distance below which two corners are one."""
+"""Distance below which two corners coincide, relative to the extent of the outline."""
 
 
 @dataclass(frozen=True, eq=False)
 class Outline(Shown):
     """A polygon with polygonal holes, in the coordinates of the sheet.
 
-    corners: (n, 2), n >= 3, in units of length, either way round; holes: such arrays, within the
-    outline and apart from each other. A corner that repeats the next one, as the last may repeat the
-    first, is left out. A wave on it has its origin at y = 0 and as its length the extent of the outline
-    along y: centre the outline on the origin to compare it with a `Sheet`.
+    corners: (n, 2), n >= 3, in units of length, clockwise or anticlockwise; holes: such arrays, within
+    the outline and disjoint. A corner equal to the next one (the last may repeat the first) is dropped.
+    A wave on it has its origin at y = 0 and the extent of the outline along y as its length: centre the
+    outline on the origin to compare it with a `Sheet`.
 
     Raises ValueError for corners that are not finite, not (n, 2), enclose no area, or cross.
 
@@ -100,17 +100,17 @@ class Outline(Shown):
 
     @property
     def area(self) -> float:
-        """Without the holes."""
+        """Area without the holes."""
         return _area(self.corners) - sum(map(_area, self.holes))
 
     @property
     def largest_angle(self) -> float:
-        """Of the material at any corner, radians; the larger, the more singular are the strains."""
+        """Largest interior angle of the material, radians; it determines the corner singularities."""
         turns = [_turns(self.corners), *(-_turns(hole) for hole in self.holes)]
         return float(np.pi - min(turn.min() for turn in turns))
 
     def mesh(self, size: float) -> MeshTri:
-        """Triangles with sides of about `size`, smaller next to short sides; exact in outline and area.
+        """Mesh of triangles of about `size`, smaller near short sides; exact in outline and area.
 
         Raises ValueError for a size that is not positive or so small that there could be more than
         MOST_TRIANGLES, and for outlines that are too narrow somewhere to be meshed.
@@ -124,15 +124,15 @@ class Outline(Shown):
 
     @property
     def _is_gridded(self) -> bool:
-        """Whether it is a convex quadrilateral, which gets a grid of cells."""
+        """Whether the outline is a convex quadrilateral, which gets a grid of cells."""
         return len(self.corners) == 4 and not self.holes and self.largest_angle <= np.pi
 
     def _check_count(self, size: float) -> None:
-        """Raise ValueError unless a/size^2 + b/size + c, the most triangles possible, is bearable."""
+        """Raise ValueError if a/size^2 + b/size + c, the bound of the triangle count, is too large."""
         a, b, c = self._count()
         if c >= MOST_TRIANGLES:
             most = MOST_TRIANGLES // TRIANGLES_PER_SIDE
-            raise ValueError(f"corners, holes: must be fewer than {most} corners to be meshed")
+            raise ValueError(f"corners, holes: must have fewer than {most} corners to be meshed")
         half = b / 2 / (MOST_TRIANGLES - c)
         smallest = half + float(np.sqrt(half**2 + a / (MOST_TRIANGLES - c)))
         if size < smallest:
@@ -147,7 +147,7 @@ class Outline(Shown):
         return 4 * self.area, TRIANGLES_PER_SIDE * float(sides.sum()), TRIANGLES_PER_SIDE * sides.size
 
     def _check_narrow(self) -> None:
-        """Raise ValueError where corners come too near to each other or to other sides."""
+        """Raise ValueError if corners are too close to each other or to other sides."""
         polygon = shapely.Polygon(*_local(self.loops))
         clearance = float(shapely.minimum_clearance(polygon))
         least = NARROWEST * max(self.length, self.width)
@@ -155,13 +155,13 @@ class Outline(Shown):
             x, y = self.corners[0] + shapely.minimum_clearance_line(polygon).coords[0]
             raise ValueError(
                 f"corners, holes: {clearance:.3g} apart at x = {x:.6g}, y = {y:.6g}; must be >= "
-                f"{least:.3g} ({NARROWEST:g} of the extent) to be meshed: leave out corners that "
-                "close, blunt needles and fill clefts"
+                f"{least:.3g} ({NARROWEST:g} of the extent) to be meshed: merge close corners, blunt "
+                "sharp ones and fill narrow gaps"
             )
 
 
 def _local(loops: Sequence[Array]) -> tuple[Array, list[Array]]:
-    """Outline and holes from the first corner on, so that nothing cancels far from the origin."""
+    """Outline and holes relative to the first corner, to avoid cancellation far from the origin."""
     outline, *holes = (loop - loops[0][0] for loop in loops)
     return outline, holes
 
@@ -184,7 +184,7 @@ def _turns(loop: Array) -> Array:
 
 
 def _loop(name: str, corners: ArrayLike) -> Array:
-    """The polygon without repeated corners, checked and turned anticlockwise."""
+    """The polygon without repeated corners, checked and oriented anticlockwise."""
     loop = validation.real_array(name, corners)
     if loop.ndim != 2 or loop.shape[1] != 2 or len(loop) < 3:
         raise ValueError(f"{name} has shape {loop.shape}: must be (n, 2) with n >= 3")
@@ -202,7 +202,7 @@ def _loop(name: str, corners: ArrayLike) -> Array:
 
 
 def _check_apart(loops: Sequence[Array]) -> None:
-    """Raise ValueError unless no sides cross or touch and every hole lies within the outline alone."""
+    """Raise ValueError if sides cross or touch, or a hole is not within the outline only."""
     origin, (outline, holes) = loops[0][0], _local(loops)
     rings = [shapely.LinearRing(loop) for loop in (outline, *holes)]
     for i, ring in enumerate(rings):
@@ -227,13 +227,13 @@ def _shown(place: Array) -> str:
 
 
 def _self_crossing(ring: shapely.LinearRing) -> Array:
-    """A point where a ring meets itself."""
+    """A point where a ring intersects itself."""
     ends = np.array(ring.coords)
     sides = shapely.linestrings(np.stack([ends[:-1], ends[1:]], axis=1))
     first, second = shapely.STRtree(sides).query(sides, predicate="intersects")
     apart = abs(first - second)
     met = shapely.intersection(sides[first], sides[second])
-    # neighbours meet in their common corner, or one of them turns back on the other
+    # neighbours share a corner, or one folds back on the other
     turned = (shapely.length(met) > 0) & (apart > 0)
     wrong = met[turned | ((apart > 1) & (apart < len(sides) - 1))]
     return np.array(shapely.point_on_surface(wrong[0]).coords[0])

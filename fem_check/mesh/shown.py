@@ -1,4 +1,4 @@
-"""A mesh of scikit-fem as its owner shows it: in words, and as plain data."""
+"""Representation of a scikit-fem mesh in words and as plain data."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -9,7 +9,7 @@ NAMES = {3: "triangles", 4: "quadrilaterals"}
 
 
 class MeshShown(Shown):
-    """Vertices (n, 2) and elements (m, 3 or 4), the numbers of their vertices."""
+    """A mesh as vertices (n, 2) and elements (m, 3 or 4), as indices of vertices."""
 
     def __init__(self, mesh: Any) -> None:
         self.vertices, self.elements = mesh.p.T, mesh.t.T

@@ -1,4 +1,4 @@
-"""Pictures and films of results: what `.plot()` and `.movie(path)` do."""
+"""Pictures and films of results: implementation of `.plot()` and `.movie(path)`."""
 
 from fem_check.answer.units import Units
 from fem_check.output.movies import movie

@@ -1,4 +1,4 @@
-"""Speeds by theory and by cycles of shapes as pictures see them: one period, repeated along a path."""
+"""Speeds from theory and cycles of shapes, prepared for pictures: one period, repeated on a path."""
 
 from collections.abc import Iterator
 from functools import cached_property
@@ -21,7 +21,7 @@ a sheet at rest one."""
 
 
 class Crawling:
-    """See `moving.Moving`. Without a deformation there is V(t) and a path, and nothing else."""
+    """See `moving.Moving`. Without a deformation only V(t) and the path can be drawn."""
 
     most_periods: int | None = None
 
@@ -36,7 +36,7 @@ class Crawling:
 
     @property
     def period(self) -> float:
-        """Of the wave; that of V(t) as far as it is known where there is no wave."""
+        """Period of the wave; without a wave, the period of V(t)."""
         return self._deformation.drive.period if self.has_shape else _period(self.speed)
 
     @property
@@ -46,7 +46,7 @@ class Crawling:
 
     @property
     def words(self) -> str:
-        """What the shape is."""
+        """Description of the shape."""
         return self._deformation.words if self.has_shape else ""
 
     @property
@@ -67,7 +67,7 @@ class Crawling:
         return self._deformation.covering()
 
     def course(self) -> Course:
-        """V(t) over the period that starts at 0, and a little more, so that it is closed."""
+        """V(t) over the period that starts at 0, extended slightly so that the curve is closed."""
         whole = (0.0, self.period)
         if self.speed.times.size <= CONSTANT:
             return Course(np.array(whole), np.full(2, self.speed.velocity[0]), whole, whole)
@@ -83,27 +83,24 @@ class Crawling:
         return poses.times, self._centre[:, None] + poses.position
 
     def at(self, points: Array, phase: float) -> Frame:
-        """In the frame of the body, whose place at a phase is free."""
+        """The sheet at a phase, in the frame of the body, whose position at that phase is arbitrary."""
         return self._frame(points, np.array([phase * self.period]))(0)
 
     def friction(self, points: Array, phase: float) -> Array:
-        """See Moving: against the slip, which is the velocity of the shape and that of the body."""
+        """See Moving: opposite to the slip, the velocity of deformation plus that of the body."""
         t = phase * self.period
         velocity, load = self._deformation.contact(points, t)
         v_x, v_y, omega = self._rigid(t)
         x, y = self._deformation.places(points, np.array([t]))[:2, 0]
         slip = velocity + np.stack([v_x - omega * y, v_y + omega * x])
-        size = np.hypot(*slip)
-        with np.errstate(divide="ignore", invalid="ignore"):
-            force = -load * self._deformation.law.ratio(size) * slip
-        return np.where(size > 0, force, 0.0)
+        return -load * self._deformation.law.force(slip)
 
     def ground(self, y: Array) -> Array:
-        """Level: no theory and no cycle of shapes knows any other."""
+        """Level ground, the only one in the theories and the cycle of shapes."""
         return np.zeros_like(y)
 
     def frames(self, points: Array, periods: int, samples: int) -> "CrawlingFrames":
-        """The shapes of one period, and the path that they are carried along."""
+        """The shapes of one period, moved along the path."""
         return CrawlingFrames(self, points, self._poses(periods, samples), samples)
 
     def _frame(self, points: Array, times: Array) -> "_Shapes":
@@ -114,7 +111,7 @@ class Crawling:
         return self._deformation.centre if self.has_shape else np.zeros(2)
 
     def _rigid(self, t: float) -> Array:
-        """V_x, V_y, Omega at one time, between those of the speed."""
+        """V_x, V_y, Omega at one time, interpolated between those of the speed."""
         times, speed = self.speed.times, self.speed
         rigid = (
             np.multiply.outer([0.0, 1.0, 0.0], speed.velocity) if speed.rigid is None else speed.rigid
@@ -130,7 +127,7 @@ class Crawling:
 
 
 class _Shapes:
-    """Frames of the body at some times."""
+    """Shapes of the sheet at given times, in the frame of the body."""
 
     def __init__(self, deformation: Deformation, points: Array, times: Array) -> None:
         self.times, self.centre = times, deformation.centre
@@ -171,13 +168,13 @@ class CrawlingFrames:
 
 
 def _raised(places: Array, components: int) -> Array:
-    """Places in the plane as ones with so many components."""
+    """Positions in the plane extended to 2 or 3 components."""
     missing = np.zeros((components - 2, *places.shape[1:]))
     return np.concatenate([places, missing])
 
 
 def _period(speed: CrawlSpeed) -> float:
-    """Of V(t): both ends where it is constant, else the last interval is as long as the one before."""
+    """Period of V(t): both ends if constant, else with the last interval equal to the one before."""
     times = speed.times
     if times.size <= CONSTANT:
         return float(np.ptp(times)) or 1.0

@@ -1,4 +1,4 @@
-"""Files that appear when they are whole, and paths that are found out to be bad before the work."""
+"""Atomic writing of files, and checks of paths before the work."""
 
 import os
 from collections.abc import Iterator, Sequence
@@ -9,9 +9,10 @@ from pathlib import Path
 
 @contextmanager
 def replacing(path: Path) -> Iterator[Path]:
-    """Yield a path to write to; it becomes `path` at the end, and vanishes after an exception.
+    """Yield a path to write to; it is renamed to `path` at the end, and removed after an exception.
 
-    A reader, or a run that was interrupted, never sees half a file. Folders are made as needed.
+    Neither a reader nor an interrupted run leaves or sees an incomplete file. Folders are created as
+    needed.
     """
     path.parent.mkdir(parents=True, exist_ok=True)
     part = _part(path)
@@ -23,10 +24,10 @@ def replacing(path: Path) -> Iterator[Path]:
 
 
 def writable(path: str | Path, suffixes: Sequence[str]) -> Path:
-    """The path, found to be one that `replacing` can write to. Folders are made as needed.
+    """The path, checked to be writable by `replacing`. Folders are created as needed.
 
-    suffixes: those that the writers know, with their dots, in lower case. Raises ValueError for others
-    and OSError, with the reason, where the file cannot be written.
+    suffixes: supported suffixes, with the dot, in lower case. Raises ValueError for others and OSError,
+    with the reason, if the file cannot be written.
     """
     target = Path(path)
     if target.suffix.lower() not in suffixes:
@@ -48,7 +49,7 @@ def writable(path: str | Path, suffixes: Sequence[str]) -> Path:
 
 
 def _part(path: Path) -> Path:
-    """Where a file is written until it is whole."""
+    """Temporary path of a file until it is complete."""
     # In the same folder, since a rename is atomic only within one file system; the process
-    # number keeps two runs apart; the suffix stays last, as writers choose a format by it.
+    # number separates two runs; the suffix stays last, as writers choose a format by it.
     return path.with_name(f".{path.stem}.{os.getpid()}{path.suffix}")

@@ -1,4 +1,4 @@
-"""The look of all pictures: colours told apart with any colour vision, sizes of a journal's columns."""
+"""The style of all pictures: colours distinguishable with any colour vision, journal column widths."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -25,8 +25,8 @@ COLORS = {
     "black": "#000000",
     "yellow": "#F0E442",
 }
-"""Okabe and Ito's colours, told apart with any colour vision; the cycle takes them in this order,
-which keeps those of little contrast with white paper for last."""
+"""Okabe and Ito's colours, distinguishable with any colour vision; in the cycle, those with little
+contrast to white paper come last."""
 
 # Any for the keys too: some releases of matplotlib type them as text, newer ones as a list of names.
 STYLE: dict[Any, Any] = {
@@ -52,9 +52,9 @@ STYLE: dict[Any, Any] = {
     "lines.markersize": 4,
     "pdf.fonttype": 42,  # text stays text; journals refuse Type 3
     "savefig.dpi": 400,
-    # Never "tight": it would crop the page, and with it the width that was asked for.
+    # Never "tight": it would crop the page and change the requested width.
     "savefig.bbox": None,
-    # Element names in SVG are random without it.
+    # Without this, element names in SVG are random.
     "svg.hashsalt": "sheetcrawl",
     "svg.fonttype": "path",
     "xtick.direction": "in",
@@ -66,7 +66,7 @@ STYLE: dict[Any, Any] = {
 
 @contextmanager
 def styled(**more: Any) -> Iterator[None]:
-    """The style while a picture is made, whatever the user's own; afterwards it is theirs again."""
+    """Apply the style while a picture is made, then restore the user's own."""
     with mpl.rc_context():
         mpl.rcdefaults()
         mpl.rcParams.update(STYLE | more)

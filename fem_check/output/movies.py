@@ -19,13 +19,13 @@ from linear_theory.common import validation
 Pixels = NDArray[np.uint8]
 
 PERIODS = 6
-"""Of a film, unless given."""
+"""Default number of periods of a film."""
 
 MOST_FRAMES = 3000
-"""Some minutes of work, and of film."""
+"""Largest number of frames: some minutes of computation, and of film."""
 
 WIDTHS = 420, 1920
-"""Pixels: below the first the words would cover each other."""
+"""Range of widths in pixels: below the first, labels would overlap."""
 
 Report = Callable[[int, int], object]
 
@@ -58,7 +58,7 @@ def movie(
     writers.require(target.suffix.lower())
     moving = moving_of(result)
     if not moving.has_shape:
-        raise ValueError("result: a speed of a body on a line, or a copied one, has no shape to film")
+        raise ValueError("result: must have a shape; a speed on a line, or a copied one, has none")
     periods = checked_periods(moving, periods, PERIODS)
     frames = validation.integer("frames", frames, 2)
     fps, factor = validation.positive("fps", fps), validation.positive("exaggerate", exaggerate)
@@ -67,8 +67,8 @@ def movie(
     total = periods * frames
     if total > MOST_FRAMES:
         raise ValueError(
-            f"periods = {periods}, frames = {frames}: make {total} frames, must be at most "
-            f"{MOST_FRAMES}; show fewer of either"
+            f"periods = {periods}, frames = {frames}: gives {total} frames, must be at most "
+            f"{MOST_FRAMES}; reduce either"
         )
     stage = Stage(moving, checked_units(moving, units), periods, frames, width, factor)
     with replacing(target) as part, _progress(target, total, progress) as report:
@@ -77,14 +77,14 @@ def movie(
 
 
 def _reported(stage: Stage, report: Report) -> Iterator[Pixels]:
-    """The pictures, each reported when it is done."""
+    """The pictures, each reported when done."""
     for done, picture in enumerate(stage.pictures(), 1):
         yield picture
         report(done, len(stage))
 
 
 def _progress(target: Path, total: int, progress: Report | bool) -> Any:
-    """A context that gives what to call after each frame."""
+    """A context whose value is the function to call after each frame."""
     if callable(progress):
         return nullcontext(progress)
     if not isinstance(progress, bool):
@@ -93,7 +93,7 @@ def _progress(target: Path, total: int, progress: Report | bool) -> Any:
 
 
 class _Line(Progress):
-    """A progress line on stderr as a function of the frames done."""
+    """A progress line on stderr, called with the number of frames done."""
 
     def __call__(self, done: int, total: int) -> None:
         self.advance()

@@ -1,7 +1,7 @@
-"""One view of all results that can be drawn: where the points of the sheet are, and what pulls at them.
+"""A common interface of all results that can be drawn: positions of the points and forces on them.
 
-Points are those of the undeformed sheet, (2, n), units of length; places, (2 or 3, n), are in the frame
-of the ground, in which the centre of a speed starts where that of the undeformed sheet is.
+Points are those of the undeformed sheet, (2, n), units of length; places, (2 or 3, n), are positions in
+the frame of the ground, where the centre of a speed starts at that of the undeformed sheet.
 """
 
 from collections.abc import Iterator
@@ -17,8 +17,8 @@ Integers = NDArray[np.int64]
 
 
 class Frame(NamedTuple):
-    """The sheet at one time: place (2 or 3, n), still (2 or 3, n), the undeformed sheet carried along,
-    growth (n,), alpha c, centre (2,), its centre of mass, and heading, anticlockwise, radians."""
+    """The sheet at one time: place (2 or 3, n); still (2 or 3, n), the undeformed sheet moving along;
+    growth (n,), alpha c; centre (2,) of mass; heading, anticlockwise, radians."""
 
     time: float
     place: Array
@@ -29,7 +29,7 @@ class Frame(NamedTuple):
 
 
 class Course(NamedTuple):
-    """V_y(t): times and velocity (n,); from when to when its mean was taken, and is shown."""
+    """V_y(t): times and velocity (n,); the interval over which its mean was taken and is shown."""
 
     times: Array
     velocity: Array
@@ -38,7 +38,7 @@ class Course(NamedTuple):
 
 
 class Moving(Protocol):
-    """What `panels` and `movies` read."""
+    """The interface used by `panels` and `movies`."""
 
     @property
     def speed(self) -> CrawlSpeed:
@@ -54,7 +54,7 @@ class Moving(Protocol):
 
     @property
     def words(self) -> str:
-        """What the shape is."""
+        """Description of the shape."""
 
     @property
     def components(self) -> int:
@@ -62,15 +62,15 @@ class Moving(Protocol):
 
     @property
     def has_shape(self) -> bool:
-        """Whether there is more to draw than V(t) and a path."""
+        """Whether the shape can be drawn, not only V(t) and the path."""
 
     @property
     def most_periods(self) -> int | None:
-        """That can be shown; None for any number."""
+        """Largest number of periods that can be shown; None for any number."""
 
     @property
     def direction(self) -> int:
-        """1 for a wave towards +y, -1 for one towards -y, 0 where that is not known."""
+        """1 for a wave towards +y, -1 for one towards -y, 0 if unknown."""
 
     def covering(self) -> tuple[Array, Integers]:
         """Points and triangles (m, 3) of the undeformed sheet."""
@@ -79,13 +79,13 @@ class Moving(Protocol):
         """V(t)."""
 
     def way(self, periods: int, samples: int) -> tuple[Array, Array]:
-        """Times (n,), and the centre at them (2, n)."""
+        """Times (n,) and the positions of the centre (2, n)."""
 
     def at(self, points: Array, phase: float) -> Frame:
         """The sheet at a phase, in periods."""
 
     def friction(self, points: Array, phase: float) -> Array:
-        """Force of the ground per undeformed area, over mu times the weight, (2, n)."""
+        """Friction force per undeformed area, divided by mu times the weight, (2, n)."""
 
     def ground(self, y: Array) -> Array:
         """Height of the ground at x = 0, (n,)."""
@@ -95,7 +95,7 @@ class Moving(Protocol):
 
 
 class Frames(Protocol):
-    """A sequence of frames, each made when it is asked for."""
+    """A sequence of frames, each computed when accessed."""
 
     def __len__(self) -> int: ...
 
@@ -105,12 +105,12 @@ class Frames(Protocol):
 
 
 def direction(wave: object) -> int:
-    """Which way a wave runs along y, 0 where only its function would know."""
+    """Direction of a wave along y, 0 for a general wave given by a function."""
     return int(np.sign(getattr(wave, "count", 0)))
 
 
 def turned(place: Array, heading: float) -> Array:
-    """Places (2 or 3, n) turned anticlockwise about the vertical."""
+    """Positions (2 or 3, n) rotated anticlockwise about the vertical."""
     cosine, sine = np.cos(heading), np.sin(heading)
     x, y = place[:2]
     return np.concatenate([[cosine * x - sine * y, sine * x + cosine * y], place[2:]])

@@ -1,7 +1,7 @@
 """The panels of a picture: V(t), the sheet from above and from the side, its path.
 
-The sheet lies along the page: y, the way of the wave, to the right, x downwards, so that a turn to the
-left is one on the page, too.
+The sheet lies along the page: y, the direction of the wave, points to the right and x downwards, so
+that a left turn of the sheet is a left turn on the page.
 """
 
 from typing import Any
@@ -26,26 +26,26 @@ Integers = NDArray[np.int64]
 GROWTH_MAP = LinearSegmentedColormap.from_list(
     "growth", colormaps["PuOr"](np.linspace(0.16, 0.84, 256)), N=256
 )
-"""Colours of growth: the two sides of zero are told apart with any colour vision, and black lines are
-seen on both ends."""
+"""Colours of growth: signs are distinguishable with any colour vision, and black lines are visible at
+both ends."""
 
 ARROWS = 60
-"""About so many arrows of friction on a rectangle."""
+"""Approximate number of friction arrows on a rectangle."""
 
 ARROW = 0.9
-"""Length of the longest arrow over the distance of their tails."""
+"""Length of the longest arrow relative to the spacing of arrows."""
 
 DOTS = 20
-"""At most about so many on a path."""
+"""Approximate largest number of dots on a path."""
 
 PHASES = 24
-"""Phases that the scale of the colours is taken from."""
+"""Number of phases from which the colour scale is determined."""
 
 MEAN, BAND, WAVE = COLORS["vermillion"], "#F2B48F", COLORS["blue"]
 
 
 def draw_speed(ax: Axes, moving: Moving, units: Units) -> None:
-    """V(t) with its mean, and the error of the mean, numerical and of the model, as a band."""
+    """V(t) with its mean, and the numerical plus model error of the mean as a band."""
     course, speed = moving.course(), moving.speed
     times, velocity = course.times * units.time_factor, course.velocity * units.speed_factor
     ax.plot(times, velocity, color=COLORS["blue"], label="$V(t)$")
@@ -61,7 +61,7 @@ def draw_speed(ax: Axes, moving: Moving, units: Units) -> None:
 
 
 def in_words(mean: float, error: float) -> str:
-    """Mean and error to the digits that the error leaves, or else to five.
+    """Mean and error to the digits resolved by the error, five at most.
 
     >>> from fem_check.output.panels import in_words
     >>> print(in_words(-0.19177, 5.2e-4), "|", in_words(0.071, 0.0113), "|", in_words(0.0779601, 5e-16))
@@ -104,7 +104,7 @@ def draw_sheet(ax: Axes, moving: Moving, units: Units, phase: float) -> None:
 
 
 def draw_side(ax: Axes, moving: Moving, units: Units, phase: float) -> None:
-    """The sheet in space seen along x, from the edge, on its ground; heights not to scale."""
+    """The sheet in space on its ground, seen along x from the edge; heights not to scale."""
     points, triangles = moving.covering()
     frame = moving.at(points, phase)
     add_side(ax, frame, triangles, units.length_factor, growth_scale(moving, points))
@@ -116,7 +116,7 @@ def draw_side(ax: Axes, moving: Moving, units: Units, phase: float) -> None:
 
 
 def draw_path(ax: Axes, moving: Moving, units: Units, periods: int) -> None:
-    """The way of the centre, dots at the ends of the periods, and the outline at both ends of it."""
+    """The path of the centre, with dots at the ends of periods and the outline at both ends."""
     _, way = moving.way(periods, 16)
     factor = units.length_factor
     if moving.has_shape:
@@ -143,7 +143,7 @@ def draw_path(ax: Axes, moving: Moving, units: Units, periods: int) -> None:
 def add_sheet(
     ax: Axes, place: Array, growth: Array, triangles: Integers, most: float
 ) -> tuple[Any, Artist]:
-    """The colour of growth in per cent on a scale of +-most, which a colour bar reads, and the edge."""
+    """Draw growth in per cent as colours on a scale of +-most, for a colour bar, and the outline."""
     grid = Triangulation(*_on_page(place[:2]), triangles)
     most = most or 1.0
     image = ax.tripcolor(
@@ -155,7 +155,7 @@ def add_sheet(
 def add_side(
     ax: Axes, frame: Frame, triangles: Integers, factor: float, most: float
 ) -> tuple[Artist, Artist]:
-    """As `add_sheet`, seen from the edge: along x."""
+    """As `add_sheet`, seen along x from the edge."""
     places = frame.place[1:] * factor
     most = most or 1.0
     image = ax.tripcolor(
@@ -172,24 +172,24 @@ def add_side(
 
 
 def draw_ground(ax: Axes, moving: Moving, low: float, high: float, factor: float) -> None:
-    """The ground from the side, under the middle of the sheet, between two places y."""
+    """The ground from the side, under the middle of the sheet, between two positions y."""
     y = np.linspace(low, high, 400)
     ax.plot(y * factor, moving.ground(y) * factor, color="0.4", linewidth=0.8, zorder=1)
 
 
 def outline(place: Array, triangles: Integers, **look: Any) -> LineCollection:
-    """The edge of the sheet, from above."""
+    """The outline of the sheet from above."""
     ends = np.stack(_on_page(place[:2]), axis=-1)[edges(triangles)]
     return LineCollection(list(ends), linewidth=0.8, zorder=3, **look)
 
 
 def label_ground(ax: Axes, units: Units) -> None:
-    """Names of the axes from above."""
+    """Label the axes of a view from above."""
     ax.set(xlabel=f"$y$ ({units.length})", ylabel=f"$x$ ({units.length})")
 
 
 def growth_scale(moving: Moving, points: Array) -> float:
-    """The largest |alpha c| through a period, per cent; 0 without growth."""
+    """The largest |alpha c| over a period, per cent; 0 without growth."""
     some = points[:, :: max(1, points.shape[1] // 400)]
     frames = moving.frames(some, 1, PHASES)
     return 100 * max(float(abs(frame.growth).max()) for frame in frames)
@@ -198,7 +198,7 @@ def growth_scale(moving: Moving, points: Array) -> float:
 def _draw_friction(
     ax: Axes, moving: Moving, phase: float, points: Array, triangles: Integers, factor: float
 ) -> bool:
-    """Arrows of friction; False where there is none."""
+    """Draw friction arrows; returns False if there is no friction."""
     width, length = np.ptp(points, axis=1)
     along = max(2, round(float(np.sqrt(ARROWS * length / width))))
     across = max(2, round(ARROWS / along))
@@ -225,12 +225,12 @@ def _draw_friction(
 
 
 def _on_page(places: Array) -> tuple[Array, Array]:
-    """y to the right, x downwards (on an axis that is turned round)."""
+    """Page coordinates: y to the right, x downwards (the axis is inverted)."""
     return places[1], places[0]
 
 
 def _ways(moving: Moving) -> str:
-    """Which way wave and sheet go."""
+    """Directions of wave and sheet, in words."""
     arrows = {1: r"$\rightarrow$", -1: r"$\leftarrow$"}
     wave = f"wave {arrows[moving.direction]}, " if moving.direction else ""
     sheet = arrows.get(int(np.sign(moving.speed.mean)), "at rest")

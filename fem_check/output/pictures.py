@@ -20,10 +20,10 @@ from linear_theory.speed.result import CrawlSpeed
 PANELS = ("speed", "sheet", "side", "path")
 
 HEIGHTS = {"speed": 3.8, "sheet": 4.0, "side": 2.9, "path": 3.6}
-"""Of the panels in centimetres, labels included."""
+"""Heights of the panels in centimetres, including labels."""
 
 PERIODS, MOST_PERIODS = 10, 10_000
-"""Of a path, unless given, and at most."""
+"""Default and largest number of periods of a path."""
 
 
 def plot(
@@ -54,7 +54,7 @@ def plot(
         _draw(ax, what, moving, units, phase, periods)
         return ax
     if ax is not None:
-        raise ValueError(f"what = None: must be one of {', '.join(panels(moving))} where ax is given")
+        raise ValueError(f"what = None: must be one of {', '.join(panels(moving))} if ax is given")
     with styled():
         axes = _new_axes(panels(moving))
         for panel, name in zip(axes, panels(moving), strict=True):
@@ -63,30 +63,30 @@ def plot(
 
 
 def moving_of(result: Any) -> Moving:
-    """A result as pictures see it. Raises ValueError for what has no motion."""
+    """The drawing interface of a result. Raises ValueError for a result without motion."""
     if isinstance(result, Prediction):
         result = result.speed
     if isinstance(result, CrawlSpeed):
         return Crawling(result)
-    hint = "crawl_speed, field_speed, cycle_speed, predict and simulate make them"
+    hint = "use crawl_speed, field_speed, cycle_speed, predict or simulate"
     return Simulated(validation.instance("result", result, Trajectory, hint))
 
 
 def panels(moving: Moving) -> tuple[str, ...]:
-    """Names of the panels that there is something for."""
+    """Names of the panels for which there are data."""
     shown = {"speed": True, "sheet": moving.has_shape, "side": moving.components == 3, "path": True}
     return tuple(name for name in PANELS if shown[name])
 
 
 def checked_units(moving: Moving, units: Units | None) -> Units:
-    """Units, those of the sheet unless given."""
+    """The given units, by default those of the sheet."""
     if units is None:
         return Units.of_sheet(moving.length, moving.period)
     return validation.instance("units", units, Units, 'as Units("mm", "s", 40.0, 8.0)')
 
 
 def checked_periods(moving: Moving, periods: int | None, usual: int) -> int:
-    """A number of periods that can be shown, `usual` or what there is unless given."""
+    """A number of periods that can be shown, by default `usual` or all available."""
     most = MOST_PERIODS if moving.most_periods is None else moving.most_periods
     if periods is None:
         return most if moving.most_periods is not None else usual
@@ -99,7 +99,7 @@ def _check_panel(moving: Moving, what: str) -> None:
     if what in panels(moving):
         return
     why = {
-        "sheet": "a speed of a body on a line, or one that was copied or pickled, has no shape to draw",
+        "sheet": "a speed of a body on a line, or a copied or unpickled one, has no shape to draw",
         "side": "the sheet lies in the plane",
     }
     raise ValueError(f"what = {what!r}: {why[what]}; must be one of {', '.join(panels(moving))}")
@@ -107,7 +107,7 @@ def _check_panel(moving: Moving, what: str) -> None:
 
 def _new_axes(names: tuple[str, ...]) -> NDArray[Any]:
     """Axes (panels,) of a new figure, one above the other."""
-    # pyplot, so that show() and notebooks know the figure; imported here, since it picks a backend
+    # pyplot, so that show() and notebooks find the figure; imported here, since it selects a backend
     import matplotlib.pyplot as plt
 
     heights = [HEIGHTS[name] for name in names]

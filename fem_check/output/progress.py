@@ -1,4 +1,4 @@
-"""Progress of long work, said on stderr once it is slow."""
+"""Progress of long computations, printed on stderr."""
 
 import math
 import sys
@@ -10,17 +10,16 @@ from typing import Self, TextIO
 
 
 class Progress:
-    """Say on stderr how far a computation is and how long it will take, once it is slow.
+    """Print the progress and the remaining time of a slow computation on stderr.
 
         with Progress("fig3", total=len(alphas)) as progress:
             for alpha in alphas:
                 ...
                 progress.advance()
 
-    Nothing is printed before `delay` seconds. `total` and the steps may be any unit of work, so
-    that steps of unequal cost leave the time left right. A thread prints, because a single step
-    may itself be the slow one. On a terminal the line is rewritten, in a log a new one is added
-    now and then.
+    Nothing is printed before `delay` seconds. `total` and the steps may be in any unit of work, so
+    that the time left is right for steps of unequal cost. A thread prints, because a single step
+    may be slow. On a terminal the line is overwritten, in a log new lines are added occasionally.
     """
 
     def __init__(
@@ -40,7 +39,7 @@ class Progress:
         self._rewrite = self._stream.isatty()
         self._interval = interval or (0.5 if self._rewrite else 10.0)
         self._start = clock()
-        # Work done and when it was done, in one tuple: the thread always reads a pair that fits.
+        # Work done and its time in one tuple: the thread always reads a consistent pair.
         self._done = (0.0, 0.0)
         self._shown = False
         self._stop = threading.Event()
@@ -66,17 +65,17 @@ class Progress:
                 self._stream.write("\n")
 
     def advance(self, amount: float = 1.0) -> None:
-        """One more step (or `amount` of the total) is done."""
+        """Report that one more step (or `amount` of the total) is done."""
         self._done = (self._done[0] + amount, self._clock() - self._start)
 
     def line(self) -> str:
-        """The state in words: share done, time spent, time left."""
+        """The state in words: fraction done, time spent, time left."""
         elapsed = self._clock() - self._start
         done, when = self._done
         share = f"{self._label}: {min(done / self._total, 1):4.0%}, {_duration(elapsed)}"
         if done <= 0:
-            return f"{share}, time left not known yet"
-        # From the rate up to the last step; between steps the estimate counts down.
+            return f"{share}, time left unknown"
+        # From the average rate up to the last step; between steps the estimate counts down.
         left = max(when * self._total / done - elapsed, 0.0)
         return f"{share}, about {_duration(left)} left"
 

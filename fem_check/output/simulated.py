@@ -1,4 +1,4 @@
-"""Trajectories as pictures see them."""
+"""Trajectories, prepared for pictures."""
 
 from collections.abc import Iterator
 from functools import cached_property
@@ -20,11 +20,8 @@ from linear_theory.speed.result import CrawlSpeed
 Array = NDArray[np.float64]
 Integers = NDArray[np.int64]
 
-TINY = 1e-300
-"""Replaces a speed of 0, at which there is no force."""
-
 AROUND = 1e-2
-"""Half of the interval, in periods, over which velocities are differences of positions."""
+"""Half the interval, in periods, of the difference quotients for velocities."""
 
 
 class Simulated:
@@ -42,7 +39,7 @@ class Simulated:
 
     @cached_property
     def speed(self) -> CrawlSpeed:
-        """Of the last period."""
+        """Speed of the last period."""
         return self._trajectory.speed
 
     @property
@@ -55,7 +52,7 @@ class Simulated:
         return triangles.covering(self._model.discretisation.mesh)
 
     def course(self) -> Course:
-        """V(t) of all counted periods; the mean is that of the last one."""
+        """V(t) over all counted periods; the mean is that of the last one."""
         run = self._trajectory
         velocity, counted = np.gradient(run.centre[1], run.times), run.times >= run.start
         end = float(run.times[-1])
@@ -63,7 +60,7 @@ class Simulated:
         return Course(run.times[counted], velocity[counted], last, shown)
 
     def way(self, periods: int, samples: int) -> tuple[Array, Array]:
-        """At the ends of the steps."""
+        """Times at the ends of the steps, and the positions of the centre."""
         run = self._trajectory
         last = run.start + periods * self.period + 1e-9 * self.period
         shown = (run.times >= run.start - 1e-9 * self.period) & (run.times <= last)
@@ -80,9 +77,8 @@ class Simulated:
             return np.zeros((2, region.size))
         before, after = self._within(t - AROUND * self.period), self._within(t + AROUND * self.period)
         moved = self._place(region, after)[:2] - self._place(region, before)[:2]
-        velocity = moved / (after - before)
-        ratio = self._scene.contact.friction.ratio(np.maximum(np.hypot(*velocity), TINY))
-        return np.asarray(-self._load(region, t) * ratio * velocity)
+        law = self._scene.contact.friction
+        return np.asarray(-self._load(region, t) * law.force(moved / (after - before)))
 
     def ground(self, y: Array) -> Array:
         """See Moving."""

@@ -1,4 +1,4 @@
-"""What a film shows: the sheet on ruled ground, its way, the time, and which way the wave runs."""
+"""The frames of a film: the sheet on ruled ground, its path, the time, the direction of the wave."""
 
 from collections.abc import Iterator
 from typing import Any
@@ -28,25 +28,25 @@ Pixels = NDArray[np.uint8]
 DPI = 100
 
 TOP, BOTTOM, LEFT, RIGHT = 42, 42, 14, 14
-"""Pixels around the ground: above it words and scale, below it the ruler."""
+"""Margins around the ground in pixels: text and colour scale above it, the ruler below."""
 
 SIDE = 76
-"""Pixels of the side view of a sheet in space."""
+"""Height of the side view of a sheet in space, in pixels."""
 
 ARROW = 40
-"""Length of the arrow of the wave in pixels."""
+"""Length of the arrow for the wave in pixels."""
 
 LEAST, MOST = 90, 640
 """Height of the ground in pixels."""
 
 ROOMY = 500
-"""Width from which there is room for what the colours mean beside the time."""
+"""Width in pixels from which there is room for the colour scale beside the time."""
 
 MARGIN = 0.12
-"""Of ground around the sheet, in its lengths."""
+"""Margin of ground around the sheet, in lengths of the sheet."""
 
 LOOKED_AT = 60
-"""Frames that the extent of the ground is taken from."""
+"""Number of frames from which the extent of the ground is determined."""
 
 GROUND, RULES = "#EFEFEF", "#D2D2D2"
 
@@ -54,8 +54,8 @@ GROUND, RULES = "#EFEFEF", "#D2D2D2"
 class Stage:
     """The frames of one film as pictures.
 
-    periods of so many frames each; width: in pixels; exaggerate: factor of the displacement within the
-    sheet.
+    periods: of `frames` frames each; width: in pixels; exaggerate: factor on the displacement within
+    the sheet.
     """
 
     def __init__(
@@ -67,7 +67,7 @@ class Stage:
         self._growth = growth_scale(moving, self._points)
         first = self._frames[0]
         self._start = first.centre
-        # The times of a trajectory are its own; a speed has none but those of one period.
+        # A trajectory has its own times; a speed has only those of one period.
         self._zero = first.time if moving.most_periods is None else 0.0
         self._low, self._high = self._extent()
         self._width = width - width % 2
@@ -76,7 +76,7 @@ class Stage:
         return self._total
 
     def pictures(self) -> Iterator[Pixels]:
-        """Red, green and blue, (height, width, 3); width and height are even, as encoders want."""
+        """RGB pictures (height, width, 3); width and height are even, as encoders require."""
         with styled(**{"figure.constrained_layout.use": False}):
             canvas, axes = self._set_up()
             canvas.draw()
@@ -93,7 +93,7 @@ class Stage:
             yield np.asarray(canvas.buffer_rgba())[:, :, :3].copy()
 
     def _moving_parts(self, axes: list[Axes], frame: Frame, trail: Array) -> Iterator[Any]:
-        """What is drawn anew on every picture, from back to front."""
+        """Parts redrawn on every picture, from back to front."""
         top, *side = axes
         factor = self._units.length_factor
         yield from add_sheet(top, frame.place * factor, frame.growth, self._triangles, self._growth)
@@ -106,7 +106,7 @@ class Stage:
             yield from add_side(ax, frame, self._triangles, factor, self._growth)
 
     def _wave(self, ax: Axes, heading: float) -> Iterator[Any]:
-        """The way of the wave, which turns with the sheet."""
+        """The direction of the wave, which turns with the sheet."""
         direction = self._moving.direction
         if not direction:
             return
@@ -132,13 +132,13 @@ class Stage:
         return words.replace("-", "\N{MINUS SIGN}")
 
     def _shown(self, frame: Frame) -> Frame:
-        """With displacements exaggerated."""
+        """The frame with exaggerated displacements."""
         if self._exaggerate == 1:
             return frame
         return frame._replace(place=frame.still + self._exaggerate * (frame.place - frame.still))
 
     def _extent(self) -> tuple[Array, Array]:
-        """Least and largest x and y (and z) that come into view."""
+        """Smallest and largest x and y (and z) in view."""
         some = np.unique(np.linspace(0, self._total - 1, LOOKED_AT).astype(int))
         places = [self._shown(self._frames[int(k)]).place for k in some]
         low = np.min([place.min(1) for place in places], axis=0)
@@ -155,12 +155,12 @@ class Stage:
 
     @property
     def _height(self) -> int:
-        """Of the ground in pixels."""
+        """Height of the ground in pixels."""
         across, along = (self._high - self._low)[:2]
         return int(np.clip(round((self._width - LEFT - RIGHT) * across / along), LEAST, MOST))
 
     def _set_up(self) -> tuple[Any, list[Axes]]:
-        """The ground and all that rests."""
+        """The ground and all static parts."""
         side = SIDE if self._moving.components == 3 else 0
         height = TOP + self._height + BOTTOM + side
         height += height % 2
@@ -186,7 +186,7 @@ class Stage:
     def _rule(self, ax: Axes) -> None:
         factor = self._units.length_factor
         low, high = self._low * factor, self._high * factor
-        # Where the ground is too flat or too high for the picture it is cut or continued evenly.
+        # Ground beyond the height range of the picture is cut off, missing ground continued evenly.
         middle, half = (low + high) / 2, (high - low) / 2
         aspect = self._height / (self._width - LEFT - RIGHT)
         half[1] = max(half[1], half[0] / aspect)
@@ -207,7 +207,7 @@ class Stage:
         ax.axvline(start, color="black", linewidth=0.8, linestyle=(0, (4, 3)), zorder=1)
 
     def _name(self, ax: Axes) -> None:
-        """What the shape is."""
+        """Add the description of the shape."""
         note = self._moving.words
         if self._exaggerate != 1:
             note += f", displacement x {self._exaggerate:g}"
@@ -215,7 +215,7 @@ class Stage:
         ax.text(*place, note, transform=ax.transAxes, va="center", color="0.35", size=7)
 
     def _add_scale(self, fig: Figure, height: int) -> None:
-        """Colours of growth, at the top right."""
+        """The colour scale of growth, at the top right."""
         if not self._growth:
             return
         box = 1 - 118 / self._width, 1 - 26 / height, 90 / self._width, 9 / height
@@ -232,7 +232,7 @@ class Stage:
 
 
 def _multiples(middle: float, half: float, step: float) -> tuple[int, int]:
-    """From which multiple of a step on, and before which, an interval has them."""
+    """First multiple of a step in an interval, and the first one beyond it."""
     return int(np.ceil((middle - half) / step)), int(np.floor((middle + half) / step)) + 1
 
 

@@ -13,19 +13,19 @@ Pixels = NDArray[np.uint8]
 Write = Callable[[Path, Iterator[Pixels], float], None]
 
 SAMPLED = 8
-"""First pictures, from which the colours of a .gif are chosen."""
+"""Number of first pictures from which the colours of a .gif are chosen."""
 
 COLOURS = 128
-"""In a .gif: enough that growth is smooth; twice as many are a third more bytes."""
+"""Colours of a .gif: enough for smooth growth; twice as many would take a third more bytes."""
 
 QUALITY = 20
-"""Constant rate factor of the .mp4: no artefacts are seen in lines and letters."""
+"""Constant rate factor of the .mp4: no visible artefacts in lines and letters."""
 
 MODULE = "imageio_ffmpeg"
 
 
 def require(suffix: str) -> None:
-    """Raise ModuleNotFoundError, with what to install, where the writer of these files is missing."""
+    """Raise ModuleNotFoundError, with what to install, if the writer of these files is missing."""
     if suffix == ".mp4" and find_spec(MODULE) is None:
         raise ModuleNotFoundError(
             "an .mp4 film needs the encoder of the extra `movies`: pip install 'sheetcrawl[movies]' "
@@ -34,7 +34,7 @@ def require(suffix: str) -> None:
 
 
 def write_gif(path: Path, pictures: Iterator[Pixels], fps: float) -> None:
-    """Endlessly repeated, with one palette for all frames and no dither, so that what rests is small.
+    """Write an endlessly repeating .gif, small by one palette for all frames and no dithering.
 
     The delay of a frame is a whole number of 1/100 s, at least 2.
     """
@@ -47,12 +47,12 @@ def write_gif(path: Path, pictures: Iterator[Pixels], fps: float) -> None:
     delay = 10 * max(2, round(100 / fps))
     start = next(images)
     look = {"duration": delay, "loop": 0, "disposal": 1}
-    with path.open("wb") as file:  # closed by an interruption, too
+    with path.open("wb") as file:  # also closed after an interruption
         start.save(file, format="GIF", save_all=True, append_images=images, **look)
 
 
 def write_mp4(path: Path, pictures: Iterator[Pixels], fps: float) -> None:
-    """H.264 that every browser and slide program plays."""
+    """Write H.264 in a form that every browser and slide program plays."""
     import imageio_ffmpeg
 
     first = next(pictures)
@@ -77,9 +77,9 @@ def write_mp4(path: Path, pictures: Iterator[Pixels], fps: float) -> None:
 
 
 WRITERS: dict[str, Write] = {".gif": write_gif, ".mp4": write_mp4}
-"""By the suffix of the file."""
+"""Writers by the suffix of the file."""
 
 
 def _palette(pictures: list[Pixels]) -> Image.Image:
-    """The colours of some pictures together."""
+    """The common palette of several pictures."""
     return Image.fromarray(np.concatenate(pictures)).quantize(COLOURS, method=Image.Quantize.MEDIANCUT)

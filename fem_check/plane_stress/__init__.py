@@ -1,4 +1,4 @@
-"""Growth in plane stress by finite elements, on any outline."""
+"""Growth in plane stress by linear finite elements, for any outline."""
 
 from fem_check.plane_stress.field import PlaneStressField, plane_stress_field
 

@@ -1,4 +1,4 @@
-"""A sparse factorisation that can be copied and sent to other processes."""
+"""A sparse factorisation that can be copied and pickled."""
 
 from functools import cached_property
 from typing import Any
@@ -12,11 +12,11 @@ Array = NDArray[np.float64]
 
 
 class SparseFactor:
-    """SuperLU factor of a symmetric matrix, without exchanges of rows.
+    """SuperLU factor of a symmetric matrix, without row exchanges.
 
-    matrix: (n, n), sparse. SuperLU's own object can be neither copied nor pickled: copies carry the
-    matrix and factor it again when they first solve. Raises RuntimeError for a matrix that is exactly
-    singular, on the first use.
+    matrix: (n, n), sparse. SuperLU's own object can be neither copied nor pickled: copies hold the
+    matrix and factorise it again on first use. Raises RuntimeError, on first use, for an exactly
+    singular matrix.
     """
 
     def __init__(self, matrix: Any) -> None:
@@ -30,7 +30,7 @@ class SparseFactor:
 
     @property
     def is_definite(self) -> bool:
-        """Whether the matrix is positive definite: the signs of U are those of its eigenvalues."""
+        """Whether the matrix is positive definite, by the signs of the diagonal of U."""
         unmoved = np.array_equal(self.lu.perm_r, self.lu.perm_c)  # no rows were exchanged
         return unmoved and bool(np.all(self.lu.U.diagonal() > 0))
 

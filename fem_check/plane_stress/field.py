@@ -1,8 +1,7 @@
 """Small-strain deformation of a sheet of any outline, by linear finite elements.
 
-The field has the interface of the series and of the Ritz solution, so that the same friction
-balance gives its speed. Every solution comes with that on a mesh of twice the size, from which
-follows its error.
+The field has the interface of the series and of the Ritz solution, so that the same friction balance
+gives its speed. Its error is estimated from a second solution on a mesh of twice the size.
 """
 
 import time
@@ -35,23 +34,22 @@ from linear_theory.wave.sampled import drive
 Array = NDArray[np.float64]
 
 CELLS_PER_WIDTH = 6
-"""Triangles across the width, or along a wave where that is shorter, unless a size is given."""
+"""Default number of triangles across the width, or per wavelength if that is shorter."""
 
 GAIN = {2: 3.0, 4: 7.0}
-"""Difference to the mesh of twice the size over the error, at least, in sheets with square corners:
-there halving the mesh divides the error by 7 to 8 (degree 2) or 13 (degree 4, limited by the corners,
-u ~ distance**2.74)."""
+"""Lower bound of the ratio of the difference from the mesh of twice the size to the error, for square
+corners: halving the mesh divides the error by 7 to 8 (degree 2) or 13 (degree 4, limited by the corner
+singularity, u ~ distance**2.74)."""
 
 FALL, NEGLIGIBLE = 2.0, 1e-3
-"""What is no polynomial on the triangles in the growth (share, L2) falls at least so much from one mesh
-to the other where growth is smooth, by 4 or 16; by the root of 2 at a front. A share below the second
-is of no account."""
+"""Smallest factor by which the part of the growth (L2 fraction) not resolved by polynomials decreases
+when smooth growth is refined, 4 or 16 in theory; sqrt(2) at a front. A fraction below the second value
+is negligible."""
 
 ROUGH_GAIN = 0.5
-"""Takes the place of GAIN where growth is not resolved: two meshes then sample a front at places that
-have nothing to do with each other."""
+"""Replaces GAIN if growth is not resolved: the two meshes then sample a front at unrelated points."""
 
-FLAT = 1e-6  # a sheet whose displacement is this small for a moment has no relative error then
+FLAT = 1e-6  # relative size below which a momentarily vanishing displacement has no relative error
 
 
 @one_blas_thread
@@ -65,9 +63,9 @@ def plane_stress_field(
     """Small-strain deformation of a sheet by any wave c(x, y, t), per unit alpha.
 
     outline: a rectangular `Sheet`, a polygon with holes, or a mesh of triangles in units of length;
-    poisson: of the material, in (-1, 1/2], by default that of the Sheet, else 1/2; degree: of the
-    elements, 2 or 4; size: longest side of the triangles (roughly, for polygons), units of length; a
-    given mesh is refined until it is reached, once at least.
+    poisson: Poisson ratio, in (-1, 1/2], by default that of the Sheet, else 1/2; degree: of the
+    elements, 2 or 4; size: longest side of the triangles (approximate for polygons), units of length; a
+    given mesh is refined to this size, at least once.
 
     Raises ValueError for bad input.
 
@@ -89,7 +87,7 @@ def plane_stress_field(
 
 
 def _sheet(outline: Sheet | Outline | MeshTri, poisson: float | None) -> Sheet:
-    """The rectangle around the outline, which carries its length and Poisson ratio."""
+    """The rectangle around the outline, with its length and Poisson ratio."""
     if isinstance(outline, Sheet):
         return outline if poisson is None else replace(outline, poisson=poisson)
     if isinstance(outline, MeshTri):
@@ -116,7 +114,7 @@ def _coarse_mesh(outline: Sheet | Outline | MeshTri, size: float) -> MeshTri:
 
 
 def _gain(outline: Sheet | Outline | MeshTri, degree: int) -> float:
-    """GAIN, but 2 where obtuse corners and 1 where re-entrant ones slow the convergence."""
+    """GAIN, but 2 or 1 where obtuse or re-entrant corners, respectively, slow the convergence."""
     if isinstance(outline, MeshTri) or (isinstance(outline, Outline) and outline.largest_angle > np.pi):
         return 1.0
     square = isinstance(outline, Sheet) or outline.largest_angle < 0.51 * np.pi
@@ -129,7 +127,7 @@ def _longest_side(mesh: MeshTri) -> float:
 
 
 class PlaneStressField(LinearField):
-    """Deformation of a sheet by finite elements; made by `plane_stress_field`.
+    """Deformation of a sheet by finite elements; returned by `plane_stress_field`.
 
     sheet: the rectangle around the outline; mesh: the triangles; degree: of the elements.
 
@@ -186,7 +184,7 @@ class PlaneStressField(LinearField):
         return self._solver.x.ravel()[::every], self._solver.y.ravel()[::every]
 
     def covering(self) -> tuple[Array, NDArray[np.int64]]:
-        """Points and triangles of the mesh, finer where that is coarse."""
+        """Points and triangles of the mesh, refined if it is coarse."""
         return covering(self.mesh)
 
     @cached_property
@@ -210,7 +208,7 @@ class PlaneStressField(LinearField):
         return float(np.max(difference / np.maximum(size, FLAT * size.max()))) / gain
 
     def _missed(self, solver: PlaneStressSolver) -> float:
-        """Share of the growth that the triangles do not resolve, at the worst of some phases."""
+        """Fraction of the growth that the triangles do not resolve, at the worst sampled phase."""
         times = phases(self.drive.period, SAMPLES)
         cases = self._cases.at(times)
         growths, amplitudes = cases.growths(solver.x, solver.y), cases.amplitudes(times)
@@ -219,8 +217,8 @@ class PlaneStressField(LinearField):
         return float(np.max(missed[size > 0] / size[size > 0], initial=0.0))
 
     def _on_cells(self, grid: CellGrid, order: int) -> tuple[Array, Array, Array, Array]:
-        """Points, areas, displacements and dilations of the basis, straight from the elements."""
-        key = order  # the cells are those of the mesh, three to a triangle
+        """Points, areas, displacements and dilations of the basis, directly from the elements."""
+        key = order  # the cells are those of the mesh, three per triangle
         if self._kept is None or self._kept[0] != key:
             points, jacobian = quadrilateral_points(order)
             local, mapping = points.reshape(2, -1), self.mesh.mapping()
@@ -238,7 +236,7 @@ class PlaneStressField(LinearField):
         return solver.solve(self._cases.growths(solver.x, solver.y))
 
     def _norms(self, values: Array, weights: Array) -> Array:
-        """L2 norm over the sheet of fields (cases, 2, n) put together, at the sampled phases."""
+        """L2 norm over the sheet of the superposed fields (cases, 2, n), at the sampled phases."""
         return mixed_norms(values * np.sqrt(weights), self._cases.samples())
 
     @cached_property

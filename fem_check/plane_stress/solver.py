@@ -1,4 +1,4 @@
-"""Finite elements for thermoelastic plane stress: weak forms, one factorisation, values anywhere.
+"""Finite elements for thermoelastic plane stress: weak forms, factorisation, values at any point.
 
 Find u with   int sigma(eps(u) - c I) : eps(v) dx dy = 0   for all v,
 
@@ -52,7 +52,7 @@ def rotation(v: Any, w: Any) -> Any:
 class PlaneStressSolver:
     """Displacements of degree 2 or 4 on a mesh; factors its matrix once.
 
-    x, y: (triangles, points), where growths are wanted; weights: of these points, area included.
+    x, y: (triangles, points), where growths are needed; weights: of these points, including area.
     """
 
     def __init__(self, mesh: MeshTri, degree: int, poisson: float) -> None:
@@ -65,7 +65,7 @@ class PlaneStressSolver:
     def solve(self, growths: Array) -> Array:
         """Nodal displacements for growths (cases, triangles, points), (cases, unknowns).
 
-        Their mean and their mean rotation over the area are zero.
+        Their mean and mean rotation over the area are zero.
         """
         works = [growth_work.assemble(self._basis, growth=g, poisson=self.poisson) for g in growths]
         free, factor = self._factor
@@ -75,9 +75,9 @@ class PlaneStressSolver:
         return np.asarray(solution - np.linalg.solve(means @ modes.T, means @ solution.T).T @ modes)
 
     def missed(self, growths: Array) -> Array:
-        """What polynomials of one degree less than the elements leave of growths, the same shape.
+        """Residual of growths fitted by polynomials of one degree less than the elements, same shape.
 
-        Times the root of the weights: its square sums to the square of an L2 norm.
+        Times the root of the weights: its squares sum to the square of the L2 norm.
         """
         x, y = np.asarray(self._basis.X)
         powers = [(i, j) for i in range(self.degree) for j in range(self.degree - i)]
@@ -87,12 +87,12 @@ class PlaneStressSolver:
         return np.asarray(growths * scale - (growths * scale) @ base @ base.T)
 
     def displacements(self, solution: Array, triangle: Indices, local: Array) -> Array:
-        """(cases, 2, n) in the given triangles (n,) at local coordinates (2, n)."""
+        """Displacements (cases, 2, n) in the given triangles (n,) at local coordinates (2, n)."""
         values, _ = self._shape_functions(local)
         return np.asarray(np.einsum("jbcn,bn->jcn", self._nodal(solution, triangle), values))
 
     def strains(self, solution: Array, triangle: Indices, local: Array) -> Array:
-        """(cases, 3, n), components xx, yy, xy, likewise."""
+        """Strains (cases, 3, n), components xx, yy, xy, at the same kind of points."""
         _, slopes = self._shape_functions(local)
         inverse = self._basis.mapping.invA[:, :, triangle]
         slopes = np.einsum("bdn,den->ben", slopes, inverse)
@@ -116,15 +116,15 @@ class PlaneStressSolver:
     def _factor(self) -> tuple[Indices, SparseFactor]:
         """Free unknowns and the factors of their matrix.
 
-        Three unknowns are held to stop rigid motions; growth exerts no net force or torque, so that
-        no reaction appears there, and `solve` then moves the sheet to where it belongs.
+        Three unknowns are fixed to suppress rigid motions; growth exerts no net force or torque, so
+        that the reactions vanish, and `solve` then removes the mean displacement and rotation.
         """
         matrix = elastic_work.assemble(self._basis, poisson=self.poisson)
         free = np.setdiff1d(np.arange(self._basis.N), self._held())
         return free, SparseFactor(matrix[free][:, free])
 
     def _held(self) -> Indices:
-        """Both components at one vertex, the one across the line between them at the farthest."""
+        """Both components at one vertex, and one at the farthest, across the line between them."""
         ray = self.mesh.p - self.mesh.p[:, :1]
         far = int(np.argmax(ray[0] ** 2 + ray[1] ** 2))
         across = int(abs(ray[0, far]) > abs(ray[1, far]))
@@ -133,13 +133,13 @@ class PlaneStressSolver:
 
     @cached_property
     def _rigid_motions(self) -> tuple[Array, Array]:
-        """Nodal values of the three rigid motions, and the integrals that find them, (3, unknowns)."""
+        """Nodal values of the three rigid motions, and integrals that measure them, (3, unknowns)."""
         basis = self._basis
         component = np.zeros(basis.N, np.int64)
         for dofs in (basis.nodal_dofs, basis.facet_dofs, basis.interior_dofs):
             component[dofs[1::2]] = 1
         arms = basis.doflocs - self.centre_and_gyration[0][:, None]
-        size = power_of_two(float(abs(arms).max()))  # a rotation is compared with shifts
+        size = power_of_two(float(abs(arms).max()))  # makes rotations comparable with shifts
         x, y = arms / size
         modes = np.stack([component == 0, component == 1, np.where(component == 0, -y, x)])
         means = [
@@ -150,7 +150,7 @@ class PlaneStressSolver:
         return modes.astype(float), np.stack(means)
 
     def _nodal(self, solution: Array, triangle: Indices) -> Array:
-        """(cases, shape functions, 2, n)."""
+        """Nodal values of the given triangles, (cases, shape functions, 2, n)."""
         dofs = self._basis.element_dofs[:, triangle]
         return np.asarray(solution[:, dofs].reshape(len(solution), -1, 2, dofs.shape[1]))
 
@@ -162,6 +162,6 @@ class PlaneStressSolver:
 
 
 def _symmetric(gradient: Array) -> Array:
-    """(cases, 2, 2, ...) displacement gradients to (cases, 3, ...) strains."""
+    """Strains (cases, 3, ...) from displacement gradients (cases, 2, 2, ...)."""
     mixed = (gradient[:, 0, 1] + gradient[:, 1, 0]) / 2
     return np.stack([gradient[:, 0, 0], gradient[:, 1, 1], mixed], axis=1)

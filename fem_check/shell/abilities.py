@@ -1,4 +1,4 @@
-"""What the levels of finite elements can represent, see `linear_theory.scene.level`."""
+"""What the finite-element levels can represent, see `linear_theory.scene.level`."""
 
 from collections.abc import Collection, Mapping
 
@@ -17,7 +17,7 @@ def _of_a_cycle(effect: object, scene: Scene) -> str:
 
 
 def _of_a_step(effect: object, scene: Scene) -> str:
-    """All effects, in all of their forms."""
+    """No objection: time stepping represents every effect in every form."""
     return "" if isinstance(effect, Effect) else type(effect).__name__
 
 
@@ -27,27 +27,28 @@ def _moves_in_time(scene: Scene) -> str:
     return ""
 
 
+def _rests_otherwise(scene: Scene) -> str:
+    if scene.states_contact and not any(effect.law for effect in scene.effects):
+        return "a contact that is not given by the effects Friction and Gravity or Ground"
+    return ""
+
+
 CYCLE = Level("cycle_speed(scene)", _of_a_cycle)
 
-STEPPED = Level("simulate(scene)", _of_a_step, (_moves_in_time,))
+STEPPED = Level("simulate(scene)", _of_a_step, (_moves_in_time, _rests_otherwise))
 
 LEVELS = (THEORY, CYCLE, STEPPED)
 
 WORDS: Mapping[type, str] = {
-    Bending: "bending, buckling and so the thickness",
+    Bending: "bending and buckling (hence the thickness)",
     Ground: "the ground",
-    Gravity: "weight, but as the load of friction",
-    Friction: "friction that deforms the sheet",
+    Gravity: "weight, except as the normal load of friction",
+    Friction: "deformation by friction",
     Inertia: "inertia",
 }
-"""What the levels know besides stretching, for people."""
-
-
-def require(level: Level, scene: Scene) -> None:
-    """Raise ValueError where the level would drop something of the scene."""
-    level.require(scene, LEVELS)
+"""Effects besides stretching, in words for people."""
 
 
 def left_out(named: Collection[type]) -> tuple[str, ...]:
-    """What an answer leaves out whose effects are of the classes `named`, in words."""
+    """Effects, in words, that are neglected by an answer with effects of the classes `named` alone."""
     return tuple(words for kind, words in WORDS.items() if kind not in named)

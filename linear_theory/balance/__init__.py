@@ -1,1 +1,1 @@
-"""The balance of friction, at one time and through a period."""
+"""The friction balance, at one time and over a period."""

@@ -2,15 +2,15 @@
 
 With velocities per unit alpha, v = alpha v^, V = alpha q, and the load 1 + alpha e, the balance is
 
-    integral (1 + alpha e) f(|w|) w/|w| . R_j dA = 0,      w = v^ + sum_j q_j R_j,
+    integral (1 + alpha e) f(w) . R_j dA = 0,      w = v^ + sum_j q_j R_j,
 
-R_j the rigid velocities: (0, 1) for motions that are mirror symmetric in x, else (1, 0), (0, 1) and
-the rotation (-y, x), x and y counted from the centre of mass. It is where the convex function
-int (1 + alpha e) F(|w|) dA, F' = f, is least. On a slope the load itself pulls, by `slope` times itself
-along -y: slope (0, 1) . R_j joins the sum.
+f the force of the law of friction, R_j the rigid velocities: (0, 1) for motions that are mirror
+symmetric in x, else (1, 0), (0, 1) and the rotation (-y, x), x and y counted from the centre of mass.
+It is where the convex function int (1 + alpha e) F(w) dA, F the potential of f, is least. On a slope
+the load itself pulls, by `slope` times itself along -y: slope (0, 1) joins f.
 
 For small alpha the mean of q is much smaller than q(t). Hence q = q_0 + alpha q_1: q_0 balances the
-load 1, and q_1 solves what is left, divided by alpha, with the difference quotient of f w/|w| written
+load 1, and q_1 solves what is left, divided by alpha, with the difference quotient of f written
 without cancellation. A velocity of second order, v = alpha v^ + alpha^2 v_2, joins q_1, and so does
 that a sheet displaced by alpha u turns about its centre with R_2 = (-y - alpha u_y, x + alpha u_x).
 
@@ -19,7 +19,7 @@ the speed that it gives the ends of the sheet: tolerances have the same meaning 
 and time.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import partial
 from typing import NamedTuple
 
@@ -28,7 +28,8 @@ from numpy.typing import NDArray
 
 from linear_theory.balance.newton import damped_newton, guarded_newton
 from linear_theory.common.units import power_of_two
-from linear_theory.friction.laws import FrictionLaw
+from linear_theory.friction.isotropic import norm
+from linear_theory.friction.law import ALL, FrictionLaw
 from linear_theory.motion.cells import Integers, graded
 from linear_theory.motion.motion import Motion
 
@@ -40,10 +41,13 @@ Residual = Callable[..., tuple[Array, Array]]
 
 _COARSE_HALVINGS = 8
 _MARGIN = 1.5  # mean over variation of w on a cell, above which Gauss quadrature sees it as smooth
-_TINY = 1e-80  # replaces |w| = 0, where w/|w| is any direction
 _LINEAR = 1e-8  # alpha below which q_1 is the zero of a linear function
 _NEAR = 0.3  # after a Newton step s the error is some s^2 over the speed of the sheet: 10 would do
 _REST = 1e-6  # speeds below this share of the mean speed count as rest
+_VELOCITY, _AREA, _RATE, _ARMS = slice(0, 2), 2, 3, slice(4, 6)
+"""Channels of the values at a point: v_x, v_y, area, e; x, y from the centre if the sheet may turn;
+then v_2 and u if there are any."""
+
 _ALONG = (1,)  # rigid velocities of a mirror-symmetric motion; 0, 1 translations, 2 rotation
 _ALL = (0, 1, 2)
 
@@ -59,6 +63,19 @@ class RigidMotion(NamedTuple):
     remainder: Array
     rest: Array
     fastest: float
+
+    def joined(self, more: "RigidMotion", added: NDArray[np.bool_]) -> "RigidMotion":
+        """Motions merged in time order: `more` at the times `added`; times are the last axis of
+        rest."""
+        axis, known = self.rest.ndim - 1, self.rest.shape[-1]
+        order = np.empty(added.size, int)
+        order[~added] = np.arange(known)
+        order[added] = known + np.arange(more.rest.shape[-1])
+        leading, remainder, rest = (
+            np.take(np.concatenate([a, b], axis), order, axis)
+            for a, b in zip(self[:3], more[:3], strict=True)
+        )
+        return RigidMotion(leading, remainder, rest, max(self.fastest, more.fastest))
 
 
 class Units(NamedTuple):
@@ -102,6 +119,7 @@ class Balance:
         units = self._units = Units.of(motion)
         self._alpha, self._law, self._slope = alpha, law.scaled(units.speed), slope
         self._modes = _ALONG if motion.mirrored else _ALL
+        self._kept = slice(1, 2) if motion.mirrored else ALL
         area = np.broadcast_to(motion.area / units.area, rate.shape)
         channels = [*motion.velocity / units.speed, area, rate]
         if not motion.mirrored:
@@ -113,9 +131,8 @@ class Balance:
         self._shift = slice(0, 0) if displacement is None else slice(len(channels), len(channels) + 2)
         if displacement is not None:
             channels += [*displacement / units.length]
-        # v_x, v_y, area, e, then x, y from the centre if the sheet may turn, then v_2 and u if any
         self._values = np.stack(channels)
-        self._scale = float(np.sqrt(np.mean(self._values[:2] ** 2))) or 1.0
+        self._scale = float(np.sqrt(np.mean(self._values[_VELOCITY] ** 2))) or 1.0
         self._stages = [(halvings, tolerance)]
         if halvings > 2 * _COARSE_HALVINGS:
             self._stages.insert(0, (_COARSE_HALVINGS, 1e-2))
@@ -129,12 +146,14 @@ class Balance:
         first, second = starts
         leading = self._zero(self._leading, np.zeros((1, 1)), 1.0, first)
         remainder = np.zeros_like(leading)
-        if any(np.any(self._values[i]) for i in (3, self._second, self._shift)):  # else nothing remains
+        if any(
+            np.any(self._values[i]) for i in (_RATE, self._second, self._shift)
+        ):  # else nothing remains
             remainder = self._remaining(leading, second)
         change = self._change(self._values, leading, remainder)
-        speed = _norm(self._moved(self._values, leading) + self._alpha * change)
+        speed = norm(self._moved(self._values, leading) + self._alpha * change)
         rest = np.mean(speed < _REST * self._scale, axis=(1, 2, 3))
-        still = ~np.any(self._values[:2], axis=(0, 2, 3, 4))
+        still = ~np.any(self._values[_VELOCITY], axis=(0, 2, 3, 4))
         rest[still] = 0.0  # all is at rest, no part of it sticks
         fastest = 0.0 if still.all() and not self._slope else self._units.speed * float(speed.max())
         return RigidMotion(self._full(leading), self._full(remainder), rest, fastest)
@@ -155,7 +174,11 @@ class Balance:
     def _step(self, residual: Residual, q: Array) -> Array:
         """One Newton step from q, (times, unknowns), with the finest cells."""
         value, slope = residual(q, np.arange(len(q)), halvings=self._stages[-1][0])
-        return np.asarray(-np.linalg.solve(slope, value[:, :, None])[:, :, 0])
+        try:
+            step = np.linalg.solve(slope, value[:, :, None])
+        except np.linalg.LinAlgError:  # dry friction of a motion along one line: no stiffness along it
+            step = np.linalg.pinv(slope, hermitian=True) @ value[:, :, None]
+        return np.asarray(-step[:, :, 0])
 
     def _zero(self, residual: Residual, offset: Array, unit: float, start: Array | None) -> Array:
         """q (times, unknowns) of residual 0; without a start, first roughly with few halvings."""
@@ -183,12 +206,13 @@ class Balance:
         """Residual and slope of the balance for the load 1."""
 
         def integrand(values: Array, owners: Integers) -> Array:
-            w = self._moved(values, q[owners])
-            r = _norm(w)
-            ratio, slope = self._law.ratio(r), self._law.ratio_slope(r)
-            dots = [self._dot(i, w, values) for i in self._modes]
-            forces = [ratio * d + self._pull(i, values) for i, d in zip(self._modes, dots, strict=True)]
-            return values[2] * np.stack(forces + self._hessian(values, dots, ratio, slope))
+            met = self._law.at(self._moved(values, q[owners]), self._kept)
+            force = met.force
+            if self._slope:
+                force = np.stack([*force[:-1], force[-1] + self._slope])
+            return values[_AREA] * np.stack(
+                self._along(force, values) + self._between(met.tangent, values)
+            )
 
         def motion(values: Array, owners: Integers) -> list[Array]:
             return [self._moved(values, q[owners])]
@@ -202,22 +226,15 @@ class Balance:
         first, alpha = leading[times], self._alpha
 
         def integrand(values: Array, owners: Integers) -> Array:
-            before = self._moved(values, first[owners])
+            before = self._law.at(self._moved(values, first[owners]), self._kept)
             change = self._change(values, first[owners], q[owners])
-            after = before + alpha * change
-            r, r_after = _norm(before), _norm(after)
-            speed_slope = ((before + after) * change).sum(0) / (r + r_after)
-            quotient = self._law.ratio_quotient(r, r_after, speed_slope, alpha)
-            ratio, slope = self._law.ratio(r_after), self._law.ratio_slope(r_after)
-            rate = values[3]
-            force = ratio * (change + rate * after) + quotient * before
-            weight = 1 + alpha * rate
-            dots = [self._dot(i, after, values) for i in self._modes]
-            forces = [self._dot(i, force, values) for i in self._modes]
+            after, difference = before.moved(change, alpha)
+            rate = values[_RATE]
+            forces = self._along(difference + rate * after.force, values)
             if self._shift.stop:
-                forces[-1] += self._law.ratio(r) * self._dot(2, before, self._arms(values))
-            hessian = self._hessian(values, dots, weight * ratio, weight * slope)
-            return values[2] * np.stack(forces + hessian)
+                forces[-1] += _moment(values[self._shift], before.force)
+            tangent = (1 + alpha * rate) * after.tangent
+            return values[_AREA] * np.stack(forces + self._between(tangent, values))
 
         def motion(values: Array, owners: Integers) -> list[Array]:
             before = first[owners]
@@ -253,44 +270,31 @@ class Balance:
         spread = q.T.reshape(len(self._modes), -1, *(1,) * (values.ndim - 2))
         if len(self._modes) == 1:
             return np.stack([values[0], values[1] + spread[0]])
-        x, y = (values if at is None else at)[4:6]
+        x, y = (values if at is None else at)[_ARMS]
         return np.stack([values[0] + spread[0] - y * spread[2], values[1] + spread[1] + x * spread[2]])
 
     def _change(self, values: Array, leading: Array, q: Array) -> Array:
         """What a rigid motion q of second order, v_2 and u add to w/alpha, (2, ...)."""
-        still = np.zeros_like(values[:2]) if self._second.stop == 0 else values[self._second]
+        still = np.zeros_like(values[_VELOCITY]) if self._second.stop == 0 else values[self._second]
         if self._shift.stop:
             still = self._moved(still, leading * [0.0, 0.0, 1.0], self._arms(values))
         return self._moved(still, q, values)
 
     def _arms(self, values: Array) -> Array:
         """The values with u in the place of x, y."""
-        return np.concatenate([values[:4], values[self._shift]])
+        return np.concatenate([values[: _ARMS.start], values[self._shift]])
 
-    def _dot(self, mode: int, w: Array, values: Array) -> Array:
-        """w . R of a rigid velocity R."""
-        return w[mode] if mode < 2 else values[4] * w[1] - values[5] * w[0]
+    def _along(self, force: Array, values: Array) -> list[Array]:
+        """force . R of the rigid velocities R; force: the kept components."""
+        return [*force] if len(force) == 1 else [*force, _moment(values[_ARMS], force)]
 
-    def _pull(self, mode: int, values: Array) -> Array | float:
-        """slope (0, 1) . R of a rigid velocity R."""
-        return 0.0 if mode == 0 or not self._slope else self._slope * (1.0 if mode == 1 else values[4])
-
-    def _hessian(self, values: Array, dots: list[Array], ratio: Array, slope: Array) -> list[Array]:
-        """Integrands of the Hessian, row by row."""
-        rows = []
-        for i in range(len(self._modes)):
-            for j in range(len(self._modes)):
-                rigid = self._rigid_product(self._modes[i], self._modes[j], values)
-                rows.append(ratio * rigid + slope * dots[i] * dots[j])
-        return rows
-
-    def _rigid_product(self, i: int, j: int, values: Array) -> Array | float:
-        """R_i . R_j."""
-        if i == j:
-            return 1.0 if i < 2 else values[4] ** 2 + values[5] ** 2
-        if 2 not in (i, j):
-            return 0.0
-        return -values[5] if 0 in (i, j) else values[4]
+    def _between(self, tangent: Array, values: Array) -> list[Array]:
+        """R . tangent . R' of the rigid velocities, row by row; tangent: yy, or xx, xy, yy."""
+        if len(tangent) == 1:
+            return [*tangent]
+        (xx, xy, yy), arms = tangent, values[_ARMS]
+        turn = [_moment(arms, row) for row in ((xx, xy), (xy, yy))]
+        return [xx, xy, turn[0], xy, yy, turn[1], *turn, _moment(arms, turn)]
 
     def _roughness(self, w: Array) -> tuple[NDArray[np.bool_], Integers]:
         """Cells on which w/|w| may turn for one of several w, and the axis along which it varies more.
@@ -331,5 +335,6 @@ def _single(
     return guarded_newton(function, np.clip(q[:, 0], low, high), low, high, xtol, near)[:, None]
 
 
-def _norm(w: Array) -> Array:
-    return np.maximum(np.sqrt(w[0] * w[0] + w[1] * w[1]), _TINY)  # np.hypot takes ten times as long
+def _moment(arms: Array, force: Sequence[Array] | Array) -> Array:
+    """x f_y - y f_x."""
+    return np.asarray(arms[0] * force[1] - arms[1] * force[0])

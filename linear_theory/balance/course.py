@@ -1,56 +1,38 @@
-"""The motion of a sheet at chosen times, and what can hide between them.
+"""The motion of a sheet at sampling times, and the error from what happens between them.
 
-The quadrature in time judges itself by differences of the motion on its grid. A harmonic of the wave
-that the grid does not tell from a lower one is not seen there, but is known from the wave. Where
-such harmonics can matter, the motion is found at random times, too: what it is off the polynomials of
-the grid has the error of the grid's mean as its expectation, whatever the wave.
+The quadrature in time estimates its error from differences of the motion on its grid. It misses
+harmonics of the wave that alias to lower ones on the grid, but these are known from the wave. Where
+aliased harmonics can matter, the motion is also computed at random times: for any wave, the expected
+deviation from the grid's interpolating polynomials is the error of the grid's mean.
 """
 
 import math
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from linear_theory.balance.balance import RigidMotion
+from linear_theory.balance.crawl import Crawl, Known
 from linear_theory.balance.time_grid import TimeGrid
-
-if TYPE_CHECKING:
-    from linear_theory.balance.period import Crawl
 
 Array = NDArray[np.float64]
 
 CHECKS, SEED = 16, 7
-"""Random times at which a motion is checked."""
+"""Number of random times at which a motion is checked."""
 
 HIDDEN = 0.1
-"""Share of the tolerance of the times up to which a wave may hide without a check."""
-
-
-class Known(NamedTuple):
-    """The motion at some ascending times."""
-
-    times: Array
-    motion: RigidMotion
-
-    def between(self, times: Array) -> RigidMotion:
-        """Linear interpolation of q."""
-        leading, remainder = (
-            np.stack([np.interp(times, self.times, column) for column in q.T], axis=1)
-            for q in (self.motion.leading, self.motion.remainder)
-        )
-        return RigidMotion(leading, remainder, np.zeros(times.size), 0.0)
+"""Fraction of the tolerance of the quadrature in time; aliased harmonics above it are checked."""
 
 
 @dataclass(frozen=True)
 class Course:
-    """The motion at the times of a grid; checks: at random times that the grid does not know.
+    """The motion at the times of a grid; checks: the motion at random times off the grid.
 
-    hides: whether more may hide between the times than was asked for.
+    hides: whether the error from aliased harmonics may exceed the tolerance.
     """
 
-    crawl: "Crawl"
+    crawl: Crawl
     grid: TimeGrid
     motion: RigidMotion
     checks: RigidMotion | None = None
@@ -58,11 +40,11 @@ class Course:
 
     @property
     def mean(self) -> Array:
-        """Mean V_x, V_y, Omega that count, (3,)."""
+        """Means of V_x, V_y, Omega, of the orders that are counted, (3,)."""
         return self.grid.means(self.crawl.counted(self.motion))[0]
 
     def error(self) -> Array:
-        """Its estimated error, (3,)."""
+        """Estimated errors of `mean`, (3,)."""
         seen = self.grid.means(self.crawl.counted(self.motion))[1]
         if self.checks is None:
             return np.asarray(seen + self.crawl.norm.each(self._hidden))
@@ -70,7 +52,7 @@ class Course:
         return np.maximum(seen, self._off(*counted))
 
     def means(self) -> tuple[Array, Array]:
-        """Of q_0 and q_1, (2, 3), and their errors; none where symmetry says 0."""
+        """Means of q_0 and q_1, (2, 3), and their errors; 0 where a mean vanishes by symmetry."""
         orders = _orders(self.motion)
         means, errors = np.stack([self.grid.means(order) for order in orders], axis=1)
         if self.checks is not None:
@@ -85,10 +67,10 @@ class Course:
         return means, errors
 
     def improved(self, tolerance: float) -> tuple["Course", TimeGrid | None]:
-        """Itself, with checks where they are needed, and the grid that the tolerance asks for.
+        """This course, with checks where needed, and the finer grid that the tolerance requires.
 
-        None where that is met, or the least larger one for which the wave asks an affordable number of
-        times.
+        The grid is None where the tolerance is met, or where the smallest larger tolerance that an
+        affordable number of times can resolve is met.
         """
         crawl, norm = self.crawl, self.crawl.norm
         speeds, goal = norm.speeds(crawl.counted(self.motion)), self._within_reach(tolerance)
@@ -105,25 +87,25 @@ class Course:
         return course, self.grid.with_steps(step)
 
     def _within_reach(self, tolerance: float) -> float:
-        """The least tolerance from this one on, doubled, for which the wave can be seen, if for any."""
+        """The tolerance, doubled until an affordable number of times resolves the wave, if any does."""
         fewest = self._times(math.inf)
         while fewest < (times := self._times(tolerance)) < math.inf and not self.crawl.reaches(times):
             tolerance *= 2
         return tolerance
 
     def _times(self, tolerance: float) -> float:
-        """Equidistant times per period from which harmonics of no consequence hide; inf if unknown."""
+        """Equidistant times per period such that aliased harmonics do not matter; inf if unknown."""
         unit = self.crawl.speed_per_rate
         return self.crawl.drive.times_for(HIDDEN * tolerance / unit if unit > 0 else math.inf)
 
     def on(self, grid: TimeGrid) -> "Course":
-        """On a grid with more times."""
+        """The motion on a grid with more times."""
         added = ~np.isin(grid.times, self.grid.times)
         more = self.crawl.balance(grid.times[added], Known(self.grid.times, self.motion))
-        return replace(self, grid=grid, motion=_joined(self.motion, more, added))
+        return replace(self, grid=grid, motion=self.motion.joined(more, added))
 
     def checked(self) -> "Course":
-        """With the motion at random times, where it can hide and is not known there yet."""
+        """This course with the motion at random times, unless that is known or not needed."""
         if not self.hides or self.checks is not None:
             return self
         known = Known(self.grid.times, self.motion)
@@ -131,19 +113,19 @@ class Course:
 
     @property
     def _hidden(self) -> float:
-        """Largest V of the harmonics of the wave that the grid does not tell from lower ones."""
+        """Largest V from the harmonics of the wave that alias to lower ones on the grid."""
         return self.crawl.speed_per_rate * self.crawl.drive.hidden(self.grid.longest_step)
 
     @property
     def _between(self) -> Array:
-        """Error of the mean by the checks, (3,)."""
+        """Error of the mean estimated from the checks, (3,)."""
         assert self.checks is not None
         return self._off(*(self.crawl.counted(m) for m in (self.motion, self.checks)))
 
     def _off(self, values: Array, checks: Array) -> Array:
-        """Error of means of values (..., grid times) by those at the random times.
+        """Error of means of values (..., grid times), from values at the random times.
 
-        The mean distance from the polynomials, and twice the standard deviation of that mean.
+        The mean deviation from the polynomials plus twice the standard deviation of that mean.
         """
         off = checks - self.grid.interpolated(values, self._check_times)
         return np.asarray(abs(off.mean(-1)) + 2 * off.std(-1) / math.sqrt(CHECKS))
@@ -159,14 +141,3 @@ class Course:
 def _orders(motion: RigidMotion) -> Array:
     """q_0 and q_1, (2, 3, times)."""
     return np.stack([motion.leading.T, motion.remainder.T])
-
-
-def _joined(motion: RigidMotion, more: RigidMotion, added: NDArray[np.bool_]) -> RigidMotion:
-    """Both, `more` at the places `added`."""
-    order = np.empty(added.size, int)
-    order[~added] = np.arange(len(motion.rest))
-    order[added] = len(motion.rest) + np.arange(len(more.rest))
-    leading, remainder, rest = (
-        np.concatenate([a, b])[order] for a, b in zip(motion[:3], more[:3], strict=True)
-    )
-    return RigidMotion(leading, remainder, rest, max(motion.fastest, more.fastest))

@@ -1,4 +1,4 @@
-"""Where the load on a sheet would not be positive, so that small strain says nothing."""
+"""Where the normal load on a sheet would not be positive, so that small-strain theory is invalid."""
 
 from decimal import ROUND_DOWN, Context
 
@@ -12,7 +12,7 @@ Array = NDArray[np.float64]
 
 
 def check_load(motion: Motion, rate: Array, alpha: float) -> None:
-    """Raise ValueError where the load 1 + alpha e is not positive, edges included, and say where."""
+    """Raise ValueError, naming the point, if the load 1 + alpha e is not positive, edges included."""
     to_edges = gauss(rate.shape[-1]).with_ends
     everywhere = to_edges @ rate @ to_edges.T
     lowest = 1 + alpha * everywhere
@@ -28,5 +28,5 @@ def check_load(motion: Motion, rate: Array, alpha: float) -> None:
 
 
 def _towards_zero(limit: float, digits: int = 4) -> str:
-    """A limit in so many digits that never promise more than it allows."""
+    """A limit rounded to `digits` digits towards zero, so that the rounded value is within it."""
     return f"{float(Context(prec=digits, rounding=ROUND_DOWN).create_decimal(limit)):g}"

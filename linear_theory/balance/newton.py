@@ -1,6 +1,6 @@
-"""Zeros of many expensive monotone functions at once, in as few evaluations as will do.
+"""Zeros of many expensive monotone functions at once, in as few evaluations as possible.
 
-(`roots` is for cheap functions whose zeros are wanted to the last digit.)
+(`roots` is for cheap functions whose zeros are needed to the last digit.)
 """
 
 from collections.abc import Callable
@@ -15,18 +15,19 @@ Integers = NDArray[np.int64]
 Problem = Callable[[Array, Integers], tuple[Array, Array]]
 
 _MOST_EVALUATIONS = 120
-_PATIENCE = 10  # Newton steps before every second one becomes a bisection
+_PATIENCE = 10  # number of Newton steps after which every second step becomes a bisection
 
 
 def guarded_newton(
     function: Problem, start: Array, low: Array, high: Array, xtol: float, near: float = 0.0
 ) -> Array:
-    """Zeros of N rising functions with low < zero < high, (N,) each.
+    """Zeros of N increasing functions with low < zero < high, (N,) each.
 
-    function(x, which): values and slopes at x of the functions number `which`. Newton steps, until one
-    is below xtol, or below `near`, after which the error is known to be below xtol; where a step would
-    leave the bracket, which every evaluation narrows, the bracket is halved. Where a function jumps
-    through zero, the place of the jump. Raises NotConvergedError, with the last iterates.
+    function(x, which): values and slopes at x of the functions with indices `which`. Newton steps until
+    a step is below xtol, or below `near`, after which the error is known to be below xtol. Every
+    evaluation narrows the bracket; where a step would leave it, the bracket is halved. Where a function
+    jumps through zero, the place of the jump is returned. Raises NotConvergedError, with the last
+    iterates.
     """
     x, low, high = start.copy(), low.copy(), high.copy()
     active = np.arange(start.size)
@@ -52,15 +53,15 @@ def guarded_newton(
 
 
 def damped_newton(function: Problem, start: Array, xtol: float, near: float = 0.0) -> Array:
-    """Zeros of N gradients of convex functions of J variables, (N, J).
+    """Zeros of the gradients of N convex functions of J variables, (N, J).
 
     function(x, which): gradients (n, J) and Hessians (n, J, J). Along a Newton step the derivative of a
-    convex function rises through zero: a step that ends far behind the zero is halved, also where the
-    gradient saturates and says nothing by its size. Ends as `guarded_newton` does.
+    convex function increases through zero: a step that ends far beyond the zero is halved, even where
+    the gradient saturates and its size carries no information. Stops as `guarded_newton` does.
     Raises NotConvergedError, with the last iterates.
     """
     x, step = start.copy(), np.zeros_like(start)
-    fall = np.full(start.shape[0], np.inf)  # minus the derivative along the step at its start
+    fall = np.full(start.shape[0], np.inf)  # minus the directional derivative at the start of a step
     active = np.arange(start.shape[0])
     for _ in range(_MOST_EVALUATIONS):
         gradient, hessian = function(x[active], active)
@@ -85,4 +86,4 @@ def damped_newton(function: Problem, start: Array, xtol: float, near: float = 0.
 
 def _require_finite(value: Array, x: Array) -> None:
     if not np.all(np.isfinite(value)):
-        raise NotConvergedError("a function is not finite", x)
+        raise NotConvergedError("the value of a function is not finite", x)

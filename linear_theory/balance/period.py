@@ -1,42 +1,31 @@
-"""The rigid motion of a sheet through one period, and its mean with an error estimate."""
+"""The rigid motion of a sheet over one period, and its mean with an error estimate."""
 
-import math
-from dataclasses import dataclass, replace
-from functools import cached_property
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from linear_theory.balance.balance import Balance, RigidMotion
-from linear_theory.balance.course import Course, Known
-from linear_theory.balance.load_check import check_load
+from linear_theory.balance import crawl as limits
+from linear_theory.balance.balance import RigidMotion
+from linear_theory.balance.course import Course
+from linear_theory.balance.crawl import Crawl, Known
 from linear_theory.balance.time_grid import TimeGrid, first_grid
-from linear_theory.common.progress import track
 from linear_theory.common.tolerance import Tolerance
-from linear_theory.deformation.field import LinearField
-from linear_theory.friction.contact import Contact
-from linear_theory.friction.load import Load
-from linear_theory.motion.motion import CellGrid, Motion
-from linear_theory.motion.rigid import RigidNorm
-from linear_theory.wave.protocol import Drive
 
 Array = NDArray[np.float64]
 
-_MOST_TIMES = 4096
-_MOST_WORK = 8_000_000  # numbers at all times together (see `Crawl.work`), some tens of seconds
-_LOT = 10_000  # points balanced together, which halving makes ten times as many: they fit in the cache
 _STICKING = 0.01  # share of the sheet at rest that counts as sticking
 
 
 class Period(NamedTuple):
     """One period of motion.
 
-    times (T,); orders (2, 3, T): V_x, V_y, Omega of q_0 and q_1, and rigid (3, T), of both together;
-    rigid_mean, rigid_error (3,): their means and estimated errors, absolute; means, mean_errors (2, 3):
-    of `orders`, and what times and cells do to them;
-    fastest: the largest speed against the ground; sticks: whether at some time a share of the sheet is
-    at rest.
+    times (T,); orders (2, 3, T): V_x, V_y, Omega of q_0 and q_1; rigid (3, T): of both together;
+    rigid_mean, rigid_error (3,): means of `rigid` and their estimated errors, absolute; means,
+    mean_errors (2, 3): means of `orders` and their errors from times and cells;
+    fastest: the largest speed relative to the ground; sticks: whether part of the sheet is at rest at
+    some time.
     """
 
     times: Array
@@ -56,151 +45,20 @@ class Period(NamedTuple):
 
     @property
     def error(self) -> float:
-        """Estimate of its error, absolute."""
+        """Estimated error of `mean`, absolute."""
         return float(self.rigid_error[1])
 
     @property
     def first_order(self) -> float:
-        """V_1 of mean = V_1 alpha + O(alpha^2)."""
+        """V_1 in mean = V_1 alpha + O(alpha^2)."""
         return float(self.means[0, 1])
 
 
-@dataclass(frozen=True)
-class Resolution:
-    """Cells per wave, Gauss points per cell and direction, halvings, tolerance of q."""
-
-    density: float
-    order: int
-    halvings: int
-    tolerance: float
-
-    def finer(self) -> "Resolution":
-        """More of everything, to check with and to go on with."""
-        return Resolution(1.5 * self.density, self.order + 1, self.halvings + 6, 0.1 * self.tolerance)
-
-
-def first_resolution(rtol: float) -> Resolution:
-    """Four cells to a wave, and halvings until a point at rest takes an area of about rtol^1.6.
-
-    Next to it the remainder of the balance has the density 1/distance, so that the error falls like
-    the square root of the area of the last cell.
-    """
-    digits = -math.log10(rtol)
-    order = min(max(math.ceil(2.5 + 0.8 * digits), 5), 14)
-    return Resolution(4.0, order, max(math.ceil(5.3 * digits - 7), 2), 0.02 * rtol)
-
-
-@dataclass(frozen=True)
-class Crawl:
-    """All that defines V(t), and how finely it is found."""
-
-    field: LinearField
-    alpha: float
-    contact: Contact
-    resolution: Resolution
-
-    @property
-    def drive(self) -> Drive:
-        """The wave on the sheet."""
-        return self.field.drive
-
-    @property
-    def starts_at_second_order(self) -> bool:
-        """Whether c(t + T/2) = -c(t), so that the leading q_0 has exactly no mean."""
-        return self.drive.changes_sign
-
-    @property
-    def counts_leading(self) -> bool:
-        """Whether q_0 is part of the counted motion."""
-        return not self.starts_at_second_order
-
-    def balance(self, times: Array, known: "Known | None" = None) -> RigidMotion:
-        """Rigid motion at the given times, in lots; known: times before and after to start from."""
-        lot = max(_LOT // self._motion(times[:1]).area.size, 1)
-        lots = []
-        for i in track("friction through the period", range(0, times.size, lot)):
-            some = times[i : i + lot]
-            lots.append(self._balance(some).solve(known and known.between(some)))
-        leading, remainder, rest, fastest = zip(*lots, strict=True)
-        return RigidMotion(
-            np.concatenate(leading), np.concatenate(remainder), np.concatenate(rest), max(fastest)
-        )
-
-    @property
-    def reversal_time(self) -> float | None:
-        """t_0 with V(t_0 - t) = V(t), where the wave and the sheet have that symmetry."""
-        return self.drive.reversal_time if self.field.mirrored else None
-
-    @cached_property
-    def work(self) -> int:
-        """Numbers per time: points to balance, and what is solved for to know the deformation."""
-        return int(self._motion(np.zeros(1)).area.size) + self.field.numbers
-
-    def affords(self, times: Array) -> bool:
-        """Whether these are few enough."""
-        return self.work * times.size <= _MOST_WORK
-
-    def reaches(self, count: float) -> bool:
-        """Whether so many times may be used in the end."""
-        return count <= min(_MOST_TIMES, _MOST_WORK / self.work)
-
-    @property
-    def speed_per_rate(self) -> float:
-        """Largest counted V that dc/dt of root mean square 1 makes."""
-        return self.drive.speed_per_rate(self.alpha, self.counts_leading)
-
-    @property
-    def norm(self) -> RigidNorm:
-        """By which motions and their errors are judged."""
-        return RigidNorm(self.field.gyration, self.field.mirrored)
-
-    def counted(self, motion: RigidMotion) -> Array:
-        """V_x, V_y, Omega at each time without what is known to have no mean, (3, times)."""
-        second = self.alpha**2 * motion.remainder.T
-        return self.alpha * motion.leading.T + second if self.counts_leading else second
-
-    def quadrature_errors(self, times: Array, motion: RigidMotion) -> tuple[Array, Array]:
-        """Largest change of the counted motion (3,) and of q_0, q_1 (2, 3) by finer cells.
-
-        One Newton step at three times; none of a q_0 that has no mean.
-        """
-        some = np.unique((np.array([0.07, 0.41, 0.77]) * times.size).astype(int))
-        finer = replace(self, resolution=self.resolution.finer())
-        step = finer._balance(times[some]).correction(motion.leading[some], motion.remainder[some])
-        orders = abs(np.stack([step.leading, step.remainder])).max(1)
-        if self.starts_at_second_order:
-            orders[0] = 0.0
-        return abs(self.counted(step)).max(1), orders
-
-    def field_error(self, motion: RigidMotion) -> float:
-        """What the error of the deformation does to V_x, V_y and g Omega each (see `RigidNorm`).
-
-        The missing short waves push back and forth and hardly matter in the balance: met over widths
-        from 0.1 L to 2 L were factors up to 0.05 (sines) and 0.004 (pulses) where 0.2 and 0.02 stand.
-        """
-        speed = self.field.error * abs(self.alpha) * motion.fastest
-        by_load = 0.0 if self.contact.load is Load.MATERIAL else 0.4 * abs(self.alpha)
-        return speed * (by_load + (0.0 if self.starts_at_second_order else 0.02))
-
-    def _motion(self, times: Array) -> Motion:
-        field, r = self.field, self.resolution
-        across, along = self.drive.short_waves
-        grid = CellGrid.graded(field.sheet, along, r.density, field.mirrored, across)
-        return field.motion(times, grid, r.order)
-
-    def _balance(self, times: Array) -> Balance:
-        motion, r = self._motion(times), self.resolution
-        rate = self.contact.load.rate(motion.dilation, motion.growth)
-        check_load(motion, rate, self.alpha)
-        law = self.contact.friction.scaled(abs(self.alpha))
-        return Balance(motion, rate, self.alpha, law, r.halvings, r.tolerance)
-
-
 def average(crawl: Crawl, tolerance: Tolerance) -> Period:
-    """Rigid motion through a period at as many times and as finely as the tolerance needs.
+    """Rigid motion over a period, with as many times and as fine cells as the tolerance requires.
 
-    What would be too much work is left out, which shows in the error. Raises ValueError for a wave that
-    does not repeat after its period, or whose rate is not its derivative.
+    Refinement stops at the work limit; the error then stays above the tolerance. Raises ValueError for
+    a wave that does not repeat after its period, or whose rate is not its derivative.
     """
     crawl.drive.check()
     grid = _first_grid(crawl)
@@ -226,11 +84,15 @@ def average(crawl: Crawl, tolerance: Tolerance) -> Period:
 
 
 def _with_enough_times(course: Course, tolerance: Tolerance) -> Course:
-    """More times until they meet their share of the tolerance, or would be too much work."""
+    """Add times until their error meets its share of the tolerance or the work limit is reached."""
     crawl = course.crawl
     while True:
         course, finer = course.improved(0.5 * crawl.norm.allowed(course.mean, tolerance))
-        if finer is None or course.grid.times.size > _MOST_TIMES or not crawl.affords(finer.times):
+        if (
+            finer is None
+            or course.grid.times.size > limits.MOST_TIMES
+            or not crawl.affords(finer.times)
+        ):
             return course.checked()
         course = course.on(finer)
 
@@ -252,7 +114,7 @@ def _with_fine_cells(
 
 
 def _first_grid(crawl: Crawl) -> TimeGrid:
-    """A period, or the half of one that tells the rest where V(t_0 - t) = V(t)."""
+    """A period, or half of one where V(t_0 - t) = V(t) gives the other half."""
     period, reversal = crawl.drive.period, crawl.reversal_time
     if reversal is None:
         return first_grid(0.0, period, 5)
@@ -260,7 +122,7 @@ def _first_grid(crawl: Crawl) -> TimeGrid:
 
 
 def _whole_period(crawl: Crawl, times: Array, values: Array) -> tuple[Array, Array]:
-    """Times (T,) and values (..., T) of one period, without its end."""
+    """Times (T,) and values (..., T) over one period, without its end."""
     if crawl.reversal_time is None:
         return times[:-1], values[..., :-1]
     back = slice(-2, 0, -1)

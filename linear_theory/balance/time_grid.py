@@ -1,4 +1,4 @@
-"""Means over time of functions that are smooth between a few kinks."""
+"""Means over time of functions that are smooth except for a few kinks."""
 
 from typing import NamedTuple
 
@@ -7,12 +7,12 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 
-_LONG = 0.15  # share of the whole above which a panel is long
+_LONG = 0.15  # fraction of the whole interval above which a panel is long
 _BOOLE = np.array([7, 32, 12, 32, 7]) / 90
 
 
 class TimeGrid(NamedTuple):
-    """Panels of five equidistant times, neighbours sharing their ends; times (4 panels + 1,)."""
+    """Panels of five equidistant times; neighbours share their end points; times (4 panels + 1,)."""
 
     times: Array
 
@@ -23,46 +23,47 @@ class TimeGrid(NamedTuple):
 
     @property
     def longest_step(self) -> float:
-        """Longest time between neighbours."""
+        """Longest interval between neighbouring times."""
         return float(self.lengths.max()) / 4
 
     def mean(self, values: Array) -> tuple[float, float]:
         """Mean of values (times,) by Boole's rule, and its estimated error.
 
-        From the difference of Simpson's rule with two and with one step, which is a fourth difference;
-        far too large where the function is smooth, and about right at a kink. A kink may lie where the
-        fourth difference of its panel vanishes, but then not that of five times shifted by half a
-        panel: the largest of the three counts. Long panels may still hide much, and count twice.
+        The error is estimated from the difference of Simpson's rule with one and with two steps, a
+        fourth difference: far too large where the function is smooth, and about right at a kink. The
+        fourth difference of a panel may vanish although it contains a kink, but then not that of five
+        times shifted by half a panel: the largest of the three is taken. The error of long panels,
+        which may hide more, is doubled.
         """
         share = self.lengths / self.lengths.sum()
         return float(share @ (_panels(values) @ _BOOLE)), float(self._errors(values).sum())
 
     def means(self, values: Array) -> tuple[Array, Array]:
-        """Means of values (n, times), and their estimated errors, (n,) each."""
+        """Means of values (n, times) and their estimated errors, (n,) each."""
         means, errors = zip(*map(self.mean, values), strict=True)
         return np.array(means), np.array(errors)
 
     def error(self, values: Array) -> float:
-        """Estimated error of the mean of values (n, times), of all n together."""
+        """Estimated error of the mean of values (n, times), as the norm over the n components."""
         return float(self._joint_errors(values).sum())
 
     def refined(self, values: Array, tolerance: float) -> tuple["TimeGrid", NDArray[np.bool_]]:
-        """The grid with the worst panels cut in two, and which of its times are new.
+        """The grid with the worst panels bisected, and which of its times are new.
 
-        values: (times,), or (n, times) for the error of all n together.
+        values: (times,), or (n, times) for the norm of the error of n components.
         """
         errors = self._joint_errors(np.atleast_2d(values))
         return self._cut(errors > min(tolerance / errors.size, errors.max() / 2))
 
     def with_steps(self, longest: float) -> "TimeGrid":
-        """The grid with panels cut in two until no step is longer."""
+        """The grid with panels bisected until no step is longer than `longest`."""
         grid = self
         while grid.longest_step > longest * (1 + 1e-9):
             grid, _ = grid._cut(grid.lengths / 4 > longest * (1 + 1e-9))
         return grid
 
     def interpolated(self, values: Array, times: Array) -> Array:
-        """Of values (..., grid times) at other times (n,): the polynomials whose mean `mean` is."""
+        """Values (..., grid times) at other times (n,), by the polynomials that `mean` integrates."""
         panel = np.clip(np.searchsorted(self.times[::4], times, "right") - 1, 0, self.lengths.size - 1)
         local = (times - self.times[4 * panel]) / (self.lengths[panel] / 4)
         nodes = np.arange(5)
@@ -78,7 +79,7 @@ class TimeGrid(NamedTuple):
         return TimeGrid(times[order]), new[order]
 
     def _joint_errors(self, values: Array) -> Array:
-        """Of values (n, times) that are components of a vector, (panels,)."""
+        """Errors for values (n, times) that are the components of a vector, (panels,)."""
         return np.asarray(np.hypot.reduce([self._errors(component) for component in values]))
 
     def _errors(self, values: Array) -> Array:
@@ -90,9 +91,9 @@ class TimeGrid(NamedTuple):
 
 
 def _fourth_differences(times: Array, values: Array) -> Array:
-    """Size of the fourth difference of five times in a row, at every second time.
+    """Absolute fourth differences of five consecutive times, at every second time.
 
-    Divided differences, since neighbouring panels may differ in length, times 24 h^4.
+    These are divided differences, as neighbouring panels may differ in length, times 24 h^4.
     """
     t = np.lib.stride_tricks.sliding_window_view(times, 5)[::2]
     difference = np.lib.stride_tricks.sliding_window_view(values, 5)[::2]

@@ -1,1 +1,1 @@
-"""What every part uses: checks of input, errors, how results show themselves, progress, threads."""
+"""Shared by all parts: input checks, errors, display of results, progress, threads."""

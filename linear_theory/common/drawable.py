@@ -1,8 +1,8 @@
 """Results that can be drawn: `.plot()` and `.movie(path)`.
 
-The methods are declared here, where the results are, and done by the package `fem_check.output`, which
-is looked up by its name when a picture is asked for. Nothing in `linear_theory` imports it or
-matplotlib: whoever only computes loads neither.
+The methods are declared here, with the results, and implemented by the package `fem_check.output`,
+which is imported by name when a picture is requested. Nothing in `linear_theory` imports that package
+or matplotlib: pure computations load neither.
 """
 
 from collections.abc import Callable
@@ -15,7 +15,7 @@ OUTPUT = "fem_check.output"
 
 
 class Drawable:
-    """A result that shows how its sheet moves."""
+    """A result whose motion can be drawn and filmed."""
 
     def plot(
         self,
@@ -28,16 +28,16 @@ class Drawable:
     ) -> Any:
         """Draw the motion with matplotlib.
 
-        what: "speed", V(t) through a period with its mean and error band; "sheet", the deformed sheet
-        coloured by its growth alpha c, with the friction of the ground as arrows; "path", the way of
-        its centre over some periods with its outline at both ends; None for a figure of all of them.
-        ax: matplotlib axes to draw "speed", "sheet" or "path" in, new ones unless given. phase: of the
-        sheet, in periods. periods: of the path, 10 unless given. units: an `fem_check.output.Units`;
-        lengths of the sheet and periods of the wave unless given.
+        what: "speed", V(t) over a period with its mean and error band; "sheet", the deformed sheet
+        coloured by its growth alpha c, with the friction forces as arrows; "path", the path of its
+        centre over several periods with its outline at both ends; None for a figure of all of them.
+        ax: matplotlib axes for "speed", "sheet" or "path"; new ones by default. phase: time at which
+        the sheet is drawn, in periods. periods: length of the path in periods, 10 by default. units:
+        an `fem_check.output.Units`; by default the length of the sheet and the period of the wave.
 
-        Returns the axes, an array (panels,) of them where what is None; `axes.figure.savefig(path)`
-        writes the picture. Raises ValueError for bad input and for a panel that the result has nothing
-        for.
+        Returns the axes, or an array (panels,) of them if what is None; `axes.figure.savefig(path)`
+        writes the picture. Raises ValueError for bad input and for a panel for which the result has no
+        data.
         """
         return import_module(OUTPUT).plot(self, what, ax=ax, phase=phase, periods=periods, units=units)
 
@@ -55,15 +55,15 @@ class Drawable:
     ) -> Path:
         """Write a film of the crawling sheet, .gif or .mp4, and return its path.
 
-        periods: of the wave, 6 unless given, of a trajectory all that it has. frames: per period. fps:
-        frames per second. width: of the picture, 420 to 1920 pixels. exaggerate: factor of the
-        displacement within the sheet (never of the way it crawls), which the film then states. units:
-        as in `plot`. progress: called with the frames done and their number; True prints a line once
-        writing takes more than two seconds.
+        periods: duration in periods of the wave; by default 6, for a trajectory all of its periods.
+        frames: per period. fps: frames per second. width: of the picture, 420 to 1920 pixels.
+        exaggerate: factor on the displacement within the sheet (never on the distance crawled), which
+        the film then states. units: as in `plot`. progress: called with the number of frames done and
+        the total; True prints a line once writing takes more than two seconds.
 
-        The file appears when it is whole, and not at all if writing is interrupted. The same film has
-        the same bytes as a .gif. Raises, before any work, ValueError for bad input, OSError for a path
-        that cannot be written to, and ModuleNotFoundError for .mp4 without the extra `movies`.
+        The file appears when it is complete, and not at all if writing is interrupted. A .gif is
+        reproducible byte for byte. Raises, before any work, ValueError for bad input, OSError for a
+        path that cannot be written to, and ModuleNotFoundError for .mp4 without the extra `movies`.
         """
         return import_module(OUTPUT).movie(
             self,

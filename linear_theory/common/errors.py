@@ -1,13 +1,13 @@
-"""What is raised when an answer is not to be had, and what is warned of.
+"""Exceptions raised when no answer can be given, and warnings.
 
     SheetcrawlError             base of all errors below: every failure of a solver
       NotConvergedError         a tolerance was not reached                         RuntimeError
-      ConvergenceError          no static shape, or no next step, was found         RuntimeError
-        UnstableError           a shape that only its coarse mesh has
+      ConvergenceError          no equilibrium, or no next time step, was found     RuntimeError
+        UnstableError           an equilibrium that exists on a coarse mesh only
         NotPeriodicError        shapes that do not repeat with the wave
-      UnresolvedError           too few phases for shapes that change so fast       ArithmeticError
+      UnresolvedError           too few phases for rapidly changing shapes          ArithmeticError
       SnapshotError             a snapshot from which a run cannot be continued     ValueError
-      Unidentifiable            a function that a snapshot could not know again     ValueError
+      Unidentifiable            a value that cannot be identified by its content    ValueError
       SceneFileError            a file from which no scene can be made              ValueError
 
     ViscousRegimeWarning        dry friction that acts as viscous                   UserWarning
@@ -24,16 +24,16 @@ from typing import Any
 
 
 class SheetcrawlError(Exception):
-    """Base of the errors of this package: one that is raised in another process arrives as it was.
+    """Base class of the errors of this package; they survive pickling between processes unchanged.
 
-    Exceptions are pickled by the arguments that they were made with, which are the message alone here;
-    what an error keeps beside it (`best`, `state`, `parameter`) goes with it as it is.
+    Exceptions are pickled by their constructor arguments, here the message alone; further attributes
+    (`best`, `state`, `parameter`) are pickled with them.
 
     >>> import pickle
     >>> from linear_theory import NotConvergedError, SheetcrawlError
-    >>> arrived = pickle.loads(pickle.dumps(NotConvergedError("no more memory", best=3.0)))
+    >>> arrived = pickle.loads(pickle.dumps(NotConvergedError("out of memory", best=3.0)))
     >>> print(arrived, arrived.best, isinstance(arrived, SheetcrawlError))
-    no more memory 3.0 True
+    out of memory 3.0 True
     """
 
     def __reduce__(self) -> tuple[Callable[..., Any], tuple[Any, ...], dict[str, Any]]:
@@ -41,20 +41,20 @@ class SheetcrawlError(Exception):
 
 
 def _as_it_was(kind: type[SheetcrawlError], args: tuple[Any, ...]) -> SheetcrawlError:
-    """An error of that class and message; what it keeps is put back by pickle."""
+    """An error of that class and message; pickle restores its further attributes."""
     error = kind.__new__(kind)
     error.args = args
     return error
 
 
 class NotConvergedError(SheetcrawlError, RuntimeError):
-    """A tolerance was not reached; `best` keeps the best result that was found, None if there is none.
+    """A tolerance was not reached; `best` holds the best result found, None if there is none.
 
     >>> from linear_theory import NotConvergedError, Sheet, SineWave, ritz_field
     >>> try:
     ...     field = ritz_field(Sheet(), SineWave(count=400), rtol=1e-6)
     ... except NotConvergedError as missed:
-    ...     print(missed.best)  # not even the first degrees fit in memory
+    ...     print(missed.best)  # even the lowest degrees need more memory than is available
     None
     """
 
@@ -64,7 +64,7 @@ class NotConvergedError(SheetcrawlError, RuntimeError):
 
 
 class ViscousRegimeWarning(UserWarning):
-    """A law that stands for dry friction acts as viscous: its slip speed is above all speeds.
+    """Regularised dry friction acts as viscous: its slip speed exceeds all sliding speeds.
 
     >>> import warnings
     >>> from linear_theory import SineWave, line_balance
@@ -76,16 +76,16 @@ class ViscousRegimeWarning(UserWarning):
 
 
 class Unidentifiable(SheetcrawlError, ValueError):
-    """A value without a content that could be known again, in another process or at another time."""
+    """A value that has no content by which it could be identified in another process or later."""
 
 
 class BeyondReachWarning(UserWarning):
-    """A growth so large that the theory of the answer says nothing of a sheet: see `reach`.
+    """Growth so large that the theory is no longer valid, see `reach`.
 
     >>> import warnings
     >>> from linear_theory import BeyondReachWarning, Sheet, SineWave, crawl_speed
     >>> with warnings.catch_warnings(category=BeyondReachWarning, action="ignore"):
     ...     speed = crawl_speed(Sheet(), SineWave(), alpha=12.0, order=2, rtol=1e-2)
     >>> print(f"V = {speed.mean:.0f} L/T, converged {speed.converged}: {speed.beyond_reach}")
-    V = 221 L/T, converged False: growth |alpha c| reaches 12, the theory ends at 0.5
+    V = 221 L/T, converged False: growth |alpha c| reaches 12, must be <= 0.5 in this theory
     """

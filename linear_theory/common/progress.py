@@ -1,8 +1,7 @@
-"""How far long work has come, for whoever waits: `progress=` of the functions that may take seconds.
+"""Progress of long computations: the argument `progress=` of functions that may take seconds.
 
-Solvers say what they go through by `track`; who listens is kept in a context variable, so that nothing
-between the function that the user calls and the loop that takes the time has to pass it on. Without a
-listener `track` costs nothing.
+Solvers report their loops by `track`; the listener is kept in a context variable, so that the functions
+between the user's call and the loop need not pass it on. Without a listener `track` costs nothing.
 """
 
 import math
@@ -27,10 +26,10 @@ class _Progress(NamedTuple):
 
 
 class Progress(Shown, _Progress):
-    """task: what is done, in words; share: of this task, from 0 to 1; seconds: since the call.
+    """task: what is being done, in words; share: fraction done, 0 to 1; seconds: since the call.
 
-    left: seconds that the rest of this task will take at the pace so far, NaN until something of it is
-    done. Another task may follow: how many finer meshes or times are needed shows only on the way.
+    left: estimated seconds to the end of this task at the present rate, NaN before any of it is done.
+    Another task may follow, since the number of refinements is not known in advance.
     """
 
 
@@ -38,14 +37,14 @@ Report = Callable[[Progress], None]
 
 
 class _Watch(NamedTuple):
-    """Who listens, since when, and what the present tasks are part of."""
+    """The listener, the time of the call, and the task of which the present tasks are part."""
 
     report: Report
     start: float
     part_of: str = ""
 
     def note(self, task: str, done: int, count: int, begin: float) -> None:
-        """Report that `done` of `count` equal parts of a task are done, the first begun at `begin`."""
+        """Report that `done` of `count` equal parts of a task begun at time `begin` are done."""
         now = time.perf_counter()
         left = (now - begin) * (count - done) / done if done else math.nan
         words = f"{self.part_of}: {task}" if self.part_of else task
@@ -57,11 +56,11 @@ _WATCH: ContextVar[_Watch | None] = ContextVar("watch", default=None)
 
 @contextmanager
 def watched(progress: bool | Report | None, call: str) -> Iterator[None]:
-    """Tell `progress` of all that is tracked inside; `call` names the function for Ctrl-C.
+    """Report everything tracked inside to `progress`; `call` names the function for Ctrl-C.
 
-    progress: None or False leaves a listener that is there already, True prints on stderr, a function
-    is called with a `Progress`. Raises ValueError for anything else, and KeyboardInterrupt after
-    Ctrl-C, with a line that says what is kept: nothing.
+    progress: None or False keeps an existing listener, True prints on stderr, a function is called with
+    a `Progress`. Raises ValueError for anything else, and KeyboardInterrupt after Ctrl-C, with a line
+    that says that no partial result was kept.
 
     >>> from linear_theory.common.progress import track, watched
     >>> with watched(lambda p: print(f"{p.task} {p.share:.0%}"), "an example"):
@@ -80,8 +79,8 @@ def watched(progress: bool | Report | None, call: str) -> Iterator[None]:
     try:
         yield
     except KeyboardInterrupt:
-        # As `simulate` does: from None, since where in the work it struck tells the user nothing.
-        text = f"{call} was stopped; it keeps nothing to go on from, the same call starts anew"
+        # As in `simulate`: from None, since the traceback into the solver does not help the user.
+        text = f"{call} was interrupted; no partial result was kept, call it again"
         raise KeyboardInterrupt(text) from None
     finally:
         if token is not None:
@@ -92,7 +91,7 @@ def watched(progress: bool | Report | None, call: str) -> Iterator[None]:
 
 @contextmanager
 def part_of(whole: str) -> Iterator[None]:
-    """Tasks inside are named as parts of `whole`."""
+    """Report tasks inside as parts of the task `whole`."""
     watch = _WATCH.get()
     if watch is None:
         yield
@@ -106,7 +105,7 @@ def part_of(whole: str) -> Iterator[None]:
 
 
 def track(task: str, items: Collection[T]) -> Iterator[T]:
-    """The items, one after another, each of which takes about as long; who listens hears of them."""
+    """Iterate over items that take about equally long, and report progress to the listener."""
     watch = _WATCH.get()
     if watch is None:
         yield from items

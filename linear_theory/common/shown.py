@@ -1,4 +1,4 @@
-"""How objects and results show themselves: a title and a few lines, an array in one of them.
+"""Text representation of objects and results: a title and a few lines, with each array on one line.
 
     CrawlSpeed: mean 0.105903 ± 0.000024 length/time, towards +y, converged
       model_error  0.0219656
@@ -6,9 +6,9 @@
       times        80 values, 0.25 ... 1.23958
       ...
 
-Everything public inherits from `Shown`. A dataclass or named tuple shows its fields, any other class
-what its `_contents` name. A `Value` is small and shown as the call that makes it, where one line holds
-it. Nothing shows an address, and nothing floods a screen: `to_dict` has it all.
+Every public class inherits from `Shown`. A dataclass or named tuple shows its fields, any other class
+its `_contents`. A `Value` is small and shown as the call that constructs it, if that fits on one line.
+No memory address is shown, and output stays short: `to_dict` gives the full content.
 """
 
 import html
@@ -23,43 +23,43 @@ from typing import Any
 import numpy as np
 
 LINES = 12
-"""Most lines of a repr, the title included."""
+"""Maximum number of lines of a repr, including the title."""
 
 WIDTH = 100
-"""Most characters of a line."""
+"""Maximum length of a line in characters."""
 
 FEW = 4
-"""Numbers that an array of one dimension may have to be written out."""
+"""Largest one-dimensional array whose numbers are written out."""
 
 DIGITS = 6
 
 SMALLEST = -7
-"""Power of ten of the least error that is written without one."""
+"""Power of ten of the smallest error written as a decimal fraction."""
 
 MOST_DIGITS = 20
-"""Of a number beside its error; beyond, the error is below its rounding by far."""
+"""Significant digits of a number shown with its error; errors beyond are far below rounding."""
 
 ADDRESS = re.compile(r" at 0x[0-9a-fA-F]+")
-"""What Python adds to the name of an object that has no repr of its own."""
+"""The address in the default repr of an object."""
 
 UNKNOWN = "unknown"
-"""NaN: throughout the package, what is not known or not estimated."""
+"""Word for NaN, which throughout the package means unknown or not estimated."""
 
 
 class Shown:
-    """Shown by a title and rows, as text and in notebooks; `to_dict` gives the content to programs."""
+    """Represented by a title and rows, as text and in notebooks; `to_dict` is for programs."""
 
     def __init_subclass__(cls, **keywords: Any) -> None:
-        """A dataclass writes a repr of its own, unless it finds one in the class itself."""
+        """Keep this repr in subclasses that are dataclasses, which would generate their own."""
         super().__init_subclass__(**keywords)
         cls.__repr__ = cls.__repr__  # type: ignore[method-assign]
 
     def _contents(self) -> Mapping[str, Any]:
-        """Names and values of all that it is made of."""
+        """Names and values of the full content."""
         return {name: getattr(self, name) for name in _field_names(self)}
 
     def _rows(self) -> Mapping[str, Any]:
-        """Names and values that are worth a line each."""
+        """Names and values shown on a line each."""
         hidden = _unshown(self)
         return {name: value for name, value in self._contents().items() if name not in hidden}
 
@@ -79,7 +79,7 @@ class Shown:
         return "\n".join(lines)
 
     def _repr_html_(self) -> str:
-        """The same as a table, for notebooks."""
+        """The representation as an HTML table, for notebooks."""
         left = "style='text-align: left'"
         rows = "".join(
             f"<tr><th {left}>{html.escape(name)}</th><td {left}>{html.escape(words)}</td></tr>"
@@ -88,11 +88,11 @@ class Shown:
         return f"<table><caption {left}>{html.escape(_cut(self._title()))}</caption>{rows}</table>"
 
     def to_dict(self, arrays: bool = True) -> dict[str, Any]:
-        """The whole content as plain values that JSON can hold: numbers, text, lists, dicts, None.
+        """The full content as plain values that JSON can hold: numbers, text, lists, dicts, None.
 
-        arrays: whether arrays are among it, whole, as (nested) lists; without them it is a row for a
-        table of many results. "type" is the name of the class. What is not known (NaN) is None,
-        infinity the text "inf" or "-inf", which `float` reads; functions are their names.
+        arrays: whether to include arrays, as (nested) lists; without them the result is a row for a
+        table of many results. "type" is the name of the class. NaN (unknown) becomes None, infinity the
+        text "inf" or "-inf", which `float` reads; functions become their names.
 
         >>> from linear_theory import Sheet
         >>> print(Sheet(width=0.25).to_dict())
@@ -102,7 +102,7 @@ class Shown:
 
 
 class Value(Shown):
-    """Shown as a call with its arguments where that fits in one line, else by lines."""
+    """Represented as a constructor call where that fits on one line, else by title and rows."""
 
     def __repr__(self) -> str:
         call = self._call()
@@ -114,7 +114,7 @@ class Value(Shown):
 
 
 def in_words(value: Any) -> str:
-    """A value in one line."""
+    """A value on one line."""
     if isinstance(value, np.ndarray):
         return _array_in_words(value)
     if isinstance(value, float | np.floating):
@@ -137,12 +137,12 @@ def in_words(value: Any) -> str:
 
 
 def number(value: float) -> str:
-    """A number to six digits; NaN, which here is never a result, is not known."""
+    """A number to six digits; NaN is shown as unknown."""
     return UNKNOWN if math.isnan(value) else f"{value:.{DIGITS}g}"
 
 
 def with_error(value: float, error: float) -> str:
-    """A number with its error to two digits, rounded up, and as many of its own: 0.0983 ± 0.0002."""
+    """A number and its error, rounded up to two digits, to the same decimal: 0.0983 ± 0.0002."""
     if not (math.isfinite(value) and math.isfinite(error) and error > 0):
         return number(value) + ("" if error == 0 else f" ± {number(error)}")
     given, exact = Decimal(repr(float(value))), Decimal(repr(float(error)))
@@ -158,12 +158,12 @@ def with_error(value: float, error: float) -> str:
 
 
 def _style(error: Decimal, value: Decimal) -> str:
-    """As a decimal fraction where that is short, else with a power of ten."""
+    """Format of a decimal fraction where that is short, else of a power of ten."""
     return "f" if error.adjusted() >= SMALLEST and value.adjusted() < DIGITS else "e"
 
 
 def plain(value: Any, arrays: bool = True) -> Any:
-    """A value as `Shown.to_dict` gives it."""
+    """A value as in `Shown.to_dict`."""
     if isinstance(value, np.ndarray | np.generic):
         return plain(value.tolist(), arrays)
     if isinstance(value, Shown):
@@ -187,14 +187,14 @@ def _unshown(value: Any) -> set[str]:
 
 
 def _field_names(value: Any) -> list[str]:
-    """Of a dataclass those that count when values are compared."""
+    """Fields of a dataclass that take part in comparisons."""
     if is_dataclass(value):
         return [f.name for f in fields(value) if f.compare and not f.name.startswith("_")]
     return list(getattr(value, "_fields", ()))
 
 
 def _words_of(value: Shown) -> dict[str, str]:
-    """The rows in words, cut to fewer than LINES, the last then naming what is left out."""
+    """The rows as text, fewer than LINES; the last one then names the rows omitted."""
     rows = {name: in_words(v) for name, v in value._rows().items()}
     if len(rows) < LINES:
         return rows
@@ -208,7 +208,7 @@ def _cut(line: str) -> str:
 
 
 def _wrapped(words: str, width: int, most: int) -> list[str]:
-    """Over so many lines at most."""
+    """The words wrapped to `width`, over `most` lines at most."""
     return textwrap.wrap(words, width, max_lines=most, placeholder=" ...") or [""]
 
 
@@ -248,6 +248,6 @@ def _name_of(function: Any) -> str:
 
 
 def _has_own_words(value: Any) -> bool:
-    """Whether a value says more of itself than its address."""
+    """Whether a value has a repr other than its address."""
     kind: Any = type(value)
     return any(getattr(kind, name) is not getattr(object, name) for name in ("__repr__", "__str__"))

@@ -1,7 +1,7 @@
-"""Results over time as tables of pandas and as labelled arrays of xarray, with units and long names.
+"""Time series as pandas tables and labelled xarray arrays, with units and long names.
 
-Units are those of the package: any one unit of length, any one of time (see `Scale` for metres and
-seconds), radians.
+Units are those of the package: one arbitrary unit of length and one of time (see `Scale` for metres
+and seconds), radians.
 """
 
 from abc import abstractmethod
@@ -20,7 +20,7 @@ NUMBER = "1"
 
 
 class Column(NamedTuple):
-    """One quantity: values over the dimensions dims, what it is, and its unit ("1" for none)."""
+    """One quantity: its values over the dimensions dims, its long name and its unit ("1" for none)."""
 
     name: str
     values: NDArray[Any]
@@ -30,26 +30,26 @@ class Column(NamedTuple):
 
     @property
     def attributes(self) -> dict[str, str]:
-        """As netCDF names them."""
+        """Unit and long name by their netCDF names."""
         return {"long_name": self.long_name, "units": self.units}
 
 
 class Tabular(Shown):
-    """A result over time that also leaves as a table."""
+    """A time series that can be exported as a table."""
 
     @abstractmethod
     def _columns(self) -> Sequence[Column]:
-        """Times, and what is known at each of them."""
+        """Times, and the quantities at each of them."""
 
     def _fields(self) -> Sequence[Column]:
-        """What has more dimensions than time, and their coordinates, for `to_xarray` alone."""
+        """Quantities with further dimensions, and their coordinates, for `to_xarray` alone."""
         return ()
 
     def to_dataframe(self) -> Any:
         """A pandas.DataFrame with the times as its index and a column for each quantity.
 
-        attrs: "units" and "long_name" of the columns and the index by name, and the numbers and words
-        that go with the whole. Raises ModuleNotFoundError, with what to install, without pandas.
+        attrs: "units" and "long_name" of the columns and the index by name, and the scalars that belong
+        to the whole result. Raises ModuleNotFoundError, with what to install, without pandas.
         """
         pandas = optional("pandas", "tables", "to_dataframe")
         columns = self._columns()
@@ -76,7 +76,7 @@ class Tabular(Shown):
 
 
 def _of_the_whole(result: Shown) -> dict[str, Any]:
-    """Numbers and words that belong to no single time."""
+    """Scalars and text that belong to the whole result, not to a single time."""
     known = plain(result._contents(), arrays=False)
     simple = {name: v for name, v in known.items() if v is None or isinstance(v, int | float | str)}
     return {name: int(v) if isinstance(v, bool) else v for name, v in simple.items()}

@@ -11,6 +11,7 @@ import functools
 import os
 import threading
 from collections.abc import Callable
+from importlib import import_module
 from types import TracebackType
 from typing import ParamSpec, TypeVar
 
@@ -26,8 +27,9 @@ Numbers = list[tuple[LibController, int]]
 class OneBlasThread:
     """Context manager that may be entered again, by any thread; the package has one, `one_blas_thread`.
 
-    libraries: whose threads are limited, those of BLAS that are loaded when it is first entered unless
-    given. A number of threads that somebody else sets in between lasts until the last caller has left.
+    libraries: whose threads are limited; unless given, every BLAS that is loaded when it is first
+    entered, those of numpy and scipy among them. A number of threads that somebody else sets in between
+    lasts until the last caller has left.
     """
 
     def __init__(self, libraries: list[LibController] | None = None) -> None:
@@ -70,6 +72,9 @@ class OneBlasThread:
 
     def _limit(self, caller: int) -> None:
         if self._libraries is None:  # a search among all loaded libraries, milliseconds
+            # scipy has a BLAS of its own, which can be limited once it is loaded; not before it is
+            # needed, since that takes longer than to import the rest of the package
+            import_module("scipy.linalg")
             self._libraries = ThreadpoolController().select(user_api="blas").lib_controllers
         for library in self._libraries:
             number = library.num_threads

@@ -1,4 +1,4 @@
-"""How exact an answer is to be."""
+"""The tolerance of an answer."""
 
 from dataclasses import dataclass
 
@@ -10,7 +10,7 @@ from linear_theory.common.shown import Value
 class Tolerance(Value):
     """An answer is converged where its error <= max(rtol |answer|, atol).
 
-    rtol: relative, in [1e-13, 1); atol: absolute, length per time, > 0; None where it follows from the
+    rtol: relative, in [1e-13, 1); atol: absolute, length per time, > 0; None if it follows from the
     scene, see `of_speed`. Raises ValueError otherwise.
 
     >>> from linear_theory import Tolerance
@@ -28,18 +28,19 @@ class Tolerance(Value):
             object.__setattr__(self, "atol", validation.positive("atol", self.atol))
 
     def of_speed(self, alpha: float, unit: float) -> "Tolerance":
-        """With atol = 1e-3 rtol alpha^2 L/T where none is given; unit: L/T."""
+        """The tolerance with atol = 1e-3 rtol alpha^2 L/T unless given; unit: L/T, > 0."""
+        validation.positive("unit", unit)
         return Tolerance(self.rtol, validation.absolute_tolerance(self.atol, self.rtol, alpha, unit))
 
     def allowed(self, size: float) -> float:
-        """The error that an answer of that size may have."""
+        """Largest admissible error of an answer of that size."""
         return max(self.rtol * abs(size), self.atol or 0.0)
 
     def share(self, part: float) -> "Tolerance":
-        """So much of it, for one of several errors."""
+        """A fraction of the tolerance, for one of several errors."""
         rtol = max(part * self.rtol, validation.SMALLEST_RTOL)
         return Tolerance(rtol, None if self.atol is None else part * self.atol)
 
     def scaled(self, length: float) -> "Tolerance":
-        """For speeds in units of that length."""
+        """The tolerance for speeds in units of that length."""
         return Tolerance(self.rtol, None if self.atol is None else self.atol / length)

@@ -11,17 +11,17 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 SMALLEST_RTOL = 1e-13
-"""Relative tolerance below which double precision cannot tell success from failure."""
+"""Smallest relative tolerance that can be verified in double precision."""
 
 
 DIMENSIONLESS = ("", "dimensionless", "1")
-"""Names that libraries of units give to the unit of plain numbers."""
+"""Names of the dimensionless unit in unit libraries."""
 
 T = TypeVar("T")
 
 
 def shown(value: object) -> str:
-    """`value` for a message: its repr on one line, shortened."""
+    """The repr of `value` on one line, shortened, for a message."""
     if isinstance(value, type):
         return f"the class {value.__name__}"
     text = " ".join((repr if isinstance(value, str) else reprlib.repr)(value).split())
@@ -29,7 +29,7 @@ def shown(value: object) -> str:
 
 
 def instance(name: str, value: object, kind: type[T], hint: str = "") -> T:
-    """`value`, which must be an instance of `kind`; hint: what to do instead, for the message."""
+    """`value`, which must be an instance of `kind`; hint: a remedy, for the message."""
     if not isinstance(value, kind):
         article = "an" if kind.__name__[0] in "AEIOU" else "a"
         made = ", made with its arguments" if value is kind else ""
@@ -42,8 +42,8 @@ def instance(name: str, value: object, kind: type[T], hint: str = "") -> T:
 def real_array(name: str, value: ArrayLike) -> NDArray[np.float64]:
     """`value` as an array of finite floats.
 
-    Complex, object, text and NaN are refused, and so are masked elements and units, which a plain
-    conversion to an array would drop. Tables and series of pandas count as their values.
+    Complex numbers, objects, text and NaN are refused, and so are masked elements and units, which a
+    plain conversion to an array would drop. pandas tables and series are converted to their values.
     """
     array = _plain(name, value)
     if array.dtype.kind not in "iuf":
@@ -56,14 +56,14 @@ def real_array(name: str, value: ArrayLike) -> NDArray[np.float64]:
 
 
 def _plain(name: str, value: Any) -> NDArray[Any]:
-    """`value` as an array of any type, unless that would drop a mask or a unit."""
+    """`value` as an array of any type; refused if that would drop a mask or a unit."""
     if type(value) is np.ndarray:
         return value
     value = _without_wrapping(name, value)
     try:
         array = np.asarray(value)
         words = any(isinstance(part, str) for part in array.flat) if array.dtype == object else True
-        if not words and hasattr(value, "to_numpy"):  # a column of pandas that can miss values
+        if not words and hasattr(value, "to_numpy"):  # a pandas column with missing values
             array = np.asarray(value.to_numpy(dtype=float))
     except (ValueError, TypeError) as error:
         raise ValueError(f"{name} = {shown(value)}: must be real numbers ({error})") from None
@@ -71,7 +71,7 @@ def _plain(name: str, value: Any) -> NDArray[Any]:
 
 
 def _without_wrapping(name: str, value: Any) -> Any:
-    """`value` without a mask that hides nothing and without a unit that is 1."""
+    """`value` without an empty mask and without a dimensionless unit."""
     if isinstance(value, list | tuple):
         return [_without_wrapping(name, part) for part in value]
     if isinstance(value, np.ma.MaskedArray):
@@ -87,7 +87,7 @@ def _without_wrapping(name: str, value: Any) -> Any:
         return value
     if str(unit) not in DIMENSIONLESS:
         raise ValueError(
-            f"{name} = {shown(value)}: has the unit {unit}, must be plain numbers; convert it to the "
+            f"{name} = {shown(value)}: has the unit {unit}, must be plain numbers; convert to the "
             "units of length and time that all arguments share, and pass the magnitude"
         )
     return getattr(value, "magnitude", value)
@@ -95,6 +95,8 @@ def _without_wrapping(name: str, value: Any) -> Any:
 
 def real(name: str, value: object) -> float:
     """`value` as one finite float."""
+    if type(value) is float and math.isfinite(value):
+        return value  # as nearly always: the way through an array takes 5 us
     array = None if isinstance(value, bool) else real_array(name, value)  # type: ignore[arg-type]
     if array is None or array.ndim != 0:
         raise ValueError(f"{name} = {shown(value)}: must be a single real number")
@@ -139,7 +141,7 @@ def wave_count(value: object) -> int:
 
 
 def tolerance(value: object) -> float:
-    """A relative tolerance that double precision can reach."""
+    """A relative tolerance within reach of double precision."""
     number = real("rtol", value)
     if not SMALLEST_RTOL <= number < 1:
         raise ValueError(f"rtol = {number:g}: must be in [{SMALLEST_RTOL:g}, 1)")
@@ -147,10 +149,10 @@ def tolerance(value: object) -> float:
 
 
 def absolute_tolerance(atol: object, rtol: float, alpha: float, unit: float) -> float:
-    """The absolute tolerance of a speed, > 0: the one given, or 1e-3 rtol alpha^2 L/T.
+    """The absolute tolerance of a speed, > 0: as given, or 1e-3 rtol alpha^2 L/T.
 
-    unit: L/T. Speeds are of the size alpha^2 L/T at least, so that an alpha for which that is no
-    number is refused here.
+    unit: L/T. Speeds are at least of order alpha^2 L/T, so that an alpha for which this is not finite
+    is refused here.
     """
     size = alpha * alpha * unit
     if not math.isfinite(size):
@@ -161,14 +163,16 @@ def absolute_tolerance(atol: object, rtol: float, alpha: float, unit: float) -> 
 
 
 def choice(name: str, value: object, allowed: Collection[str]) -> str:
-    """One of a few names."""
+    """`value`, which must be one of the allowed names."""
     if not isinstance(value, str) or value not in allowed:
-        raise ValueError(f"{name} = {shown(value)}: must be one of {', '.join(map(repr, allowed))}")
+        raise ValueError(
+            f"{name} = {shown(value)}: must be one of {', '.join(repr(str(a)) for a in allowed)}"
+        )
     return value
 
 
 def label(name: str, value: object) -> str:
-    """Text by which something is known; not empty."""
+    """`value`, which must be non-empty text."""
     if not isinstance(value, str) or not value:
-        raise ValueError(f"{name} = {value!r}: must be text, not empty")
+        raise ValueError(f"{name} = {value!r}: must be non-empty text")
     return value

@@ -1,1 +1,1 @@
-"""How a wave deforms the sheet at small growth: the field, by series or by Ritz, and second order."""
+"""Deformation of the sheet at small growth: Airy series, Ritz solution, and second order."""

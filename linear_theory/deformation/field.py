@@ -1,10 +1,10 @@
-"""What every linear solution of the sheet offers: displacement, velocity, strain, stress.
+"""The interface of every linear solution of the sheet: displacement, velocity, strain, stress.
 
-A linear deformation is a sum of fixed fields times factors of time,
+A linear deformation is a sum of fixed fields times functions of time,
 
     u(x, y, t) = alpha * sum_j amplitude_j(t) basis_j(x, y),
 
-and solvers differ only in the basis and in how they find it. All quantities are per unit alpha.
+and solvers differ only in the basis and in how they compute it. All quantities are per unit alpha.
 """
 
 import math
@@ -28,7 +28,7 @@ from linear_theory.wave.sampled import drive
 Array = NDArray[np.float64]
 
 ACROSS, ALONG = 12, 48
-"""Cells of a rectangle that is drawn: a wave is a smooth curve with so many along."""
+"""Cells across and along a rectangle for pictures, enough to show a wave as a smooth curve."""
 
 
 class LinearField(Shown, ABC):
@@ -36,9 +36,9 @@ class LinearField(Shown, ABC):
 
     Points x, y (units of length, inside the sheet) and times t broadcast. Vectors have (x, y) and
     symmetric tensors (xx, yy, xy) on the first axis. The displacement has zero mean and zero mean
-    rotation over the reference area. `seconds` is what setting up and solving took. `mirrored` tells
-    whether the motion is mirror symmetric in x. `numbers` is how many are solved for anew at each time
-    that a motion asks for: none where one basis serves all times.
+    rotation over the reference area. `seconds`: time for set-up and solution. `mirrored`: whether the
+    motion is mirror symmetric in x. `numbers`: unknowns solved per time step, 0 if one basis serves all
+    times.
     """
 
     sheet: Sheet
@@ -49,11 +49,11 @@ class LinearField(Shown, ABC):
     _kept: tuple[object, tuple[Array, Array, Array, Array]] | None = None
 
     def _settings(self) -> Mapping[str, Any]:
-        """What the solver was asked for, or chose."""
+        """Settings of the solver, given or chosen."""
         return {}
 
     def _rows(self) -> Mapping[str, Any]:
-        """Not the error, which is estimated when it is first asked for and may take long."""
+        """All but the error, whose estimate is computed on first use and may take long."""
         known = {"sheet": self.sheet, "wave": self.wave, **self._settings(), "seconds": self.seconds}
         return {**known, "gives": "displacement, velocity, strain, stress at (x, y, t), error"}
 
@@ -75,7 +75,7 @@ class LinearField(Shown, ABC):
         return math.hypot(self.sheet.width, self.sheet.length) / math.sqrt(12)
 
     def places(self, count: int) -> tuple[Array, Array]:
-        """x, y (broadcast) of points that cover the sheet, about count^2, to judge growth at."""
+        """x, y (broadcast) of about count^2 points that cover the sheet, at which to check growth."""
         along = np.linspace(-0.5, 0.5, count)
         return self.sheet.width * along[:, None], self.sheet.length * along
 
@@ -95,7 +95,7 @@ class LinearField(Shown, ABC):
 
     @abstractmethod
     def _amplitudes(self, t: Array) -> Array:
-        """Factors of time, (basis functions, *t.shape)."""
+        """Amplitudes of the basis functions at times t, (basis functions, *t.shape)."""
 
     @abstractmethod
     def _amplitude_rates(self, t: Array) -> Array:
@@ -115,7 +115,7 @@ class LinearField(Shown, ABC):
         return drive(self.wave, self.sheet)
 
     def _for_times(self, t: Array) -> "LinearField":
-        """The field whose basis spans the motion at times t: itself, if its basis does so always."""
+        """The field whose basis spans the motion at times t; the same one if its basis always does."""
         return self
 
     @one_blas_thread
@@ -146,7 +146,7 @@ class LinearField(Shown, ABC):
 
     @one_blas_thread
     def motion(self, times: ArrayLike, grid: CellGrid, order: int) -> Motion:
-        """The field at the Gauss points of cells, as the friction balance reads it.
+        """The field at the Gauss points of cells, in the form read by the friction balance.
 
         times (times,); order: points per cell and direction.
         """
@@ -165,7 +165,7 @@ class LinearField(Shown, ABC):
         )
 
     def _on_cells(self, grid: CellGrid, order: int) -> tuple[Array, Array, Array, Array]:
-        """Points, areas, displacements and dilations of the basis; kept, since times come in lots."""
+        """Points, areas, displacements and dilations of the basis; cached for batches of times."""
         key = grid, order
         if self._kept is None or self._kept[0] != key:
             x, y, area = grid.points(order)
@@ -188,12 +188,12 @@ def combine(amplitudes: Array, basis: Array) -> Array:
     """Sum over j of amplitudes[j] (times) and basis[j] (components, *points), broadcast."""
     if amplitudes.ndim == 1:
         return np.asarray(np.tensordot(amplitudes, basis, 1))
-    missing = max(amplitudes.ndim + 1 - basis.ndim, 0)  # axes that t has and the points lack
+    missing = max(amplitudes.ndim + 1 - basis.ndim, 0)  # axes of t that the points lack
     basis = basis.reshape(*basis.shape[:2], *(1,) * missing, *basis.shape[2:])
     return np.asarray(sum(a * b for a, b in zip(amplitudes, basis, strict=True)))
 
 
 def checked_field(value: object) -> LinearField:
     """`value`, which must be a deformation. Raises ValueError otherwise."""
-    hint = "airy_series, ritz_field and fem_check.plane_stress_field make one"
+    hint = "use airy_series, ritz_field or fem_check.plane_stress_field"
     return validation.instance("field", value, LinearField, hint)  # type: ignore[type-abstract]

@@ -1,9 +1,9 @@
-"""The growths for which an elastic problem is solved, and how a wave is made of them.
+"""The growth fields for which the elastic problem is solved, and the wave as their superposition.
 
     c(x, y, t) = sum_j amplitude_j(t) growth_j(x, y)
 
-Waves that are a series of y and t have few growths that serve all times (`Harmonics`); for any other
-wave the growths are c and dc/dt themselves at the times that are asked for (`Snapshots`).
+For waves that are Fourier series in y and t a few growth fields serve all times (`Harmonics`); for any
+other wave the fields are c and dc/dt themselves at the requested times (`Snapshots`).
 """
 
 import numpy as np
@@ -19,11 +19,11 @@ SAMPLES = 16
 """Phases at which the error for a general wave is estimated."""
 
 MOST_TIMES = 512
-"""Different times of a general wave that one call may ask for."""
+"""Largest number of different times of a general wave in one call."""
 
 
 class Harmonics:
-    """cos(2 pi r y/L) of all harmonics, sin(2 pi r y/L) of all, and 1 if the wave has a mean."""
+    """cos(2 pi r y/L) and sin(2 pi r y/L) of all harmonics, and 1 if the wave has a mean."""
 
     def __init__(self, series: TravellingWave, length: float) -> None:
         self.series, self.length = series, length
@@ -43,12 +43,12 @@ class Harmonics:
         return self._with_mean(np.cos(angle), np.sin(angle), 1.0)
 
     def samples(self) -> Array:
-        """At eight phases to a period of the highest harmonic, 256 at most, (cases, phases)."""
+        """Amplitudes at 8 phases per period of the highest harmonic, 256 at most, (cases, phases)."""
         count = max(SAMPLES, min(8 * len(self.series.orders), 256))
         return self.amplitudes(phases(self.series.period, count))
 
     def at(self, t: Array) -> "Harmonics":
-        """Itself: the cases serve all times."""
+        """The same object: the cases serve all times."""
         return self
 
     def _with_mean(self, even: Array, odd: Array, value: float) -> Array:
@@ -59,7 +59,7 @@ class Harmonics:
 class Snapshots:
     """c at each of the times, then dc/dt at each; every amplitude is 0 or 1.
 
-    times: (T,), different.
+    times: (T,), all different.
     """
 
     def __init__(self, drive: Drive, times: Array) -> None:
@@ -81,7 +81,7 @@ class Snapshots:
         return np.concatenate([self.values(x, y), np.stack(rates)])
 
     def values(self, x: Array, y: Array) -> Array:
-        """c at each of the times, (T, *broadcast(x, y).shape); rates may cost much more."""
+        """c at each of the times, (T, *broadcast(x, y).shape), without the costly rates."""
         return np.stack([self.drive.value(x, y, t) for t in self.times])
 
     def samples(self) -> Array:
@@ -89,7 +89,7 @@ class Snapshots:
         return self.amplitudes(self.times)
 
     def at(self, t: Array) -> "Snapshots":
-        """The snapshots at these times. Raises ValueError if they are too many."""
+        """The snapshots at these times. Raises ValueError if there are too many."""
         times = np.unique(t)
         if times.size > MOST_TIMES:
             raise ValueError(f"t has {times.size} different times: must be <= {MOST_TIMES} in one call")
@@ -100,11 +100,11 @@ class Snapshots:
 
 
 LoadCases = Harmonics | Snapshots
-"""Growths and their amplitudes."""
+"""Growth fields and their amplitudes."""
 
 
 def load_cases(drive: Drive) -> LoadCases:
-    """Those of a wave on a sheet."""
+    """The load cases of a wave on a sheet."""
     if drive.series is not None:
         return Harmonics(drive.series, drive.sheet.length)
     return Snapshots(drive, phases(drive.period, SAMPLES))

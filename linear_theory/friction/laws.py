@@ -1,11 +1,6 @@
-"""Laws of friction: the force on a point as a function of its velocity against the ground.
-
-The force on an element is -mu N f(|w|) w/|w|, w its velocity against the ground, N its normal load. The
-coefficient mu cancels in the balance of a sheet that friction does not deform.
-"""
+"""The laws of friction that have names: dry, dry with a width (eq. 3), viscous."""
 
 import math
-from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -13,84 +8,25 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linear_theory.common import validation
-from linear_theory.common.shown import Value
+from linear_theory.friction.isotropic import Isotropic, IsotropicResponse
+from linear_theory.friction.law import FrictionLaw
 
 Array = NDArray[np.float64]
 
-FAR = 1e3
-"""Slip speeds from rest at which tanh is 1 to rounding, and its slope 0, by far."""
+EXTREME = 1e100
+"""Bound of speed scales and of their inverses, so that tangents and their squares can be computed."""
 
 
-class FrictionLaw(Value, ABC):
-    """f(r) of the speed r: Coulomb, Tanh, Viscous, or a class of one's own.
-
-    name: by which it is called.
-
-    >>> import numpy as np
-    >>> from linear_theory import Coulomb, FrictionLaw, Tanh, Viscous
-    >>> for law in (Coulomb(), Tanh(slip_speed=0.1), Viscous()):
-    ...     print(f"{law.words}: {0.2 * law.ratio(np.array(0.2)):.3f}", isinstance(law, FrictionLaw))
-    dry friction: 1.000 True
-    friction tanh(v/0.1): 0.964 True
-    viscous friction: 0.200 True
-
-    Raises ValueError for a slip speed that is not positive.
-    """
-
-    name: ClassVar[str]
-
-    def __str__(self) -> str:
-        return self.name
-
-    @property
-    @abstractmethod
-    def width(self) -> float:
-        """Speed over which the force turns round: 0 for dry friction, infinite for viscous."""
-
-    @property
-    def regularised(self) -> bool:
-        """Whether it stands for dry friction and has a width all the same."""
-        return 0 < self.width < math.inf
-
-    @property
-    def words(self) -> str:
-        """What kind of friction it is, for people."""
-        return f"{self.name} friction"
-
-    @property
-    def formula(self) -> str:
-        """As a formula, for people."""
-        return self.name
-
-    def slip_ratio(self, fastest: float) -> float:
-        """`width` over the largest speed (see `CrawlSpeed`); Coulomb friction is dry at rest, too."""
-        if self.width == 0:
-            return 0.0
-        return self.width / fastest if fastest > 0 else math.inf
-
-    @abstractmethod
-    def speed_at(self, share: float) -> float:
-        """The speed at which the force is that share of its limit, or of its slope without one."""
-
-    @abstractmethod
-    def scaled(self, factor: float) -> "FrictionLaw":
-        """The law for speeds divided by `factor`."""
-
-    @abstractmethod
-    def ratio(self, r: Array) -> Array:
-        """f(r)/r."""
-
-    @abstractmethod
-    def ratio_slope(self, r: Array) -> Array:
-        """d(f(r)/r)/dr / r."""
-
-    @abstractmethod
-    def ratio_quotient(self, before: Array, after: Array, slope: Array, step: float) -> Array:
-        """[f(r')/r' - f(r)/r]/step for r' = r + step slope, without cancellation."""
+def _scale(name: str, value: float) -> float:
+    """A speed scale within EXTREME."""
+    speed = validation.positive(name, value)
+    if not 1 / EXTREME <= speed <= EXTREME:
+        raise ValueError(f"{name} = {speed:g}: must be from {1 / EXTREME:g} to {EXTREME:g}")
+    return speed
 
 
 @dataclass(frozen=True)
-class Coulomb(FrictionLaw):
+class Coulomb(Isotropic):
     """Dry friction, f = 1."""
 
     name: ClassVar[str] = "coulomb"
@@ -105,31 +41,38 @@ class Coulomb(FrictionLaw):
         """See FrictionLaw."""
         return self
 
-    def ratio(self, r: Array) -> Array:
-        """See FrictionLaw."""
-        return 1 / r
+    def energy(self, r: Array) -> Array:
+        """See Isotropic."""
+        return r
 
-    def ratio_slope(self, r: Array) -> Array:
-        """See FrictionLaw."""
-        return -(r**-3)
+    def size(self, r: Array) -> Array:
+        """See Isotropic."""
+        return np.ones_like(r)
 
-    def ratio_quotient(self, before: Array, after: Array, slope: Array, step: float) -> Array:
-        """See FrictionLaw."""
-        return -slope / (before * after)
+    def slope(self, r: Array) -> Array:
+        """See Isotropic."""
+        return np.zeros_like(r)
+
+    def rise(
+        self, before: IsotropicResponse, after: IsotropicResponse, change: Array, step: float
+    ) -> Array:
+        """See Isotropic."""
+        return np.zeros_like(change)
 
 
 @dataclass(frozen=True)
-class Tanh(FrictionLaw):
+class Tanh(Isotropic):
     """Regularised dry friction, f = tanh(r/slip_speed) (eq. 3).
 
-    slip_speed: length per time, > 0, else ValueError.
+    slip_speed: length per time, from 1e-100 to 1e100, else ValueError. Small against the speeds it is
+    dry friction, large against them viscous.
     """
 
     slip_speed: float
     name: ClassVar[str] = "tanh"
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "slip_speed", validation.positive("slip_speed", self.slip_speed))
+        object.__setattr__(self, "slip_speed", _scale("slip_speed", self.slip_speed))
 
     @property
     def width(self) -> float:
@@ -154,74 +97,102 @@ class Tanh(FrictionLaw):
         """See FrictionLaw."""
         return Tanh(self.slip_speed / factor)
 
-    def ratio(self, r: Array) -> Array:
-        """See FrictionLaw."""
-        return np.tanh(self._argument(r)) / r
+    def energy(self, r: Array) -> Array:
+        """slip_speed log cosh(r/slip_speed): about r^2/(2 slip_speed) near 0, r - log 2 slip_speed far
+        away."""
+        s = self._argument(r)
+        near = np.log1p(2 * np.sinh(np.minimum(s, 1) / 2) ** 2)
+        far = np.log1p(self._decay(r)) - math.log(2)
+        return np.asarray(np.where(s < 1, self.width * near, r + self.width * far))
 
-    def ratio_slope(self, r: Array) -> Array:
-        """See FrictionLaw."""
-        x = self._argument(r)
-        sech2 = 1 - np.tanh(x) ** 2
-        # x sech^2 x - tanh x, which is -2/3 x^3 for small x, where it would cancel
-        series = x**3 * (-2 / 3 + x * x * (8 / 15 - x * x * 34 / 105))
-        return np.asarray(np.where(x < 0.03, series, x * sech2 - np.tanh(x)) / r**3)
+    def size(self, r: Array) -> Array:
+        """See Isotropic; also for r < 0, odd."""
+        return np.tanh(self._argument(r))
 
-    def ratio_quotient(self, before: Array, after: Array, slope: Array, step: float) -> Array:
-        """See FrictionLaw."""
-        t, t_after = np.tanh(self._argument(before)), np.tanh(self._argument(after))
-        change = np.tanh(self._argument(step * slope)) / step * (1 - t * t_after)
-        return np.asarray((change * before - t * slope) / (before * after))
+    def slope(self, r: Array) -> Array:
+        """See Isotropic. 1/(slip_speed cosh(r/slip_speed)^2)."""
+        decay = self._decay(r)
+        return np.asarray(4 * decay / (1 + decay) ** 2 / self.width)
+
+    def rise(
+        self, before: IsotropicResponse, after: IsotropicResponse, change: Array, step: float
+    ) -> Array:
+        """See Isotropic. By tanh b - tanh a = tanh(b - a) (1 - tanh a tanh b)."""
+        a, b = self._decay(before.speed), self._decay(after.speed)
+        return np.asarray(self.size(step * change) / step * (2 * (a + b) / ((1 + a) * (1 + b))))
+
+    def _decay(self, r: Array) -> Array:
+        """exp(-2 r/slip_speed), what tanh is from 1, for r >= 0."""
+        return np.exp(-2 * self._argument(r))
 
     def _argument(self, r: Array) -> Array:
-        """r/slip_speed, without overflow where its tanh is 1 to rounding anyway."""
-        return np.asarray(np.clip(r, -FAR * self.width, FAR * self.width) / self.width)
+        """r/slip_speed; infinite beyond doubles, where tanh is 1 and its slope 0 all the same."""
+        with np.errstate(over="ignore"):
+            return np.asarray(r / self.width)
 
 
 @dataclass(frozen=True)
-class Viscous(FrictionLaw):
-    """f = r."""
+class Viscous(Isotropic):
+    """f = r/speed.
 
+    speed: at which the force is mu N, length per time, from 1e-100 to 1e100, else ValueError. On level
+    ground, for a sheet that friction does not deform, it does not count.
+    """
+
+    speed: float = 1.0
     name: ClassVar[str] = "viscous"
     width: ClassVar[float] = math.inf
 
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "speed", _scale("speed", self.speed))
+
     def speed_at(self, share: float) -> float:
         """See FrictionLaw."""
-        return share
+        return share * self.speed
 
     def scaled(self, factor: float) -> "Viscous":
         """See FrictionLaw."""
-        return self
+        return Viscous(self.speed / factor)
 
-    def ratio(self, r: Array) -> Array:
-        """See FrictionLaw."""
-        return np.ones_like(r)
+    def energy(self, r: Array) -> Array:
+        """See Isotropic."""
+        return np.asarray(r * r / (2 * self.speed))
 
-    def ratio_slope(self, r: Array) -> Array:
-        """See FrictionLaw."""
-        return np.zeros_like(r)
+    def size(self, r: Array) -> Array:
+        """See Isotropic."""
+        return np.asarray(r / self.speed)
 
-    def ratio_quotient(self, before: Array, after: Array, slope: Array, step: float) -> Array:
-        """See FrictionLaw."""
-        return np.zeros_like(before)
+    def slope(self, r: Array) -> Array:
+        """See Isotropic."""
+        return np.full_like(r, 1 / self.speed)
+
+    def rise(
+        self, before: IsotropicResponse, after: IsotropicResponse, change: Array, step: float
+    ) -> Array:
+        """See Isotropic."""
+        return np.asarray(change / self.speed)
 
 
-FRICTION_LAWS = {law.name: law for law in (Coulomb, Tanh, Viscous)}
+FRICTION_LAWS: dict[str, type[FrictionLaw]] = {law.name: law for law in (Coulomb, Tanh, Viscous)}
 
 
-def friction_law(friction: object = "coulomb", slip_speed: object = None) -> FrictionLaw:
+def friction_law(
+    friction: object = "coulomb", slip_speed: object = None, argument: str = "friction"
+) -> FrictionLaw:
     """A law, or that of a name: "coulomb", "tanh" with its slip_speed, or "viscous".
 
-    Raises ValueError for anything else, and for a slip_speed that is missing or of no use.
+    argument: its name, for messages. Raises ValueError for anything else, and for a slip_speed that is
+    missing or of no use.
     """
     if isinstance(friction, FrictionLaw):
         if slip_speed is not None:
             raise ValueError(f"slip_speed = {slip_speed!r}: must be None beside {friction!r}")
         return friction
-    name = validation.choice("friction", friction, FRICTION_LAWS)
+    name = validation.choice(argument, friction, FRICTION_LAWS)
     if name == Tanh.name:
         if slip_speed is None:
-            raise ValueError("slip_speed = None: must be > 0 for friction = 'tanh'")
-        return Tanh(validation.positive("slip_speed", slip_speed))
+            raise ValueError(f"slip_speed = None: must be > 0 for {argument} = 'tanh'")
+        return Tanh(slip_speed)  # type: ignore[arg-type]  # checked there
     if slip_speed is not None:
-        raise ValueError(f"slip_speed = {slip_speed!r}: only friction = 'tanh' has one")
+        raise ValueError(f"slip_speed = {slip_speed!r}: only {argument} = 'tanh' has one")
     return Coulomb() if name == Coulomb.name else Viscous()

@@ -7,7 +7,7 @@ from typing import Literal
 import numpy as np
 
 from linear_theory.common.errors import ViscousRegimeWarning
-from linear_theory.friction.laws import FrictionLaw
+from linear_theory.friction.law import FrictionLaw
 
 Regime = Literal["dry", "mixed", "viscous", "none"]
 

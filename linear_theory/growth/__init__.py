@@ -1,1 +1,1 @@
-"""How growth changes the sheet: the law of its stretch, its couplings, and those of a bilayer."""
+"""Growth of the sheet: the law of the stretch, the growth couplings, and those of a bilayer."""

@@ -1,4 +1,4 @@
-"""The couplings of a sheet of two layers of which one grows."""
+"""The growth couplings of a bilayer of which one layer grows."""
 
 from typing import NamedTuple
 
@@ -18,15 +18,15 @@ class Couplings(Shown, _Couplings):
 def bilayer(
     growth: float, thickness: float, thickness_ratio: float = 1.0, modulus_ratio: float = 1.0
 ) -> Couplings:
-    """Couplings of a sheet of two bonded layers of which the upper one grows by the strain growth * c.
+    """Couplings of two bonded layers, of which the upper one grows by the strain growth * c.
 
-    thickness: of both layers together. thickness_ratio and modulus_ratio: upper over lower layer;
-    both have the same Poisson ratio. Timoshenko's bimetal (J. Opt. Soc. Am. 11:233, 1925): curvature
+    thickness: total thickness. thickness_ratio and modulus_ratio: upper over lower layer; both have
+    the same Poisson ratio. Timoshenko's bimetal (J. Opt. Soc. Am. 11:233, 1925) has the curvature
     6 eps (1 + m)^2 / (h [3 (1 + m)^2 + (1 + m n)(m^2 + 1/(m n))]), which for equal layers is
-    3 eps/(2 h). alpha is the strain of the mid-surface of the stack that comes with it, eps/2 for equal
+    3 eps/(2 h). alpha is the accompanying strain of the mid-surface of the stack, eps/2 for equal
     layers. A positive growth bends the sheet away from its upper side, b = -curvature * c * a.
 
-    The mean strain of equal layers being eps/2, the paper's beta = 100 alpha at h = 0.03 is this law.
+    With the mean strain eps/2 of equal layers, this law gives the paper's beta = 100 alpha at h = 0.03.
     Raises ValueError for a thickness or ratio <= 0.
 
     >>> from fem_check import Bending, Material, Membrane, Scene, bilayer

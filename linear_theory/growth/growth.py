@@ -1,4 +1,4 @@
-"""How a wave c grows the sheet: its couplings, the law of its stretch, and how eqs 1 and 4 are read."""
+"""Growth by a wave c: couplings, law of the stretch, and the options left open by eqs 1 and 4."""
 
 from dataclasses import dataclass
 from enum import StrEnum
@@ -21,19 +21,22 @@ class Reference(StrEnum):
 
     @classmethod
     def named(cls, name: str, value: object) -> "Reference":
-        """One of them, or of its name; name: of the argument. Raises ValueError for anything else."""
+        """A member, or the one with that name; name: of the argument. Raises ValueError otherwise."""
         return cls(validation.choice(name, value, tuple(cls)))
 
 
-@dataclass(frozen=True)
+EXPONENTIAL = Exp()
+
+
+@dataclass(frozen=True, init=False)
 class Growth(Value):
     """Rest metric g(alpha c) A and rest curvature -beta c (eq. 4).
 
-    alpha: strain of lengths per c; law: g, a `GrowthLaw` or its name; curvature_coupling: beta,
+    alpha: growth strain per c; law: of g, a `GrowthLaw` or its name; curvature_coupling: beta,
     1/length; curvature: GROWN, -beta c abar, so that the rest curvature is exactly -beta c, or
-    UNDEFORMED, -beta c A; energy_area: in which the elastic energy is counted, GROWN sqrt(det abar)
-    (appendix A.2) or UNDEFORMED sqrt(det A) (eq. 1). Raises ValueError for numbers that are not finite
-    and names that do not exist.
+    UNDEFORMED, -beta c A; energy_area: reference area of the elastic energy density, GROWN
+    sqrt(det abar) (appendix A.2) or UNDEFORMED sqrt(det A) (eq. 1). Raises ValueError for numbers that
+    are not finite and unknown names.
 
     >>> from linear_theory import Growth
     >>> print(Growth(0.25).metric([0.0, 1.0]).round(6), Growth(0.25, law="linear").metric(1.0))
@@ -41,28 +44,35 @@ class Growth(Value):
     """
 
     alpha: float
-    law: GrowthLaw = Exp()  # noqa: RUF009 - a frozen value
-    curvature_coupling: float = 0.0
-    curvature: Reference = Reference.GROWN
-    energy_area: Reference = Reference.GROWN
+    law: GrowthLaw
+    curvature_coupling: float
+    curvature: Reference
+    energy_area: Reference
 
-    def __post_init__(self) -> None:
-        for name in ("alpha", "curvature_coupling"):
-            object.__setattr__(self, name, validation.real(name, getattr(self, name)))
-        object.__setattr__(self, "law", growth_law(self.law))
-        object.__setattr__(self, "curvature", Reference.named("curvature", self.curvature))
-        object.__setattr__(self, "energy_area", Reference.named("area", self.energy_area))
+    def __init__(
+        self,
+        alpha: float,
+        law: GrowthLaw | str = EXPONENTIAL,
+        curvature_coupling: float = 0.0,
+        curvature: Reference | str = Reference.GROWN,
+        energy_area: Reference | str = Reference.GROWN,
+    ) -> None:
+        for name, value in {"alpha": alpha, "curvature_coupling": curvature_coupling}.items():
+            object.__setattr__(self, name, validation.real(name, value))
+        object.__setattr__(self, "law", growth_law(law, "law"))
+        object.__setattr__(self, "curvature", Reference.named("curvature", curvature))
+        object.__setattr__(self, "energy_area", Reference.named("energy_area", energy_area))
 
     def metric(self, growth: ArrayLike) -> Array:
-        """g at growth c, of its shape. Raises ValueError where lengths would vanish."""
+        """g at growth c, same shape. Raises ValueError where lengths would vanish."""
         c = validation.real_array("growth", growth)
         self.law.check(self.alpha, c)
         return np.asarray(self.law.metric(self.alpha * c))
 
     @property
     def energy_weight(self) -> float:
-        """m of 1 + alpha m c + ..., what growth does to the density of energy at small alpha.
+        """m in 1 + alpha m c + ..., the factor of the energy density at small alpha.
 
-        The inverse rest metric in the elasticity makes -4, the grown area 2 more.
+        The inverse rest metric in the elastic tensor contributes -4, the grown area +2.
         """
         return -2.0 if self.energy_area is Reference.GROWN else -4.0

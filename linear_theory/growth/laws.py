@@ -1,15 +1,15 @@
-"""Laws of growth: the stretch s(e) of lengths by a growth strain e = alpha c, and the range of e.
+"""Growth laws: the stretch s(e) for a growth strain e = alpha c, and the admissible range of e.
 
-    exp       s = exp(e)             metric g = s^2 = exp(2 e), as the paper prints it (eq. 4)
-    linear    s = 1 + e              g = (1 + e)^2, the line of eq. 5
+    exp       s = exp(e)             metric g = s^2 = exp(2 e), as in eq. 4 of the paper
+    linear    s = 1 + e              g = (1 + e)^2, as for the line of eq. 5
     metric    s = (1 + 2 e)^(1/2)    g = 1 + 2 e
 
 They agree to first order in e. Speeds of a sine wave are of order alpha^2 although stretches are of
-order alpha: differences from a strain e_0 are free of cancellation,
+order alpha: differences from the stretch at a strain e_0 are computed without cancellation,
 
     s(e_0 + x) = s_0 + s_1 x + x^2 bend(x).
 
-A new law is a class of its own with these functions; everything else about it follows.
+A new law is a class with these functions; everything else is derived from them.
 """
 
 from abc import ABC, abstractmethod
@@ -27,14 +27,14 @@ from linear_theory.common.shown import Value
 Array = NDArray[np.float64]
 
 SERIES_TERMS = 19
-"""Of exp(x) - 1 - x over x^2 for |x| < 1: the first one left out is 1/21! = 2e-20."""
+"""Terms of the series of (exp(x) - 1 - x)/x^2 for |x| < 1: the first neglected is 1/21! = 2e-20."""
 
 
 class GrowthLaw(Value, ABC):
-    """A stretch s(e): Exp, Linear, Metric, or a class of one's own.
+    """A stretch s(e): Exp, Linear, Metric, or a user-defined class.
 
-    name: by which it is called; words: as a formula; lowest, highest: open range of e.
-    Raises ValueError where `check` is given a strain beyond it.
+    name: short name; words: the formula; lowest, highest: open range of e.
+    Raises ValueError in `check`, for a strain beyond this range.
 
     >>> import numpy as np
     >>> from linear_theory import Exp, GrowthLaw, Linear, Metric
@@ -67,7 +67,7 @@ class GrowthLaw(Value, ABC):
 
     @abstractmethod
     def strain(self, gain: float) -> float:
-        """e at which lengths grow by the share `gain`, s(e) = 1 + gain."""
+        """e at which lengths grow by the fraction `gain`, s(e) = 1 + gain."""
 
     @abstractmethod
     def metric(self, e: Array) -> Array:
@@ -75,19 +75,19 @@ class GrowthLaw(Value, ABC):
 
     @abstractmethod
     def coefficient(self, order: int) -> Fraction:
-        """Of e^order in s, exact."""
+        """Coefficient of e^order in s, exact."""
 
     @property
     def square(self) -> float:
-        """k of (g - 1)/2 = e + k e^2 + ..."""
+        """k in (g - 1)/2 = e + k e^2 + ..."""
         return float(self.coefficient(2) + Fraction(1, 2))
 
     def bounds(self, extreme: float = inf) -> tuple[float, float]:
-        """Least and largest e, both excluded, and none beyond +-extreme."""
+        """Open range of e, within +-extreme."""
         return max(self.lowest, -extreme), min(self.highest, extreme)
 
     def misplaced(self, strain: Array, noise: float = 0.0, extreme: float = inf) -> int | None:
-        """Flat index of the worst strain that is out of bounds, or within `noise` of them, if any."""
+        """Flat index of the worst strain out of bounds or within `noise` of them; None if none is."""
         lowest, highest = self.bounds(extreme)
         if strain.min() <= lowest + noise:
             return int(strain.argmin())
@@ -96,7 +96,7 @@ class GrowthLaw(Value, ABC):
         return None
 
     def refusal(self, alpha: float, strain: float, place: str = "", extreme: float = inf) -> ValueError:
-        """What to raise where a piece would have that growth strain, alpha c."""
+        """The error for a growth strain alpha c out of range."""
         bound = self.bounds(extreme)[strain >= 0]
         limit = f"{'<' if alpha > 0 else '>'} {alpha * bound / strain:.6g}"
         at = f" at {place}" if place else ""
@@ -111,6 +111,12 @@ class GrowthLaw(Value, ABC):
         worst = self.misplaced(strain) if strain.size else None
         if worst is not None:
             raise self.refusal(alpha, float(strain.flat[worst]))
+        largest = strain.max(initial=0.0)
+        with np.errstate(over="ignore"):
+            if not self.metric(largest) ** 2 < inf:
+                raise ValueError(
+                    f"alpha = {alpha:g}: alpha c = {largest:g} stretches by more than a number can hold"
+                )
 
 
 @dataclass(frozen=True)
@@ -222,7 +228,7 @@ GROWTH_LAWS: dict[str, GrowthLaw] = {law.name: law for law in (Exp(), Linear(), 
 
 
 def growth_law(law: object, name: str = "growth_law") -> GrowthLaw:
-    """A law, or that of a name: "exp", "linear" or "metric". Raises ValueError for anything else."""
+    """A law, or the law named "exp", "linear" or "metric". Raises ValueError for anything else."""
     if isinstance(law, GrowthLaw):
         return law
     return GROWTH_LAWS[validation.choice(name, law, GROWTH_LAWS)]

@@ -1,4 +1,4 @@
-"""What identifies a value, so that it is known again in another process."""
+"""Content keys, by which a value is recognised in another process."""
 
 from linear_theory.identity.content import content_key
 

@@ -1,11 +1,12 @@
-"""What identifies a value: a key that is the same whenever the content is, in every process.
+"""Content key of a value: equal for equal content, in every process.
 
-Numbers, text, containers, arrays and dataclasses are their values; a sympy expression is its `srepr`; a
-function is its compiled code with all that it reads (see `function_content`); any other object is its
-class and the state that it would be pickled with. What belongs to an installed package is known by its
-name. Nothing depends on addresses or on the seed of hashes. What has no such content is refused.
+Numbers, text, containers, arrays and dataclasses are identified by their values, a sympy expression by
+its `srepr`, a function by its compiled code with everything that the code reads (see
+`function_content`), any other object by its class and the state with which it would be pickled, and
+members of an installed package by their name. Keys do not depend on addresses or on the seed of hashes.
+A value without such content is refused.
 
-An object that knows better what it is has a method `identified_by`, whose result stands for its state.
+An object can define a method `identified_by`, whose result is used in place of its state.
 """
 
 import enum
@@ -23,18 +24,18 @@ from linear_theory.identity.content_writer import Writer
 from linear_theory.identity.library import is_library, is_outside, qualified
 
 EXACT = 2**53
-"""Integers up to this size are floats too."""
+"""Largest integer up to which all integers are exact floats."""
 
 
 def content_key(value: object, what: str = "value") -> str:
     """SHA-256 of the content of a value, 64 hexadecimal digits.
 
-    what: name of the value for messages. Compiled code, and so the key of a function, is that of one
-    version of Python. A key holds for the moment: it follows arrays and global names that change.
+    what: name of the value for messages. Compiled code, and so the key of a function, depends on the
+    version of Python. A key describes the present state: it changes with arrays and global names.
 
-    Raises Unidentifiable, a ValueError that names the part and the reason, for values without a content
-    of their own (generators, files) and for functions that read the clock, random numbers or files,
-    keep a state of their own, or look names up at run time.
+    Raises Unidentifiable, a ValueError that names the part and the reason, for values without content
+    (generators, files) and for functions that read the clock, random numbers or files, have internal
+    state, or look names up at run time.
 
     >>> from linear_theory.identity import content_key
     >>> scale = 2.0
@@ -89,11 +90,12 @@ def _add_plain(writer: Writer, value: Any, where: str) -> bool:
 
 
 def _add_number(writer: Writer, value: Any) -> None:
-    """By value, in functions also by type."""
+    """A number by value, inside functions also by type."""
     if writer.typed:
         writer.emit("type", type(value).__name__)
     if isinstance(value, float) or abs(int(value)) <= EXACT:
-        writer.emit("number", struct.pack("<d", float(value)))
+        number = float(value) if writer.typed else float(value) + 0.0  # -0.0 is 0.0
+        writer.emit("number", struct.pack("<d", number))
     else:
         writer.emit("integer", str(int(value)))
 
@@ -108,7 +110,7 @@ def _add_array(writer: Writer, value: Any, where: str) -> bool:
         writer.each("masked", (np.asarray(value.data), np.ma.getmaskarray(value)), where)
         return True
     if type(value) not in (np.ndarray, np.memmap) and not isinstance(value, np.generic):
-        raise _refusal(value, where, "arrays of its kind may carry more than numbers")
+        raise _refusal(value, where, "arrays of this class may carry more than numbers")
     array = np.asarray(value)
     if array.dtype.hasobject:
         writer.each(f"objects {array.shape}", array.ravel().tolist(), where)
@@ -119,7 +121,7 @@ def _add_array(writer: Writer, value: Any, where: str) -> bool:
 
 
 def _is_expression(value: object) -> bool:
-    sympy = sys.modules.get("sympy")  # without it there are none, and importing it takes long
+    sympy = sys.modules.get("sympy")  # not imported: then there are no expressions, and it is slow
     return sympy is not None and isinstance(value, sympy.Basic | sympy.MatrixBase)
 
 
@@ -132,10 +134,10 @@ def _add_expression(writer: Writer, value: Any, where: str) -> None:
 
 
 def _add_instance(writer: Writer, value: Any, where: str) -> None:
-    """An object by its class and what it would be pickled with; our own dataclasses by their fields."""
+    """An object by its class and its pickled state; our own dataclasses by their fields."""
     kind = type(value)
     if is_outside(kind.__module__) or hasattr(kind, "__next__"):
-        raise _refusal(value, where, "its values are not the same again")
+        raise _refusal(value, where, "its values are not reproducible")
     if is_dataclass(value) and is_library(kind.__module__):
         writer.emit("instance", qualified(kind))
         writer.named("fields", {f.name: getattr(value, f.name) for f in fields(value)}, where)
@@ -149,7 +151,7 @@ def _add_instance(writer: Writer, value: Any, where: str) -> None:
     make, arguments, state, items, pairs = (*reduced, None, None, None)[:5]
     writer.add(make, where)
     writer.each("arguments", arguments, where)
-    parts = state if isinstance(state, tuple) else (state,)  # attributes, and those in slots
+    parts = state if isinstance(state, tuple) else (state,)  # attributes, and slots
     writer.emit("states", str(len(parts)))
     for part in parts:
         if part is None or (isinstance(part, dict) and all(isinstance(name, str) for name in part)):
@@ -161,7 +163,7 @@ def _add_instance(writer: Writer, value: Any, where: str) -> None:
 
 
 def _without_caches(kind: type, state: dict[str, Any]) -> dict[str, Any]:
-    """Attributes that are no results of a cached_property, which come when they are first read."""
+    """Attributes without the results of cached properties, which depend on what was read."""
     if kind is np.vectorize:
         return {name: v for name, v in state.items() if name != "_ufunc"}
     cached = {n for c in kind.__mro__ for n, v in vars(c).items() if _is_cache(v)}

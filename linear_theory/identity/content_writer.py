@@ -1,4 +1,4 @@
-"""Writes the content of values into a digest, each part with its kind and length."""
+"""Writes the content of values to a digest, each part with its kind and length."""
 
 import hashlib
 from collections.abc import Callable, Iterable
@@ -6,10 +6,10 @@ from typing import Any
 
 
 class Writer:
-    """A digest under way, and what has been met on the way to it.
+    """A digest under construction, and the objects met so far.
 
-    rules: writes one value, given this writer, the value and its name for messages. digest: SHA-256.
-    typed: whether 1 and 1.0 are different, as the constants of a function are.
+    rules: function that writes one value, given this writer, the value and its name for messages.
+    digest: SHA-256. typed: whether 1 and 1.0 differ, as among the constants of a function.
     """
 
     def __init__(self, rules: "Callable[[Writer, Any, str], None]") -> None:
@@ -25,7 +25,7 @@ class Writer:
         self.digest.update(f"{kind} {len(raw)} ".encode() + raw)
 
     def add(self, value: Any, where: str) -> None:
-        """The content of a value; where: its name in messages. A value inside itself is a number."""
+        """Write the content of a value; where: its name in messages. Recursion becomes a number."""
         if id(value) in self._open:
             self.emit("inside", str(self._open.index(id(value))))
             return
@@ -36,21 +36,21 @@ class Writer:
             self._open.pop()
 
     def each(self, kind: str, values: Iterable[Any], where: str) -> None:
-        """Several values in their order."""
+        """Write several values in order."""
         items = list(values)
         self.emit(kind, str(len(items)))
         for k, item in enumerate(items):
             self.add(item, f"{where}[{k}]")
 
     def named(self, kind: str, values: dict[str, Any], where: str) -> None:
-        """Several values by name, sorted."""
+        """Write several values sorted by name."""
         self.emit(kind, str(len(values)))
         for name in sorted(values):
             self.emit("name", name)
             self.add(values[name], f"{where}.{name}")
 
     def first(self, value: object) -> bool:
-        """Whether a function, class or module is met for the first time; else its number is written."""
+        """Whether a function, class or module is new; if not, its number is written."""
         known = id(value) in self._met
         if known:
             self.emit("again", str(self._met[id(value)][0]))

@@ -1,8 +1,8 @@
-"""Functions and classes by content: compiled code, constants, defaults, closures and global values.
+"""Content of functions and classes: compiled code, constants, defaults, closures and global values.
 
-A function of an installed package is known by its name. Of any other all that its result can depend on
-is followed: the names that its code reads, and what those read in turn. Functions for which that is not
-all (state of their own, files, names made at run time) are refused.
+A function of an installed package is identified by its name. For any other function everything that its
+result can depend on is followed: the names read by its code, and recursively what those read. Functions
+with further dependences (internal state, files, names created at run time) are refused.
 """
 
 import builtins
@@ -23,7 +23,7 @@ AT_RUN_TIME = {
     *("__import__", "breakpoint", "compile", "eval", "exec", "getattr", "globals", "input"),
     *("locals", "open", "setattr", "vars"),
 }
-"""Built-in functions by which code reads or changes what its names do not tell."""
+"""Built-in functions by which code reads or changes things that its names do not reveal."""
 
 READS = ("LOAD_GLOBAL", "LOAD_NAME", "LOAD_FROM_DICT_OR_GLOBALS")
 WRITES = ("STORE_GLOBAL", "DELETE_GLOBAL")
@@ -32,7 +32,7 @@ GENERATED = {
     *("__init__", "__repr__", "__eq__", "__hash__", "__lt__", "__le__", "__gt__", "__ge__"),
     *("__setattr__", "__delattr__", "__replace__"),
 }
-"""Methods that dataclasses make from their fields."""
+"""Methods that dataclasses generate from their fields."""
 
 _DESCRIPTORS = (types.MemberDescriptorType, types.GetSetDescriptorType)
 
@@ -94,12 +94,12 @@ def _add_function(writer: Writer, value: types.FunctionType, where: str) -> None
 def _inside(cell: types.CellType) -> Any:
     try:
         return cell.cell_contents
-    except ValueError:  # not filled yet
+    except ValueError:  # an empty cell
         return NotImplemented
 
 
 def _add_code(writer: Writer, code: types.CodeType, where: str) -> None:
-    """All that decides what a code does; neither its name nor its place in a file."""
+    """All parts of a code object that determine its behaviour, without its name and place in a file."""
     writer.emit("code", code.co_code)
     counts = code.co_argcount, code.co_posonlyargcount, code.co_kwonlyargcount, code.co_flags
     writer.each("counts", counts, where)
@@ -110,7 +110,7 @@ def _add_code(writer: Writer, code: types.CodeType, where: str) -> None:
 
 
 def _codes(code: types.CodeType) -> Iterator[types.CodeType]:
-    """A code and those of the functions inside it."""
+    """A code object and those of the functions inside it."""
     yield code
     for constant in code.co_consts:
         if isinstance(constant, types.CodeType):
@@ -118,7 +118,7 @@ def _codes(code: types.CodeType) -> Iterator[types.CodeType]:
 
 
 def _names_read(code: types.CodeType, where: str) -> set[str]:
-    """Global names that a code reads. Refuses code with a state and imports that cannot be followed."""
+    """Global names read by a code object. Refuses stateful code and imports that cannot be followed."""
     found: set[str] = set()
     for part in _codes(code):
         steps = list(dis.get_instructions(part))
@@ -126,9 +126,9 @@ def _names_read(code: types.CodeType, where: str) -> set[str]:
             if step.opname in READS:
                 found.add(step.argval)
             elif step.opname in WRITES:
-                raise _refusal(where, f"it changes the global name {step.argval}")
+                raise _refusal(where, f"it assigns to the global name {step.argval}")
             elif step.opname in ("STORE_DEREF", "DELETE_DEREF") and step.argval in code.co_freevars:
-                raise _refusal(where, f"it changes {step.argval}, a variable outside of it")
+                raise _refusal(where, f"it assigns to {step.argval}, a variable outside of it")
             elif step.opname == "IMPORT_NAME":
                 _check_import(step.argval, steps[k - 2].argval, where)
     return found
@@ -148,7 +148,7 @@ def _add_global(
         value = function.__globals__[name]
     else:
         if name in AT_RUN_TIME:
-            raise _refusal(where, "what it does cannot be told from the code")
+            raise _refusal(where, "its behaviour cannot be determined from its code")
         value = getattr(builtins, name, NotImplemented)
     if isinstance(value, types.ModuleType):
         _add_module(writer, value, names, where)
@@ -157,13 +157,13 @@ def _add_global(
 
 
 def _add_module(writer: Writer, module: types.ModuleType, names: set[str], where: str) -> None:
-    """A library by its name; of other modules all that has one of the names that the code reads."""
+    """A library by its name; another module by all members whose names the code reads."""
     writer.emit("module", module.__name__)
     _check_outside(module.__name__, where)
     if is_library(module.__name__):
         outside = sorted(names & OUTSIDE_NAMES & vars(module).keys())
         if outside:
-            raise _refusal(where, f"{module.__name__}.{outside[0]} reads what is not in the code")
+            raise _refusal(where, f"{module.__name__}.{outside[0]} reads data outside the code")
         return
     if not writer.first(module):
         return
@@ -177,7 +177,7 @@ def _add_module(writer: Writer, module: types.ModuleType, names: set[str], where
 
 
 def _add_class(writer: Writer, value: type, where: str) -> None:
-    """A class that is in no library: its bases and all that it defines."""
+    """A class outside libraries: its bases and all members that it defines."""
     if not writer.first(value):
         return
     writer.emit("class", value.__qualname__)
@@ -192,7 +192,7 @@ def _add_class(writer: Writer, value: type, where: str) -> None:
 
 
 def _counts(owner: type, name: str, value: object) -> bool:
-    """Whether a member of a class can have an effect (what Python notes down about it has none)."""
+    """Whether a member of a class can have an effect (attributes set by Python itself have none)."""
     if isinstance(value, types.FunctionType):
         made = value.__code__.co_filename == "<string>" or value.__module__ == "dataclasses"
         return not (made and name in GENERATED and is_dataclass(owner))
@@ -212,19 +212,19 @@ def _add_builtin(writer: Writer, value: Any, where: str) -> None:
 
 
 def _add_ufunc(writer: Writer, value: np.ufunc, where: str) -> None:
-    """By name, from the module of numpy or scipy that has it."""
+    """A ufunc by name, from the module of numpy or scipy that contains it."""
     import scipy.special
 
     for module in (np, scipy.special):
         if getattr(module, value.__name__, None) is value:
             writer.emit("library", f"{module.__name__}.{value.__name__}")
             return
-    raise _refusal(f"{where} ({value.__name__})", "it is a ufunc of no known module")
+    raise _refusal(f"{where} ({value.__name__})", "it is a ufunc of an unknown module")
 
 
 def _check_outside(module: str | None, where: str) -> None:
     if is_outside(module):
-        raise _refusal(where, f"{module} reads what is not in the code")
+        raise _refusal(where, f"{module} reads data outside the code")
 
 
 def _refusal(where: str, reason: str) -> Unidentifiable:

@@ -1,4 +1,4 @@
-"""What belongs to Python and its installed packages, and is known by its name."""
+"""Members of Python and its installed packages, which are identified by name."""
 
 import functools
 import importlib.util
@@ -14,12 +14,12 @@ OUTSIDE = {
     *("datetime", "io", "os", "pathlib", "random", "secrets", "shelve", "socket", "sqlite3"),
     *("subprocess", "tempfile", "time", "urllib", "uuid", "numpy.random", "scipy.io"),
 }
-"""Modules by which a function reaches what is no content of it: files, the clock, random numbers."""
+"""Modules that give a function access to external data: files, the clock, random numbers."""
 
 OUTSIDE_NAMES = {
     *("fromfile", "fromregex", "genfromtxt", "load", "loadtxt", "memmap", "random", "read_csv"),
 }
-"""Likewise, as names in the modules of installed packages."""
+"""Names with the same access in the modules of installed packages."""
 
 
 @functools.cache
@@ -30,7 +30,7 @@ def is_library(module: str | None) -> bool:
         return True
     try:
         found = importlib.util.find_spec(top) if top else None
-    except (ValueError, ImportError):  # __main__ has no specification
+    except (ValueError, ImportError):  # __main__ has no spec
         return False
     if found is None:
         return False
@@ -40,14 +40,14 @@ def is_library(module: str | None) -> bool:
 
 @functools.cache
 def _folders() -> tuple[Path, ...]:
-    """Where packages are installed."""
+    """Folders in which packages are installed."""
     paths = sysconfig.get_paths()
     named = [paths["purelib"], paths["platlib"], *site.getsitepackages(), site.getusersitepackages()]
     return tuple(Path(folder) for folder in named)
 
 
 def is_outside(module: str | None) -> bool:
-    """Whether a module is, or lies in, one of OUTSIDE."""
+    """Whether a module is one of OUTSIDE, or inside one of them."""
     parts = (module or "").split(".")
     return any(".".join(parts[:k]) in OUTSIDE for k in range(1, len(parts) + 1))
 
@@ -58,7 +58,7 @@ def qualified(value: Any) -> str:
 
 
 def is_by_name(value: Any) -> bool:
-    """Whether a function or class is what its module in a library has under its name."""
+    """Whether a function or class is found in its library module under its name."""
     module, name = getattr(value, "__module__", None), getattr(value, "__qualname__", None)
     if not is_library(module) or not isinstance(name, str):
         return False

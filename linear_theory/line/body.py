@@ -1,12 +1,12 @@
-"""A body that carries a travelling wave: its speeds and its weight as functions of one number, g.
+"""A body that carries a travelling wave: velocity and weight as functions of one variable, g.
 
-With n whole waves on the body, s_t = -s_S/(nT), so that in the frame of the mean motion a piece moves
-at all times with
+With n whole waves on the body, s_t = -s_S/(nT), so that in the frame of the mean motion a material
+element moves at all times with
 
     v = -(s - mean s)/(nT) = -(alpha/nT) (z - mean z),   z = (s - s_0)/alpha = g (s_1 + alpha g bend),
 
-s_0, s_1 and `bend` those of the mean growth (see `growth`), g = c - mean c. As mean g = 0, mean z =
-alpha mean(g^2 bend): of order alpha, known to its last digits.
+s_0, s_1 and `bend` at the mean growth (see `growth`), g = c - mean c. As mean g = 0, mean z =
+alpha mean(g^2 bend): of order alpha, without loss of digits.
 """
 
 from dataclasses import dataclass
@@ -23,12 +23,12 @@ from linear_theory.wave.travelling import TravellingWave
 Array = NDArray[np.float64]
 
 NOISE = 64 * EPS
-"""Strains closer than this part of all amplitudes to a bound cannot be told from it."""
+"""Strains closer to a bound than this fraction of the sum of amplitudes are taken as on it."""
 
 
 @dataclass(frozen=True)
 class Body:
-    """Of a wave of the given profile, |alpha| = `size`; growth is that about the mean strain.
+    """A body with a wave of the given profile and |alpha| = `size`; growth: about the mean strain.
 
     Speeds are in units of |alpha|/(nT), and g has the sign of alpha (c - mean c).
     """
@@ -39,8 +39,8 @@ class Body:
 
     @classmethod
     def of(cls, wave: TravellingWave, alpha: float, growth: Piece) -> "Body":
-        """Raises ValueError, naming the phase, where a strain is beyond the range of the law."""
-        sign = -1.0 if alpha < 0 else 1.0  # (alpha, c) and (-alpha, -c) are the same growth
+        """The body for a wave. Raises ValueError, naming the phase, for a strain out of range."""
+        sign = -1.0 if alpha < 0 else 1.0  # (alpha, c) and (-alpha, -c) are equivalent
         profile, size = Profile.of(wave, sign), abs(alpha)
         strain = alpha * wave.mean + size * profile.values
         worst = growth.law.misplaced(
@@ -80,7 +80,7 @@ class Body:
 
     @cached_property
     def noise(self) -> float:
-        """Rounding error of mean_height: that of g, through dz/dg - s_1, and that of the sum."""
+        """Rounding error of mean_height: from g, through dz/dg - s_1, and from the sum."""
         steep = self.profile.mean(
             lambda g: abs(self.growth.slope(self.size * g) - self.growth.slope(0.0))
         )
@@ -88,10 +88,10 @@ class Body:
 
     @cached_property
     def range(self) -> tuple[float, float]:
-        """Least and largest speed, z - mean z."""
+        """Smallest and largest speed, z - mean z."""
         ends = self.height(np.array([self.profile.values.min(), self.profile.values.max()]))
         return float(ends[0]) - self.mean_height, float(ends[1]) - self.mean_height
 
     def fastest(self, level: float) -> float:
-        """Largest speed against the ground of a body that moves with `level`."""
+        """Largest speed relative to the ground of a body that moves with `level`."""
         return max(abs(end - level) for end in self.range)

@@ -9,9 +9,9 @@ V = (alpha/nT) sin(theta),
     V = (alpha^2/nT) (1 - (2/3) alpha^2 + ...),                          (eq. 9, corrected)
 
 against the printed arcsin(q) + alpha sqrt(1 - 2 q^2) = 0, q = nTV/alpha, and V = -alpha^2/(nT).
-The body crawls along the wave; viscous friction moves it the same way, half as fast. Both are ends
-of the law tanh(v/v0). theta = alpha cos(theta) is Kepler's equation E + alpha sin(E) = pi/2 with
-E = pi/2 - theta.
+The body crawls along the wave; with viscous friction it moves in the same direction, half as fast. Both
+are limits of the law tanh(v/v0). theta = alpha cos(theta) is Kepler's equation E + alpha sin(E) = pi/2
+with E = pi/2 - theta.
 
 All speeds are in units of L over the unit of `period`, positive towards +y; for count < 0 the wave
 runs towards -y and V is negative.
@@ -37,24 +37,25 @@ PRINTED_STEPS = 6
 """Newton steps for the printed equation; the start is within 0.03 of the root."""
 
 NARROW = 0.0135
-"""Slip speed over wave speed below which the tanh law is a narrow blur of the dry balance.
+"""Slip speed over wave speed below which the tanh law is treated as a narrow smoothing of dry friction.
 
-Then the blur (19 slip speeds for 1e-16) does not reach the turning points |sin(phi)| = 1, because
-|q| <= 0.7391 and 19 * 0.0135 < 1 - 0.7391; above it the trapezoidal rule resolves the layer.
+Then the smoothing kernel (19 slip speeds wide for 1e-16) does not reach the turning points
+|sin(phi)| = 1, because |q| <= 0.7391 and 19 * 0.0135 < 1 - 0.7391; above this ratio the trapezoidal
+rule resolves the layer.
 """
 
 BLOCK = 512
-"""Speeds solved at a time by the tanh law: a few MB of quadrature points."""
+"""Number of speeds per batch for the tanh law: a few MB of quadrature points."""
 
 
 def line_speed(alpha: ArrayLike, count: int = 1, period: float = 1.0, form: str = "corrected") -> Array:
     """Speed of the sine wave with dry friction, eq. 8: V = (alpha/nT) sin(theta).
 
     alpha: dimensionless growth coupling, any shape, |alpha| < 1; count: waves on the body, any
-    non-zero integer; period: units of time. Returns the shape of alpha, lengths of the body per time,
-    within 2 ulp for count = period = 1 and 3 ulp otherwise, as alpha/count/period is rounded too.
-    form="printed" solves eq. 8 as it stands in the paper, which does not balance eq. 7.
-    Raises ValueError for |alpha| >= 1, where a contracted part would have no length left.
+    non-zero integer; period: units of time. Returns speeds of the shape of alpha, in body lengths per
+    time, within 2 ulp for count = period = 1 and 3 ulp otherwise, as alpha/count/period is rounded too.
+    form="printed" solves eq. 8 as printed in the paper, which does not satisfy the balance eq. 7.
+    Raises ValueError for |alpha| >= 1, where the length of a contracted part would vanish.
 
     >>> from linear_theory import line_speed
     >>> print(line_speed([0.01, 0.25]).round(6))  # L/T; alpha^2 where alpha is small
@@ -64,7 +65,7 @@ def line_speed(alpha: ArrayLike, count: int = 1, period: float = 1.0, form: str 
     if validation.choice("form", form, FORMS) == "printed":
         return np.asarray(-scale * np.sign(alpha) * np.sin(_printed_angle(abs(alpha))))
     head, tail = _kepler_sine(alpha)
-    # Mantissa and exponent apart: the exact product below must neither overflow nor lose its tail.
+    # Mantissa and exponent separately: the exact product below must neither overflow nor lose its tail.
     mantissa, exponent = np.frexp(scale)
     product = mantissa * head
     tail = mantissa * tail + _product_error(mantissa, head, product)
@@ -91,12 +92,12 @@ def line_speed_tanh(
     """Speed of the sine wave with friction tanh(v/v0), for any v0 = slip_speed > 0.
 
     The root V of int (1 + alpha sin phi) tanh((V - (alpha/nT) sin phi)/v0) dphi = 0; alpha and
-    slip_speed (lengths of the body per time) broadcast, other arguments as for `line_speed`. Joins dry
-    (v0 -> 0) and viscous friction (v0 -> infinity); relative accuracy 1e-13. Raises ValueError as
+    slip_speed (body lengths per time) broadcast, other arguments as for `line_speed`. The limits are
+    dry (v0 -> 0) and viscous friction (v0 -> infinity); relative accuracy 1e-13. Raises ValueError as
     `line_speed` does and for slip_speed <= 0.
 
-    The integrand is symmetrised under phi -> -phi by hand, so that the small speed (of order
-    alpha^2) is not the difference of large numbers.
+    The integrand is symmetrised under phi -> -phi analytically, so that the small speed (of order
+    alpha^2) is not a difference of large numbers.
 
     >>> from linear_theory import line_speed_tanh
     >>> print(line_speed_tanh(0.25, slip_speed=[1e-6, 0.05, 1e3]).round(5))  # L/T, from dry to viscous
@@ -107,10 +108,10 @@ def line_speed_tanh(
     if slip.size and slip.min() <= 0:
         raise ValueError(f"slip_speed = {slip.min():g}: must be > 0")
     with np.errstate(over="ignore", divide="ignore", invalid="ignore"):
-        width = slip / abs(scale)  # infinite for alpha = 0, where V = 0 by any law
+        width = slip / abs(scale)  # infinite for alpha = 0, where V = 0 for any law
     strength, width = np.broadcast_arrays(abs(alpha), width)
     level = np.empty(strength.shape)
-    order = np.argsort(width, axis=None)  # alike widths share one quadrature
+    order = np.argsort(width, axis=None)  # similar widths share one quadrature
     narrow = int(np.searchsorted(width.flat[order], NARROW))
     for part, solve in ((order[:narrow], _narrow_level), (order[narrow:], _wide_level)):
         for start in range(0, part.size, BLOCK):
@@ -127,8 +128,8 @@ def _checked(alpha: ArrayLike, count: int, period: float) -> tuple[Array, Array]
     worst = strength.flat[abs(strength).argmax()] if strength.size else 0.0
     if abs(worst) >= 1:
         raise ValueError(
-            f"alpha = {worst:g}: must be in (-1, 1); beyond it the length factor 1 + alpha sin(phi) "
-            "is not positive everywhere and the printed theory has no meaning"
+            f"alpha = {worst:g}: must be in (-1, 1); otherwise the length factor 1 + alpha sin(phi) "
+            "is not positive everywhere and the theory has no meaning"
         )
     return strength, np.asarray(strength / count / period)
 
@@ -171,11 +172,11 @@ def _printed_angle(strength: Array) -> Array:
 
 
 def _narrow_level(strength: Array, width: Array) -> Array:
-    """q = nTV/alpha where the slip speed is small: the dry balance blurred by sech^2/2.
+    """q = nTV/alpha for a small slip speed: the dry balance smoothed by sech^2/2.
 
     tanh(x/s) is sgn(x - s z) averaged over z with weight sech(z)^2/2, and sgn gives the closed
     form: int sech(z)^2 [theta(q + s z) - alpha cos theta(q + s z)] dz = 0, sin(theta(p)) = p. The
-    pair +-z is joined by tan((A - B)/2) = (sin A - sin B)/(cos A + cos B). The trapezoidal rule of
+    pair +-z is combined by tan((A - B)/2) = (sin A - sin B)/(cos A + cos B). The trapezoidal rule with
     step 1/4 is exact to 1e-16 here: the poles of sech^2 are at distance pi/2.
     """
     z = 0.25 * np.arange(77.0)
@@ -195,9 +196,9 @@ def _narrow_level(strength: Array, width: Array) -> Array:
 
 
 def _wide_level(strength: Array, width: Array) -> Array:
-    """q = nTV/alpha where the slip speed is not small: trapezoidal rule in phi.
+    """q = nTV/alpha for a slip speed that is not small: trapezoidal rule in phi.
 
-    The pair +-phi joined, with a = sin(phi), X = q/s, A = a/s:
+    The pair +-phi combined, with a = sin(phi), X = q/s, A = a/s:
     mean of (sinh 2X - alpha a sinh 2A)/(cosh 2X + cosh 2A) = 0. Both terms are divided by 2/s, so
     that nothing underflows as s -> infinity. s >= NARROW keeps cosh(2/s) far from overflow.
     """

@@ -1,4 +1,4 @@
-"""A sine wave on a line at finite strain: the exact speed of a bar or a narrow strip that grows.
+"""A sine wave on a line at finite strain: the exact speed of a growing bar or narrow strip.
 
 A body 0 <= S <= 1 (L = 1) grows by the stretch s(alpha c), c = sin(phi), phi = 2 pi (n S - t/T), so
 that x(S, t) = int_0^S s dS'. Without forces along the body this is the shape of the nonlinear sheet in
@@ -33,6 +33,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from linear_theory.common import validation
+from linear_theory.common.quadrature import gauss_legendre
 from linear_theory.friction.laws import Coulomb, Viscous
 from linear_theory.line.piece import Piece
 from linear_theory.line.roots import bracketed_newton
@@ -40,18 +41,18 @@ from linear_theory.line.roots import bracketed_newton
 Array = NDArray[np.float64]
 
 FRICTIONS = {law.name: law for law in (Coulomb(), Viscous())}
-"""Laws of friction that have a speed in closed form."""
+"""Friction laws with a speed in closed form."""
 
 POINTS = 32
 """Gauss points between phase 0 and the median, where stretches are >= 1 and hence smooth functions of
 the phase, and as many more as the exponent of the weight is large."""
 
 STEP, ENDS = 1 / 24, 76
-"""Of the double exponential rule for a quarter of the period. Stretches may vanish at one end of it:
-the square root of "metric" then has a branch point as close as one likes, to which points crowd."""
+"""Points of the double exponential rule for a quarter period. Stretches may vanish at one end of it:
+the square root of "metric" then has a branch point arbitrarily close, near which points accumulate."""
 
 BLOCK = 4096
-"""Values of alpha taken at a time: some MB of quadrature points."""
+"""Number of values of alpha per batch: some MB of quadrature points."""
 
 
 def line_cycle_speed(
@@ -63,18 +64,18 @@ def line_cycle_speed(
     body: str = "line",
     friction: str = "coulomb",
 ) -> Array:
-    """Speed of the growing body with dry or viscous friction, exact; `line_balance` takes any wave.
+    """Exact speed of a growing body under a sine wave, dry or viscous friction; see `line_balance`.
 
     alpha: dimensionless growth coupling, any shape; |alpha| < 1 for "linear", 1/2 for "metric" and 100
-    for "exp". growth_law: of the stretch, "exp" exp(alpha c), "linear" 1 + alpha c or "metric"
+    for "exp". growth_law: the stretch, "exp" exp(alpha c), "linear" 1 + alpha c or "metric"
     (1 + 2 alpha c)^(1/2). load: "current" or "grown" (the same here), weight per length of a "line" and
-    per area of a narrow "strip" that grows both ways (`body`), or "material", weight conserved.
+    per area of a narrow "strip" that grows in both directions (`body`); or "material": conserved.
     count: waves on the body, any non-zero integer. period: units of time. friction: "coulomb" or
-    "viscous"; the law tanh(v/v0) is in `line_balance`.
+    "viscous"; for the law tanh(v/v0) and for other waves use `line_balance`.
 
-    Returns the shape of alpha, lengths of the body per time, positive towards +y, with a relative error
-    of about 1e-15 of the terms of the formulas above. Raises ValueError for other names and for |alpha|
-    so large that a length would vanish.
+    Returns speeds of the shape of alpha, in body lengths per time, positive towards +y, with an error
+    of about 1e-15 relative to the terms of the formulas above. Raises ValueError for unknown names and
+    for |alpha| so large that a length would vanish.
 
     >>> from linear_theory import line_cycle_speed
     >>> for body in ("line", "strip"):
@@ -93,7 +94,7 @@ def line_cycle_speed(
         raise ValueError(
             f"alpha = {worst:g}: must be in (-{limit:g}, {limit:g}) for growth_law = {growth_law!r}"
         )
-    # (alpha, c) and (-alpha, -c) are the same growth, half a period apart.
+    # (alpha, c) and (-alpha, -c) are equivalent up to half a period.
     size = abs(strength).ravel()
     solve = _dry if dry else _viscous
     blocks = [solve(size[i : i + BLOCK], growth) for i in range(0, size.size, BLOCK)]
@@ -101,7 +102,7 @@ def line_cycle_speed(
 
 
 def is_dry(friction: str) -> bool:
-    """Whether a law of FRICTIONS, by its name, is Coulomb's. Raises ValueError for other names."""
+    """Whether the friction law with that name is Coulomb's. Raises ValueError for unknown names."""
     return FRICTIONS[validation.choice("friction", friction, FRICTIONS)] == Coulomb()
 
 
@@ -124,13 +125,13 @@ def _mean_rise(alpha: Array, growth: Piece) -> Array:
 
 
 def _median_angle(alpha: Array, growth: Piece) -> Array:
-    """theta: the weight between phases 0 and theta is half of the difference of those of both signs."""
+    """theta: the weight between phases 0 and theta is half the difference of both signs' weights."""
     if growth.power == 0:
         return np.zeros(alpha.shape)
     x, weights = _strains(alpha)
     target = np.pi / 2 * np.sum(weights * abs(growth.gain(x)), axis=1)
     exponent = growth.power * alpha.max(initial=0.0)
-    nodes, shares = np.polynomial.legendre.leggauss(POINTS + math.ceil(exponent))
+    nodes, shares = gauss_legendre(POINTS + math.ceil(exponent))
 
     def balance(angle: Array) -> tuple[Array, Array]:
         phase = angle[:, None] / 2 * (1 + nodes)
@@ -141,7 +142,7 @@ def _median_angle(alpha: Array, growth: Piece) -> Array:
 
 
 def _strains(alpha: Array) -> tuple[Array, Array]:
-    """alpha sin(phi) at both signs of the points of a quarter period, and weights of their mean."""
+    """alpha sin(phi) at the points of a quarter period with both signs, and the weights of the mean."""
     t = STEP * np.arange(-ENDS, ENDS + 1.0)
     # The phase from the turning point, pi/2 (1 + tanh(pi/2 sinh t))/2
     share = 1 / (1 + np.exp(-np.pi * np.sinh(t)))

@@ -1,13 +1,13 @@
 """Power series of the speed of a sine wave at finite strain, with exact coefficients.
 
-With stretch s = sum_k s_k e^k and weight w = s^p of the strain e = alpha sin(phi), `finite` asks for
-means of powers of the sine, which are rational, and for dry friction for the root theta of
+With stretch s = sum_k s_k e^k and weight w = s^p of the strain e = alpha sin(phi), `finite` needs means
+of powers of the sine, which are rational, and for dry friction the root theta of
 
     int_0^theta w dphi = (weight of the positive strains - that of the negative ones)/2,
 
 both integrals over a quarter of the period. That is an equation between power series in alpha and theta
 with rational coefficients, as the quarter integral of an odd power of the sine is rational; Newton's
-method doubles the number of coefficients of theta(alpha) that are right with every step.
+method doubles the number of correct coefficients of theta(alpha) in every step.
 """
 
 from fractions import Fraction
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from sympy import Rational
 
 Series = list[Fraction]
-"""Coefficients of alpha^0, alpha^1, ..., as many as are asked for."""
+"""Coefficients of alpha^0, alpha^1, ..., up to the requested order."""
 
 
 def line_cycle_series(
@@ -34,9 +34,9 @@ def line_cycle_series(
 ) -> "tuple[Rational, ...]":
     """Exact coefficients (c_0, ..., c_order) of nTV = sum c_k alpha^k, as sympy rationals.
 
-    nTV is that of `line_cycle_speed`, whose arguments these are; it is even in alpha. The time grows
-    with more than the third power of the order: 0.1 s for 20, 1 s for 40.
-    Raises ValueError if order is not an integer >= 0 and for names that do not exist.
+    V is the speed of `line_cycle_speed`, with the same arguments; it is even in alpha. The computing
+    time grows faster than the third power of the order: 0.1 s for 20, 1 s for 40.
+    Raises ValueError if order is not an integer >= 0 and for unknown names.
 
     >>> from linear_theory import line_cycle_series
     >>> print(line_cycle_series(4, growth_law="exp"))
@@ -65,12 +65,12 @@ def _viscous(size: int, growth: Piece) -> Series:
 
 
 def _stretch(size: int, growth: Piece) -> Series:
-    """Coefficients of s by powers of the strain."""
+    """Coefficients of s in powers of the strain."""
     return [growth.law.coefficient(k) for k in range(size)]
 
 
 def _weight(size: int, growth: Piece) -> Series:
-    """Coefficients of w = s^p by powers of the strain."""
+    """Coefficients of w = s^p in powers of the strain."""
     weight = _constant(Fraction(1), size)
     for _ in range(growth.power):
         weight = _product(weight, _stretch(size, growth))
@@ -78,7 +78,7 @@ def _weight(size: int, growth: Piece) -> Series:
 
 
 def _mean(function: Series) -> Series:
-    """Of a function of the strain alpha sin(phi), over the period."""
+    """Mean over the period of a function of the strain alpha sin(phi)."""
     return [c * Fraction(comb(k, k // 2), 2**k) * (k % 2 == 0) for k, c in enumerate(function)]
 
 
@@ -97,7 +97,7 @@ def _median_angle(size: int, growth: Piece) -> Series:
 
 
 def _integrals(weight: Series) -> list[Series]:
-    """int_0^theta w dphi by powers of theta: a series in alpha for each."""
+    """int_0^theta w dphi in powers of theta, each coefficient a series in alpha."""
     size = len(weight)
     rows = [_constant(Fraction(0), size) for _ in range(size)]
     power, sine = _constant(Fraction(1), size), _sine([Fraction(k == 1) for k in range(size)])
@@ -116,7 +116,7 @@ def _odd_quarter(k: int) -> Fraction:
 
 
 def _sine(angle: Series) -> Series:
-    """Of a series without a constant."""
+    """Sine of a series without constant term."""
     taylor = [Fraction((-1) ** (k // 2) * (k % 2), factorial(k)) for k in range(len(angle))]
     return _composed([[c] for c in taylor], angle)
 
@@ -153,7 +153,7 @@ def _product(a: Series, b: Series) -> Series:
 
 
 def _quotient(a: Series, b: Series) -> Series:
-    """a/b, the constant of b not being 0."""
+    """a/b for b with a non-zero constant term."""
     quotient: Series = []
     for k, c in enumerate(a):
         known = sum((q * b[k - j] for j, q in enumerate(quotient)), Fraction(0))

@@ -1,14 +1,14 @@
-"""The stretch of a piece of a body on a line, and the weight that then rests on it.
+"""The stretch of a material element of a one-dimensional body, and the weight (normal load) on it.
 
-Growth gives a piece the strain e = alpha c, and the growth law its stretch s(e). The weight on it is
-w = s^p:
+Growth gives an element the strain e = alpha c, and the growth law its stretch s(e). The weight on the
+element is w = s^p:
 
     p = 1   on a line, whose load is counted per current length,
     p = 2   on a narrow strip that grows in both directions, whose load is counted per current area,
     p = 0   where weight is conserved.
 
-All else about a body at finite strain follows from s and w. What is asked for here are differences from
-a strain e_0, free of cancellation: w/w_0 - 1 and those of `growth.laws`.
+Everything else about a body at finite strain follows from s and w. This module computes differences
+from a strain e_0 without cancellation: w/w_0 - 1 and those of `growth.laws`.
 """
 
 import math
@@ -24,16 +24,16 @@ from linear_theory.growth.laws import GrowthLaw, growth_law
 Array = NDArray[np.float64]
 
 EXTREME = 100.0
-"""Bound of |e| for a stretch without one, exp(e): with e_0 at one end and e at the other, s w/w_0 is
-e^600, still a double."""
+"""Bound of |e| for exp(e), which has none of its own: with e_0 at one end and e at the other, s w/w_0
+is e^600, still a double."""
 
 BODIES = {"line": 1, "strip": 2}
-"""Powers of the stretch by which length or area, and with it the load, grows."""
+"""Powers p of the stretch by which length or area, and hence the load, grows."""
 
 
 @dataclass(frozen=True)
 class Piece:
-    """Stretch and weight of a body whose pieces have strains `start` + x.
+    """Stretch and weight of a body whose elements have strains `start` + x.
 
     power: p of the weight s^p.
     """
@@ -44,23 +44,23 @@ class Piece:
 
     @classmethod
     def of(cls, law: GrowthLaw | str, load: Load | str, body: str) -> "Piece":
-        """Of a "line" or a "strip"; raises ValueError for names that do not exist."""
+        """The element of a "line" or a "strip". Raises ValueError for unknown names."""
         law, conserved = growth_law(law), Load.named(load) is Load.MATERIAL
         power = BODIES[validation.choice("body", body, BODIES)]
         return cls(law, 0 if conserved else power)
 
     @property
     def curvature(self) -> float:
-        """s_2 of s = 1 + e + s_2 e^2 + ..."""
+        """s_2 in s = 1 + e + s_2 e^2 + ..."""
         return float(self.law.coefficient(2))
 
     @property
     def extreme(self) -> float:
-        """Bound of |e| beyond those of the law."""
+        """Bound of |e| in addition to those of the law."""
         return EXTREME if math.isinf(self.law.lowest) else math.inf
 
     def about(self, start: float) -> "Piece":
-        """The same, with differences from that strain."""
+        """The same element, with differences from the strain `start`."""
         return replace(self, start=start)
 
     def slope(self, x: ArrayLike) -> Array:
@@ -76,7 +76,7 @@ class Piece:
         return x * (self.slope(0.0) + x * self.bend(x))
 
     def gain(self, x: Array) -> Array:
-        """w/w_0 - 1, of the sign of x."""
+        """w/w_0 - 1, with the sign of x."""
         if self.power == 0:
             return np.zeros_like(x)
         part = self.rise(x) / self.law.stretch(np.asarray(self.start))

@@ -1,14 +1,14 @@
-"""The distribution of the values of a travelling wave: which part of the body lies below a level.
+"""The distribution of the values of a travelling wave: the fraction of the body below a level.
 
-For a travelling wave all velocities are multiples of g = c - mean c, so dry friction asks for a
-weighted median of g over one period. Cut at its turning points and inflections, g is monotone and
-convex or concave on every cell between two nodes; a level then meets a cell at most once, and the
+For a travelling wave all velocities are multiples of g = c - mean c, so dry friction requires a
+weighted median of g over one period. Cut at its extrema and inflections, g is monotone and
+convex or concave on every cell between two nodes; a level then crosses a cell at most once, and the
 measure of a set {a < g < b} follows from the ends of its arcs, without quadrature.
 
-g is held as its Taylor series at the nodes. Besides being fast for hundreds of harmonics, this
-gives g(node + d) - g(node) free of cancellation, so that a small rise of the level, measured from
-nodes that lie on the old level, keeps its digits: speeds of order alpha^2 stay right when alpha is
-tiny. Functions of g are integrated by Gauss points, over cells on which they vary little.
+g is stored as its Taylor series at the nodes. Besides being fast for hundreds of harmonics, this gives
+g(node + d) - g(node) without cancellation, so that a small rise of the level, measured from nodes on
+the old level, keeps its digits: speeds of order alpha^2 remain accurate for tiny alpha. Functions of g
+are integrated by Gauss quadrature, over cells on which they vary little.
 """
 
 import math
@@ -19,6 +19,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from linear_theory.common.quadrature import gauss_legendre
 from linear_theory.line.roots import EPS, bracketed_newton
 from linear_theory.wave.travelling import TravellingWave
 
@@ -29,26 +30,26 @@ OVERSAMPLING = 16
 """Equal cells per wavelength of the highest harmonic."""
 
 TERMS = 15
-"""Terms of the Taylor series: the first one left out is < (2 pi/16)^15/15! = 1e-18 of the highest
+"""Terms of the Taylor series: the first one neglected is < (2 pi/16)^15/15! = 1e-18 of the highest
 harmonic at the far end of a cell."""
 
-GAUSS_NODES, GAUSS_WEIGHTS = np.polynomial.legendre.leggauss(10)
-"""For each cell, on which g is a sixteenth of a wave, stretches vary by MOST_VARIATION and tanh by its
-argument over an interval of length 1 (poles at distance pi/2 or more): errors below 1e-16."""
+GAUSS_NODES, GAUSS_WEIGHTS = gauss_legendre(10)
+"""Gauss points per cell, on which g is a sixteenth of a wave, stretches vary by MOST_VARIATION and the
+argument of tanh by at most 1 (poles at distance pi/2 or more): errors below 1e-16."""
 
 MOST_VARIATION = 0.25
-"""Of the logarithm of the stretch over a cell. Zeros of it and of its square, in the complex plane,
-are then further away than the cell is long."""
+"""Largest variation of the logarithm of the stretch over a cell. Complex zeros of the stretch and of
+its square are then further away than the length of the cell."""
 
 MOST_HALVINGS = 60
-"""A cell halved so often is narrower than the rounding of its ends."""
+"""Number of halvings after which a cell is narrower than the rounding of its ends."""
 
 
 class Rise(NamedTuple):
-    """What a rise of the level by some amount sweeps over, as fractions of the period.
+    """The set swept over when the level rises, in fractions of the period.
 
     part: integral of dphi/(2 pi); gain: integral of f(g) dphi/(2 pi); part_rate: derivative of part
-    by the level, that of gain being f times as large.
+    with respect to the level; that of gain is f times as large.
     """
 
     part: float
@@ -57,7 +58,7 @@ class Rise(NamedTuple):
 
 
 class Integrals(NamedTuple):
-    """A function f(g) and its integrals over the cells of a profile, as fractions of the period."""
+    """A function f(g) and its integrals over the cells of a profile, in fractions of the period."""
 
     function: Callable[[Array], Array]
     cells: Array
@@ -68,7 +69,7 @@ class Profile:
     """g(phi), of mean 0, on monotone cells between ascending nodes over one period.
 
     nodes: (n,) radians; taylor: (TERMS, n), derivatives of g at the nodes over factorials; scale:
-    sum of the amplitudes, values carry a rounding error of about EPS * scale; symmetric: whether
+    sum of the amplitudes (values have a rounding error of about EPS * scale); symmetric: whether
     the median is 0 by symmetry.
     """
 
@@ -79,7 +80,7 @@ class Profile:
 
     @classmethod
     def of(cls, wave: TravellingWave, sign: float) -> "Profile":
-        """sign (c - mean c) of a wave, sign = +-1."""
+        """The profile sign (c - mean c) of a wave, sign = +-1."""
         amplitude: Complex = np.asarray(sign * (wave.cosine - 1j * wave.sine), complex)
         points = max(64, OVERSAMPLING * amplitude.size)
         spectrum = np.zeros((TERMS, points // 2 + 1), complex)
@@ -104,7 +105,7 @@ class Profile:
         return self.taylor[0]
 
     def anchored(self, level: float) -> "Profile":
-        """The same profile with nodes wherever it crosses `level`, of exactly that value."""
+        """The same profile with nodes, of exactly the value `level`, wherever it crosses that level."""
         near = abs(self.values - level) <= 4 * EPS * self.scale
         taylor = self.taylor.copy()
         taylor[0, near] = level
@@ -119,7 +120,7 @@ class Profile:
     def resolved(self, function: Callable[[Array], Array]) -> "Profile":
         """The same profile with cells on which a positive, monotone function of g varies little.
 
-        The function: the stretch; see MOST_VARIATION.
+        function: the stretch; see MOST_VARIATION.
         """
         profile = self
         for _ in range(MOST_HALVINGS):
@@ -132,7 +133,7 @@ class Profile:
         return profile
 
     def integrals(self, function: Callable[[Array], Array]) -> Integrals:
-        """A function of g, smooth on every cell, ready for `rise`."""
+        """Integrals, for `rise`, of a function of g that is smooth on every cell."""
         start = np.arange(self.nodes.size - 1)
         return Integrals(function, _integral(self.taylor[:, start], np.diff(self.nodes), function))
 
@@ -141,7 +142,7 @@ class Profile:
         return float(self.integrals(function).cells.sum())
 
     def rise(self, base: float, height: float, integrals: Integrals | None = None) -> Rise:
-        """What lies between the levels base and base + height, height >= 0.
+        """The set between the levels base and base + height, height >= 0.
 
         integrals: of f(g), made by this profile; f = 0 if None. No cell may cross `base` in its
         interior: it is the minimum, or the profile is `anchored`.
@@ -170,17 +171,17 @@ class Profile:
             return float(np.sum(1 / abs(slope))) / (2 * math.pi)
 
     def turns(self, level: float) -> bool:
-        """Whether a level where the profile is `anchored` is a turning value, to rounding."""
+        """Whether a level where the profile is `anchored` is an extremum or inflection, to rounding."""
         slope = abs(self.taylor[1][self.values == level])
         return bool(np.any(slope <= 16 * EPS * float(abs(self.taylor[1]).max())))
 
     def around(self, level: float, tolerance: float) -> float:
-        """Part of the period with |g - level| <= tolerance."""
+        """Fraction of the period with |g - level| <= tolerance."""
         base = max(level - tolerance, float(self.values.min()))
         return self.anchored(base).rise(base, level + tolerance - base).part
 
     def median(self) -> float:
-        """The level that half of the period lies below."""
+        """The level below which g lies for half of the period."""
         if self.symmetric:
             return 0.0
         lower, upper = float(self.values.min()), float(self.values.max())
@@ -194,7 +195,7 @@ class Profile:
         )
 
     def _cells(self, above: float) -> tuple[NDArray[np.intp], NDArray[np.intp], Array, Array, Array]:
-        """Cells not below a level, node of the lower end, signed span upwards, both values."""
+        """Cells not below a level: node at the lower end, signed width upwards, both end values."""
         left = np.arange(self.nodes.size - 1)
         rising = self.values[:-1] <= self.values[1:]
         start = np.where(rising, left, left + 1)
@@ -204,7 +205,7 @@ class Profile:
         return left[keep], start[keep], span[keep], low[keep], high[keep]
 
     def _with_zeros(self, derivative: int, noise: float) -> "Profile":
-        """Nodes added where a derivative changes sign between two of them, by more than noise."""
+        """Add nodes where a derivative changes sign between two nodes, by more than noise."""
         series = self.taylor
         for _ in range(derivative):
             series = _derivative(series)
@@ -221,7 +222,7 @@ class Profile:
         return self._with_nodes(cell, distance)._sorted()
 
     def _with_nodes(self, start: NDArray[np.intp], distance: Array) -> "Profile":
-        """Nodes appended at a signed distance from given ones: the series developed anew there."""
+        """Append nodes at a signed distance from given ones, with the series re-expanded there."""
         series = self.taylor[:, start].copy()
         for first in range(TERMS - 1):
             for j in range(TERMS - 2, first - 1, -1):
@@ -247,7 +248,7 @@ def _derivative(series: Array) -> Array:
 
 
 def _integral(series: Array, distance: Array, function: Callable[[Array], Array]) -> Array:
-    """Integral of function(g) over arcs of that length, either way, as fractions of the period."""
+    """Integral of function(g) over arcs of a signed length, in fractions of the period."""
     values = function(polynomial(series, distance / 2 * (1 + GAUSS_NODES[:, None])))
     return np.asarray(GAUSS_WEIGHTS @ values * abs(distance) / (4 * math.pi))
 

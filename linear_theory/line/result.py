@@ -1,4 +1,4 @@
-"""What the two ways to balance friction on a line hand back, and when a body counts as at rest."""
+"""Result of the two friction balances on a line, and the criterion for a body at rest."""
 
 from typing import NamedTuple
 
@@ -8,16 +8,16 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 
 REST_SPEED = 1e-3
-"""Slower than this part of the range of speeds counts as at rest (for `sticks` only).
+"""Fraction of the range of speeds below which a point counts as at rest (for `sticks` only).
 
-Loose on purpose: a pulse with gaps, interpolated by a trigonometric series, rings in the gaps.
+Deliberately large: the trigonometric series of a pulse with gaps rings in the gaps.
 """
 
 REST_PART = 0.1
-"""The body sticks if at least this part of it is at rest.
+"""The body sticks if at least this fraction of it is at rest.
 
-By this measure 0.13 % of the body is at rest under a sine, 8 % under sin(phi)^3, and half of it or
-more under pulses with gaps.
+By this criterion 0.13 % of the body is at rest under a sine, 8 % under sin(phi)^3, and half or more
+under pulses with gaps.
 """
 
 
@@ -29,7 +29,7 @@ class Level(NamedTuple):
 
 
 class LineMotion(NamedTuple):
-    """Speeds of a balanced body: mean and its error, V(t), the largest speed against the ground.
+    """Speeds of a body in balance: mean and its error, V(t), the largest speed relative to the ground.
 
     times, velocity: (T,); first, second: coefficients of alpha and alpha^2; sticks: see `CrawlSpeed`.
     """

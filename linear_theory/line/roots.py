@@ -1,4 +1,4 @@
-"""Roots of increasing functions, many at a time, that cannot escape their bracket."""
+"""Bracketed roots of increasing functions, many at a time."""
 
 from collections.abc import Callable
 
@@ -9,7 +9,7 @@ Array = NDArray[np.float64]
 
 EPS = float(np.finfo(float).eps)
 MOST_STEPS = 2200
-"""Bisection alone passes from the largest double to the smallest in fewer."""
+"""Iteration limit: bisection alone gets from the largest double to the smallest in fewer."""
 
 
 def bracketed_newton(
@@ -22,12 +22,12 @@ def bracketed_newton(
 ) -> Array:
     """Elementwise root of an increasing function between `low` and `high`.
 
-    function(x) gives value and slope, each of the shape of x; low, high and guess broadcast to it.
+    function(x) returns value and slope, each of the shape of x; low, high and guess broadcast to it.
     Newton steps are taken while they stay inside the bracket and shrink; otherwise the bracket is
     halved, so that jumps and vertical tangents are found too. Stops when the bracket is narrower
-    than rtol |x| + atol and returns the point of the smallest |value| met, which for a smooth
-    function is right to its rounding. The caller vouches that the root lies in the bracket: if not,
-    the nearer end is returned.
+    than rtol |x| + atol and returns the point with the smallest |value|, which for a smooth function
+    is accurate to rounding. The caller must ensure that the bracket contains the root: if not, the
+    nearer end is returned.
     """
     lo, hi, x = (np.array(a, float) for a in np.broadcast_arrays(low, high, guess))
     x = np.clip(x, lo, hi)
@@ -44,7 +44,7 @@ def bracketed_newton(
             return best
         with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
             step = -value / slope
-        # A short step proves nothing where the slope is huge: pass the root, further each time.
+        # A short step is no proof where the slope is huge: step beyond the root, further each time.
         short = abs(step) < stretch * small / 4
         step = np.where(short, np.copysign(stretch * small / 4, -value), step)
         stretch = np.where(short, 2 * stretch, stretch)

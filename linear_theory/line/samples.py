@@ -25,11 +25,12 @@ from numpy.typing import NDArray
 
 from linear_theory.common import validation
 from linear_theory.common.tolerance import Tolerance
-from linear_theory.friction.laws import FrictionLaw
+from linear_theory.friction.law import FrictionLaw
+from linear_theory.friction.laws import Tanh
 from linear_theory.line.piece import Piece
 from linear_theory.line.result import REST_PART, REST_SPEED, LineMotion
 from linear_theory.line.roots import EPS, bracketed_newton
-from linear_theory.line.tanh_level import NARROWEST
+from linear_theory.line.tanh_level import NARROWEST, SATURATED
 from linear_theory.wave.protocol import Drive
 
 Array = NDArray[np.float64]
@@ -49,6 +50,12 @@ HIDDEN, PER_HARMONIC = 0.1, 64
 """Share of the tolerance up to which harmonics of the wave may go without a check: those with fewer
 times to their period. Dry friction turns a harmonic k into 2k, 3k, ..., of which doublings of N see
 nothing where N is a multiple of k."""
+
+CLOSE = 0.02
+"""Slip speeds between the ends of a cell below which two Gauss points are exact to rounding."""
+
+COARSE_CELLS, COARSE_SHARE = 128, 0.1
+"""Cells of `coarse_mean` at least, and the share of c that they may miss."""
 
 BLOCK = 1 << 19
 """Cells times times held at once."""
@@ -108,6 +115,15 @@ def sampled_balance(
         second=float(fine.second.mean()),
         sticks=law.width == 0 and bool(fine.rest.max() >= REST_PART),
     )
+
+
+def coarse_mean(drive: Drive, alpha: float, law: FrictionLaw, growth: Piece, times: Array) -> float:
+    """Mean speed from these times and a number of cells that the wave asks for, without an error.
+
+    Differences of it between waves that are alike are much better than itself.
+    """
+    cells = min(max(COARSE_CELLS, _first_cells(drive, COARSE_SHARE)), MOST_CELLS)
+    return float(_snapshots(drive, alpha, law, growth, times, cells).velocity.mean())
 
 
 def _first_cells(drive: Drive, rtol: float) -> int:
@@ -182,8 +198,8 @@ def _snapshot(
     else:
         velocity = -alpha * np.sum(weight * _middle(g), axis=1) / weight.sum(axis=1)
         first, second = np.zeros(times.size), _viscous_coefficient(c, rate, growth)
-        if law.regularised:
-            velocity = _tanh_speed(alpha * g, weight, law.width, velocity)
+        if isinstance(law, Tanh):
+            velocity = _regularised_speed(alpha * g, weight, law, velocity)
     slip = velocity[:, None] + alpha * g
     tolerance = REST_SPEED * np.ptp(slip, axis=1, keepdims=True)
     rest = np.mean(_part_below(slip, tolerance) - _part_below(slip, -tolerance), axis=1)
@@ -280,33 +296,31 @@ def _viscous_coefficient(c: Array, rate: Array, growth: Piece) -> Array:
     return np.asarray(-growth.power * np.mean(_middle(c) * _middle(_less_mean(rate)), axis=1))
 
 
-def _tanh_speed(velocity: Array, weight: Array, slip_speed: float, guess: Array) -> Array:
-    """V with int w tanh((V + v)/v0) = 0, v = `velocity` linear on each cell."""
+def _regularised_speed(velocity: Array, weight: Array, law: Tanh, guess: Array) -> Array:
+    """V with int w f(V + v) = 0, f the force of the law, v = `velocity` linear on each cell."""
     fastest = abs(velocity).max(axis=1)
-    slip_speed = max(slip_speed, NARROWEST * float(fastest.max()))
+    law = Tanh(max(law.width, NARROWEST * float(fastest.max())))
 
     def balance(speed: Array) -> tuple[Array, Array]:
-        x = (speed[:, None] + velocity) / slip_speed
-        value, slope = _mean_tanh(x[:, :-1], x[:, 1:])
-        return np.sum(weight * value, axis=1), np.sum(weight * slope, axis=1) / slip_speed
+        slip = speed[:, None] + velocity
+        force, tangent = _means(law, slip)
+        return np.sum(weight * force, axis=1), np.sum(weight * tangent, axis=1)
 
     return bracketed_newton(balance, -fastest, fastest, guess, atol=EPS * float(fastest.max()))
 
 
-def _mean_tanh(a: Array, b: Array) -> tuple[Array, Array]:
-    """Means of tanh and of its derivative between a and b: integrals, or Gauss points if close."""
-    gap = b - a
-    close = (abs(gap) < 0.02) | ((np.sign(a) == np.sign(b)) & (np.minimum(abs(a), abs(b)) > 20))
-    safe = np.where(close, 1.0, gap)
-    left, right = np.tanh(a), np.tanh(b)
-    far_value = (_log_cosh(b) - _log_cosh(a)) / safe
-    far_slope = (right - left) / safe
-    centre, offset = (a + b) / 2, gap / math.sqrt(12)
-    up, down = np.tanh(centre + offset), np.tanh(centre - offset)
-    near_slope = 1 - (up**2 + down**2) / 2
-    return np.where(close, (up + down) / 2, far_value), np.where(close, near_slope, far_slope)
+def _means(law: Tanh, slip: Array) -> Array:
+    """Means of force and tangent over cells on which the velocity is linear, (2, times, cells).
 
-
-def _log_cosh(x: Array) -> Array:
-    x = abs(x)
-    return np.asarray(x + np.log1p(np.exp(-2 * x)))
+    slip: at their ends, (times, cells + 1). Differences of their integrals; means of two Gauss points
+    where these would cancel.
+    """
+    a, b = slip[:, :-1], slip[:, 1:]
+    dry = (np.sign(a) == np.sign(b)) & (np.minimum(abs(a), abs(b)) > SATURATED * law.width)
+    close = dry | (abs(b - a) < CLOSE * law.width)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        means = np.diff([law.potential(slip[None]), law.force(slip[None])[0]]) / (b - a)
+    middle, offset = (a[close] + b[close]) / 2, (b[close] - a[close]) / math.sqrt(12)
+    inside = law.at(np.stack([middle - offset, middle + offset])[None])
+    means[:, close] = inside.force[0].sum(0) / 2, inside.tangent[0].sum(0) / 2
+    return np.asarray(means)

@@ -5,7 +5,7 @@ From theta = alpha cos(theta), nTV = alpha sin(theta), the inversion formula of 
     nTV = sum over odd k of c_(k+1) alpha^(k+1),   c_(k+1) = (1/k) [theta^(k-1)] cos(theta)^(k+1),
 
 the bracket being the coefficient of theta^(k-1). The first terms are
-alpha^2 - (2/3) alpha^4 + (4/5) alpha^6 - ...; the print has -alpha^2.
+alpha^2 - (2/3) alpha^4 + (4/5) alpha^6 - ...; the paper has -alpha^2.
 """
 
 from fractions import Fraction
@@ -27,11 +27,11 @@ Array = NDArray[np.float64]
 LAPLACE_LIMIT = 0.66274341934918158097474209710925290705
 """Radius of convergence of the series: the root of x exp(sqrt(1 + x^2)) = 1 + sqrt(1 + x^2).
 
-It is the least |alpha| at which theta = alpha cos(theta) has a double root, here alpha = +-i x.
+The smallest |alpha| at which theta = alpha cos(theta) has a double root, here alpha = +-i x.
 """
 
 HIGHEST_ORDER = 1000
-"""Beyond it the coefficients leave the range of doubles."""
+"""Order beyond which the coefficients exceed the range of doubles."""
 
 
 def line_series(order: int) -> "tuple[Rational, ...]":
@@ -52,7 +52,7 @@ def line_series(order: int) -> "tuple[Rational, ...]":
 def line_speed_series(
     alpha: ArrayLike, order: int = 2, count: int = 1, period: float = 1.0, form: str = "corrected"
 ) -> Array:
-    """The series cut off after alpha^order; arguments, units and errors as for `line_speed`.
+    """The series truncated after alpha^order; arguments, units and errors raised as for `line_speed`.
 
     It converges for |alpha| < LAPLACE_LIMIT only. form="printed" is eq. 9 of the paper,
     -alpha^2/(nT), which ends at order 2. Raises ValueError for an order outside [0, 1000].

@@ -16,6 +16,7 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
+from linear_theory.friction.laws import Tanh
 from linear_theory.line.body import Body
 from linear_theory.line.profile import GAUSS_NODES, GAUSS_WEIGHTS, MOST_HALVINGS, Profile, polynomial
 from linear_theory.line.result import Level
@@ -25,6 +26,9 @@ Array = NDArray[np.float64]
 
 SATURATED = 20.0
 """|tanh(x)| = 1 to rounding beyond this."""
+
+UNIT = Tanh(1.0)
+"""The law for speeds in slip speeds."""
 
 NARROWEST = 1e-290
 """Least slip speed, relative to the range of speeds: by a smaller one, or a subnormal one, a division
@@ -63,13 +67,12 @@ def _balance(body: Body, level: float, width: float, finer: float) -> tuple[Arra
         return np.stack([shift - body.straight(g), -body.straight(g), shift]) / width
 
     measure, g = _quadrature(body.profile, arguments, finer)
-    x, y, gap = arguments(g)
-    t, gain = np.tanh(x), body.gain(g)
-    slope = (measure * (1 + gain)) @ ((1 - t) * (1 + t)) / width
-    if not body.profile.symmetric:
-        return np.array(measure @ ((1 + gain) * t)), np.array(slope)
-    moved = np.tanh(gap) * (1 - t * np.tanh(y))
-    return np.array(measure @ (moved + gain * t)), np.array(slope)
+    (x, y, gap), gain = arguments(g)[:, None], body.gain(g)
+    symmetric = body.profile.symmetric
+    met, moved = UNIT.at(y).moved(gap, 1.0) if symmetric else (UNIT.at(x), None)
+    force, tangent = met.force[0], met.tangent[0]
+    lacking = (1 + gain) * force if moved is None else moved[0] + gain * force
+    return np.array(measure @ lacking), np.array((measure * (1 + gain)) @ tangent / width)
 
 
 def _quadrature(

@@ -25,7 +25,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from linear_theory.friction.laws import FrictionLaw
+from linear_theory.friction.law import FrictionLaw
 from linear_theory.line.body import Body
 from linear_theory.line.piece import Piece
 from linear_theory.line.result import REST_PART, REST_SPEED, Level, LineMotion

@@ -1,1 +1,1 @@
-"""The motion of the points of a sheet as the balance of friction reads it."""
+"""The motion of the points of a sheet, in the form read by the friction balance."""

@@ -13,6 +13,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from linear_theory.common.quadrature import gauss_legendre
+
 Array = NDArray[np.float64]
 Integers = NDArray[np.int64]
 
@@ -33,7 +35,7 @@ class Rule(NamedTuple):
 @lru_cache
 def gauss(order: int) -> Rule:
     """The rule with `order` points."""
-    points, weights = np.polynomial.legendre.leggauss(order)
+    points, weights = gauss_legendre(order)
     inverse = np.linalg.inv(np.polynomial.legendre.legvander(points, order - 1))
     first, second, with_ends = (
         np.polynomial.legendre.legvander(places, order - 1) @ inverse

@@ -1,9 +1,9 @@
-"""The motion of a sheet as the friction balance reads it: values on polynomial cells.
+"""The motion of a sheet in the form read by the friction balance: values on polynomial cells.
 
 Every cell is the image of the square [-1, 1]^2 and carries values at order x order Gauss-Legendre
-points, that is one polynomial per quantity. This is all that passes from a deformation (series,
-Ritz, finite elements, shell) to the friction balance, which can refine a cell by interpolation
-without asking the deformation again.
+points, that is one polynomial per quantity. These values are all that the friction balance gets from a
+deformation (series, Ritz, finite elements, shell); it can refine a cell by interpolation without
+evaluating the deformation again.
 """
 
 import math
@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from linear_theory.common.quadrature import gauss_legendre
 from linear_theory.common.shown import Shown
 from linear_theory.sheet.rectangle import Sheet
 
@@ -20,18 +21,18 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Motion(Shown):
-    """Values per unit alpha at the Gauss points of all cells; c cells, n = order, T times.
+    """Values per unit alpha at the Gauss points of all cells, for c cells, n = order and T times.
 
     position: (2, c, n, n), reference coordinates x, y.
-    area: (c, n, n), Jacobian of the map from [-1, 1]^2 (quadrature weights not included); (T, c, n, n)
-    where it is the load, for motions whose load is known and not expanded in alpha.
+    area: (c, n, n), Jacobian of the map from [-1, 1]^2 (quadrature weights not included); or, for
+    motions whose load is known and not expanded in alpha, the load times that Jacobian, (T, c, n, n).
     velocity: (2, T, c, n, n), length per time, in the frame of the mean motion.
     dilation: (T, c, n, n), trace of the strain.
     growth: (T, c, n, n), the wave c.
     mirrored: the cells cover x >= 0 of a motion that is mirror symmetric in x.
-    second: (2, T, c, n, n), velocity per unit alpha^2 that adds to alpha times `velocity`; None in a
-    theory of first order. displacement: likewise, alpha times which moves the points on which friction
-    acts when the sheet turns; None where position is that of the points, or where it does not count.
+    second: (2, T, c, n, n), velocity per unit alpha^2, added to alpha times `velocity`; None in
+    first-order theory. displacement: same shape, displacement per unit alpha of the points on which
+    friction acts when the sheet turns; None where `position` includes it, or where it does not matter.
     centre: x, y of the centre of mass of the undeformed area, in the coordinates of `position`.
     """
 
@@ -47,7 +48,7 @@ class Motion(Shown):
 
     @property
     def arms(self) -> Array:
-        """Positions from the centre of mass, about which the sheet turns, the shape of `position`."""
+        """Positions from the centre of mass, about which the sheet turns; shape of `position`."""
         return self.position - np.reshape(self.centre, (2, *(1,) * (self.position.ndim - 1)))
 
 
@@ -71,12 +72,12 @@ class CellGrid(Shown):
     def graded(
         cls, sheet: Sheet, waves: int, density: float, half: bool, across: int = 1
     ) -> "CellGrid":
-        """Cells for waves along and across the sheet: `density` to a wave, more in the edge layers.
+        """Cells for waves along and across the sheet: `density` per wave, more in the edge layers.
 
-        Across, the first wave is left to the layers.
+        Across, the layers resolve the first wave.
 
-        Away from an edge the deformation follows the wave alone; next to it the scale is the shorter of
-        the width and the wave. Layers double in thickness from there.
+        Away from an edge the deformation follows the wave alone; near an edge its scale is the smaller
+        of the width and the wavelength. The layers double in thickness away from the edge.
         """
         layer = 2 / density * min(sheet.width, sheet.length / waves)
         rows = math.ceil(density * waves)
@@ -88,7 +89,7 @@ class CellGrid(Shown):
 
     def points(self, order: int) -> tuple[Array, Array, Array]:
         """Gauss points x (cells, n, 1), y (cells, 1, n), and Jacobians (cells, n, n)."""
-        nodes, _ = np.polynomial.legendre.leggauss(order)
+        nodes, _ = gauss_legendre(order)
         left, bottom = np.array(self.x_edges), np.array(self.y_edges)
         column, row = np.divmod(np.arange((left.size - 1) * (bottom.size - 1)), bottom.size - 1)
         dx, dy = np.diff(left)[column], np.diff(bottom)[row]

@@ -1,1 +1,1 @@
-"""What is asked: a scene and the checks of its parts."""
+"""The scene, which states the problem, and the checks of its parts."""

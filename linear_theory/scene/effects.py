@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, Protocol, runtime_checkable
 
 from linear_theory.common import validation
 from linear_theory.friction.contact import Contact
-from linear_theory.friction.laws import FrictionLaw
+from linear_theory.friction.law import FrictionLaw
 from linear_theory.friction.load import Load
 
 if TYPE_CHECKING:
@@ -17,11 +17,11 @@ if TYPE_CHECKING:
 
 @runtime_checkable
 class NamedEffect(Protocol):
-    """A part of the physics of a sheet that a scene names; see `fem_check.shell.effects.effect.Effect`.
+    """A physical effect that a scene names; see `fem_check.shell.effects.effect.Effect`.
 
-    needs_space: whether it has no meaning with two components. stretches, bends: whether it gives the
-    sheet a shape, with a rest curvature. incline: of the ground, radians. law, mu: of friction, its
-    coefficient; None unless it is that.
+    needs_space: whether it requires three components. stretches: whether it gives the sheet in-plane
+    stiffness. bends: whether it depends on a rest curvature. incline: of the ground, radians. law, mu:
+    friction law and coefficient of friction; None for other effects.
     """
 
     @property
@@ -43,20 +43,20 @@ class NamedEffect(Protocol):
     def mu(self) -> float | None: ...  # noqa: D102
 
     def pressed_by(self, components: int) -> Load | None:
-        """The load with which it presses the sheet on the ground; None if it does not."""
+        """The normal load by which it presses the sheet on the ground; None if it does not."""
 
     def beyond_theory(self, scene: "Scene") -> str:
-        """What of it the theories of a flat rectangle cannot represent, in words; empty if all."""
+        """The part that theories of a flat rectangle cannot represent, in words; empty if none."""
 
     def under(self, sheet: "Sheet") -> "NamedEffect":
-        """The effect as it acts on that sheet."""
+        """The effect adapted to that sheet."""
 
     def check_scene(self, scene: "Scene") -> None:
-        """Raise ValueError where the scene lacks what it needs or contradicts it."""
+        """Raise ValueError if the scene lacks what the effect requires, or contradicts it."""
 
 
 def contact_of(effects: Iterable[NamedEffect], components: int, said: Contact | None) -> Contact:
-    """What the effects say of load, friction and slope, and `said`, which must agree, of the rest."""
+    """Load, friction and slope from the effects, else from `said`, which must not contradict them."""
     presses = [load for effect in effects if (load := effect.pressed_by(components)) is not None]
     rubs = [effect for effect in effects if effect.law is not None]
     if said is not None and said.load is Load.GROUND and Load.GROUND not in presses:
@@ -67,9 +67,14 @@ def contact_of(effects: Iterable[NamedEffect], components: int, said: Contact | 
         found = Contact(load) if said is None else replace(said, load=load)
     else:
         found = Contact(load, law, _slope(effects, rubs[0].mu))
+    if said is not None and said.slope and said.slope != found.slope:
+        raise ValueError(
+            f"slope = {said.slope:g}: must be 0 or {found.slope:g}, that of the scene's effects "
+            "(Gravity with its incline, and Friction)"
+        )
     if said is not None and said.load != load:
         raise ValueError(
-            f"load = {str(said.load)!r}: must be None or {str(load)!r}, as the effects of the scene say"
+            f"load = {str(said.load)!r}: must be None or {str(load)!r}, the load of the scene's effects"
         )
     if said is not None and said.friction != found.friction:
         raise ValueError(
@@ -86,7 +91,7 @@ def _slope(effects: Iterable[NamedEffect], mu: float | None) -> float:
 
 
 def checked_effects(effects: Any) -> tuple[Any, ...]:
-    """The effects, one of them alone, too. Raises ValueError for what is no instance of an effect."""
+    """The effects as a tuple, also from a single one. Raises ValueError for anything else."""
     if _is_effect(effects):
         return (effects,)
     if isinstance(effects, type | str) or not isinstance(effects, Iterable):
@@ -102,6 +107,11 @@ def checked_effects(effects: Any) -> tuple[Any, ...]:
     return found
 
 
+def in_order(effects: Iterable[NamedEffect]) -> list[NamedEffect]:
+    """The effects in one order, whatever theirs is: it has no meaning, but sums round differently."""
+    return sorted(effects, key=lambda e: (not e.stretches, not e.bends, type(e).__name__))
+
+
 def _is_effect(value: object) -> bool:
-    """Whether it is an object, and no class, that a scene can ask what it needs to know."""
+    """Whether a value is an instance, not a class, with the interface of an effect."""
     return not isinstance(value, type) and isinstance(value, NamedEffect)

@@ -1,23 +1,28 @@
-"""What a level can represent of a scene, and the refusal of all else.
+"""Which scenes a level of theory can represent, and the refusal of all others.
 
-A scene names what acts on the sheet, and a level that would drop any of it must not answer. Effects are
-an open set: each says itself what of it is beyond a level.
+A scene names the effects on the sheet, and a level that would neglect any of them must not answer.
+Effects are an open set: each states itself which part of it is beyond a level.
 """
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from importlib import import_module
 from typing import Any
 
 from linear_theory.common.shown import Shown
 from linear_theory.scene.scene import Scene
 
+LEVELS = "fem_check.shell.abilities"
+"""The module that lists all levels, imported by name if one of them refuses a scene."""
+
 
 @dataclass(frozen=True)
 class Level(Shown):
-    """A way to an answer from a scene.
+    """A level of theory, which computes an answer for a scene.
 
-    call: how it is asked for. judge: what of an effect, in a scene, it cannot represent, in words;
-    empty if it can all of it. conditions: what else of a scene is beyond it, each in words or empty.
+    call: the call in Python. judge: the part of an effect in a scene that the level cannot represent,
+    in words; empty if none. conditions: further parts of a scene beyond the level, each in words or
+    empty.
     """
 
     call: str
@@ -25,23 +30,24 @@ class Level(Shown):
     conditions: tuple[Callable[[Scene], str], ...] = ()
 
     def objections(self, scene: Scene) -> list[str]:
-        """Everything of the scene that the level cannot represent, in words."""
+        """All parts of the scene that the level cannot represent, in words."""
         found = [self.judge(effect, scene) for effect in scene.effects]
         found += [condition(scene) for condition in self.conditions]
         return [words for words in found if words]
 
-    def require(self, scene: Scene, others: "tuple[Level, ...]" = ()) -> None:
-        """Raise ValueError where the level would drop something, and name others that would not."""
+    def require(self, scene: Scene) -> None:
+        """Raise ValueError if the level cannot represent the scene, naming other levels that can."""
         objections = self.objections(scene)
         if not objections:
             return
-        able = [level.call for level in others if level is not self and not level.objections(scene)]
+        levels = import_module(LEVELS).LEVELS
+        able = [level.call for level in levels if level is not self and not level.objections(scene)]
         hint = f"{' and '.join(able)} can" if able else "no level can"
         raise ValueError(f"effects: {self.call} cannot represent {'; '.join(objections)}; {hint}")
 
 
 def _sloping(scene: Scene) -> str:
-    return f"a slope of {scene.contact.slope:g} of its friction" if scene.contact.slope else ""
+    return f"a slope of {scene.contact.slope:g} times its friction" if scene.contact.slope else ""
 
 
 def _cut(scene: Scene) -> str:
@@ -49,4 +55,4 @@ def _cut(scene: Scene) -> str:
 
 
 THEORY = Level("linear_theory", lambda effect, scene: effect.beyond_theory(scene), (_sloping, _cut))
-"""The theories of a flat rectangle that friction does not deform."""
+"""The theories of a flat rectangle that is not deformed by friction."""

@@ -1,4 +1,4 @@
-"""Scenes from plain data, as `Scene.to_dict` writes them."""
+"""Scenes from plain data, as written by `Scene.to_dict`."""
 
 from collections.abc import Iterable, Mapping
 from importlib import import_module
@@ -10,20 +10,21 @@ from linear_theory.friction.laws import FRICTION_LAWS
 from linear_theory.growth.growth import Growth
 from linear_theory.growth.laws import GROWTH_LAWS
 from linear_theory.sheet.rectangle import Sheet
+from linear_theory.wave.measured import SampledWave
 from linear_theory.wave.travelling import SineWave, TravellingWave
 
 KINDS: dict[str, type] = {
     kind.__name__: kind
     for kind in (
-        *(Sheet, SineWave, TravellingWave, Growth, Contact),
+        *(Sheet, SineWave, TravellingWave, SampledWave, Growth, Contact),
         *(type(law) for law in GROWTH_LAWS.values()),
         *FRICTION_LAWS.values(),
     )
 }
-"""Classes of the parts of a scene, by the name that stands in their data."""
+"""Classes of the parts of a scene, by their names in the data."""
 
 EFFECTS, MESHES = "fem_check.shell.effects", "fem_check.mesh.elements"
-"""Where the effects and the meshes are, looked up by name where a scene has any."""
+"""Modules of effects and meshes, imported by name if a scene has any."""
 
 RESOLUTION = ("cells", "mesh", "element")
 
@@ -31,9 +32,10 @@ Data = Mapping[str, Any]
 
 
 def arguments_of(data: Data, given: Iterable[str]) -> tuple[dict[str, Any], Contact | None]:
-    """Arguments of `Scene` that are not given, and its contact.
+    """The arguments of `Scene` that are not in `given`, and its contact.
 
-    Raises ValueError for what is no scene, and for parts that no text holds.
+    Raises ValueError for data that are not those of a scene, and for parts that cannot be stored as
+    text.
     """
     if not isinstance(data, Mapping) or data.get("type") != "Scene":
         raise ValueError(f"data = {validation.shown(data)}: must be what Scene.to_dict() returns")
@@ -49,7 +51,7 @@ def arguments_of(data: Data, given: Iterable[str]) -> tuple[dict[str, Any], Cont
 
 
 def _part(value: Any, where: str) -> Any:
-    """A value of a scene from its data; where: its name, for messages."""
+    """A part of a scene from its data; where: its name, for messages."""
     if isinstance(value, list | tuple):
         return [_part(item, f"{where}[{i}]") for i, item in enumerate(value)]
     if not isinstance(value, Mapping):
@@ -58,8 +60,8 @@ def _part(value: Any, where: str) -> Any:
     kind = KINDS.get(str(name)) or getattr(import_module(EFFECTS), str(name), None)
     if not isinstance(kind, type):
         raise ValueError(
-            f"{where} = {validation.shown(dict(value))}: a {name} cannot be made from its data alone; "
-            f"give it: Scene.from_dict(data, {where.partition('[')[0]}=...)"
+            f"{where} = {validation.shown(dict(value))}: a {name} cannot be restored from its data; "
+            f"pass it: Scene.from_dict(data, {where.partition('[')[0]}=...)"
         )
     arguments = {key: _part(v, f"{where}.{key}") for key, v in value.items() if key != "type"}
     made = getattr(kind, "from_data", kind)

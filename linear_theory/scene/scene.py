@@ -1,7 +1,7 @@
-"""What is simulated, said once: sheet, wave, growth, contact with the ground, and what else acts.
+"""The scene, which states the problem: sheet, wave, growth, contact with the ground, other effects.
 
-A scene is plain data. It is neither solved nor discretised here: every level reads it, and refuses what
-it cannot represent. What a scene does not name is left out by all of them.
+A scene is plain data. It is neither discretised nor solved here: every level reads it and refuses
+scenes that it cannot represent. Effects that a scene does not name are neglected by all levels.
 """
 
 from collections.abc import Mapping, Sequence
@@ -22,7 +22,7 @@ from linear_theory.friction.laws import friction_law
 from linear_theory.friction.load import Load
 from linear_theory.growth.growth import Growth
 from linear_theory.identity import content_key
-from linear_theory.scene.effects import checked_effects, contact_of
+from linear_theory.scene.effects import checked_effects, contact_of, in_order
 from linear_theory.sheet.rectangle import Sheet
 from linear_theory.wave import arguments
 from linear_theory.wave.phases import phases
@@ -33,7 +33,7 @@ from linear_theory.wave.sampled import drive
 Array = NDArray[np.float64]
 
 ELEMENTS = "fem_check.mesh.elements"
-"""The module that knows meshes, looked up by its name where a scene says something of its own."""
+"""The module for meshes, imported by name if a scene specifies cells, a mesh or an element."""
 
 FILES = "fem_check.files"
 """The package that knows scene files, likewise."""
@@ -45,29 +45,29 @@ GROWTH = {
     "curvature": "curvature",
     "area": "energy_area",
 }
-"""Arguments of a scene that make its Growth, and the fields of that."""
+"""Arguments of a scene that define its Growth, and the corresponding fields."""
 
 PARTS = ("sheet", "wave", "growth", "contact", "effects", "elements")
-"""What a scene consists of, and what its key is made of."""
+"""Parts of a scene, from which its key is computed."""
 
 
 @dataclass(frozen=True, eq=False, init=False)
 class Scene(Shown):
-    """A sheet driven by a wave of growth, under the effects that are named.
+    """A sheet driven by a wave of growth, with the effects that are named.
 
-    sheet: rectangle, thickness and Poisson ratio. wave: c(x, y, t) with its period. alpha: growth of
-    lengths per c; curvature_coupling: beta of eq. 4, 1/length; growth_law, curvature, area: those of
-    `Growth`, which may be given whole instead as `growth`. effects: of the shell, `Membrane` in any
-    case where one is named, and of Bending, Gravity, Ground, Friction, Inertia, DeadLoad those that are
-    wanted, each once; none for a sheet that stretches in its plane and nothing else. contact: load and
-    friction, where no effect says them; "current" load and dry friction unless given.
-    cells: elements across and along, two integers. mesh: instead of cells, a scikit-fem mesh of another
-    outline in the coordinates of the sheet. element: of scikit-fem. These three are for finite
-    elements; what is left out is chosen for the wave.
+    sheet: rectangle, thickness and Poisson ratio. wave: c(x, y, t) with its period. alpha: growth
+    strain per c; curvature_coupling: beta of eq. 4, 1/length; growth_law, curvature, area: those of
+    `Growth`, which may be given instead as `growth`. effects: any of Bending, Gravity, Ground,
+    Friction, Inertia and DeadLoad, at most one of each, always together with `Membrane`; none for a
+    sheet that only stretches in its plane. contact: normal load and friction law, unless the effects
+    define them; by default "current" load and dry friction. cells: elements across and along, two
+    integers. mesh: instead of cells, a scikit-fem mesh of another outline in the coordinates of the
+    sheet. element: of scikit-fem. These three apply to finite elements and are by default chosen to
+    resolve the wave.
 
-    Scenes of the same content are equal and have the same `key`. Raises ValueError, naming the
+    Scenes with the same content are equal and have the same `key`. Raises ValueError, naming the
     argument, for values out of range, for effects that contradict each other, the contact or the sheet,
-    and for effects that miss what they need (friction without load).
+    and for effects that lack what they require (friction without load).
 
     >>> from fem_check import Bending, Material, Membrane
     >>> from linear_theory import Scene, Sheet, SineWave
@@ -113,7 +113,7 @@ class Scene(Shown):
             sheet=sheet,
             wave=wave,
             growth=_grown(growth, dict(zip(GROWTH.values(), said, strict=True))),
-            effects=tuple(effect.under(sheet) for effect in checked_effects(effects)),
+            effects=tuple(effect.under(sheet) for effect in in_order(checked_effects(effects))),
             _said=None if contact is None else validation.instance("contact", contact, Contact),
         )
         self._set(contact=contact_of(self.effects, self.components, self._said))
@@ -125,22 +125,26 @@ class Scene(Shown):
             object.__setattr__(self, name, value)
 
     def but(self, **changes: Any) -> "Scene":
-        """The scene with other arguments; those that are not named stay.
+        """A copy of the scene with the given arguments replaced.
 
         >>> from linear_theory import Scene, Sheet, SineWave
         >>> scene = Scene(Sheet(), SineWave(), alpha=0.25, growth_law="linear")
         >>> print(scene.but(alpha=0.1).growth.law)
         linear
         """
-        known = {"sheet": self.sheet, "wave": self.wave, "growth": self.growth, "contact": self._said}
+        known = {"sheet": self.sheet, "wave": self.wave, "contact": self._said}
+        if "growth" not in changes:
+            said = {name: getattr(self.growth, part) for name, part in GROWTH.items()}
+            known |= {name: changes.get(name, value) for name, value in said.items()}
         return Scene(**{**known, "effects": self.effects, **self._resolution(), **changes})
 
     def resting(
         self, load: Any = None, friction: Any = None, slip_speed: float | None = None
     ) -> "Scene":
-        """The scene with that load and friction, names or objects; None for what it says already.
+        """The scene with the given load and friction, names or objects; None keeps its own.
 
-        Raises ValueError for names that do not exist, and where an effect says something else.
+        Raises ValueError for unknown names, and if an effect or the contact of the scene contradicts
+        them.
         """
         if load is None and friction is None and slip_speed is None:
             return self
@@ -149,11 +153,15 @@ class Scene(Shown):
         law = own.friction
         if friction is not None or slip_speed is not None:
             law = friction_law("tanh" if friction is None else friction, slip_speed)
+        if self._said is not None:
+            _check_agrees("load", asked, own.load)
+            _check_agrees("friction", law, own.friction)
+            return self
         return self.but(contact=Contact(asked, law))
 
     @property
     def alpha(self) -> float:
-        """Growth of lengths per c."""
+        """Growth strain per c."""
         return self.growth.alpha
 
     @property
@@ -168,12 +176,17 @@ class Scene(Shown):
 
     @property
     def unit(self) -> float:
-        """Of speeds, length per period."""
+        """Unit of speeds, length of the sheet per period."""
         return self.sheet.length / self.period
 
     @property
+    def states_contact(self) -> bool:
+        """Whether its contact was given, not taken from effects or defaults."""
+        return self._said is not None
+
+    @property
     def planar(self) -> bool:
-        """Whether no effect needs the third component."""
+        """Whether no effect requires the third component."""
         return not any(effect.needs_space for effect in self.effects)
 
     @property
@@ -183,37 +196,37 @@ class Scene(Shown):
 
     @property
     def cells(self) -> tuple[int, int] | None:
-        """Elements across and along, where they were given."""
+        """Elements across and along, if given."""
         return None if self.elements is None else self.elements.cells
 
     @property
     def mesh(self) -> Any:
-        """Of another outline, where it was given."""
+        """The mesh of another outline, if given."""
         return None if self.elements is None else self.elements.mesh
 
     def find(self, kind: type) -> Any:
-        """The effect of that class, None where the scene does not name it."""
+        """The effect of that class; None if the scene does not name it."""
         return next((effect for effect in self.effects if isinstance(effect, kind)), None)
 
     @cached_property
     def drive(self) -> Drive:
-        """The wave on the sheet, or on the body that the mesh covers."""
+        """The wave on the sheet, or on the body covered by the mesh."""
         centres = None if self.mesh is None else among(*self.mesh.p[:, self.mesh.t].mean(1))
         return drive(self.wave, self.sheet, centres)
 
     def speed_per_rate(self, leading: bool) -> float:
-        """Largest V that dc/dt of root mean square 1 makes, see `Drive.speed_per_rate`.
+        """Largest V for dc/dt of root mean square 1, see `Drive.speed_per_rate`.
 
-        Curvature c times its coupling tilts the sheet by as much, over a wavelength/(2 pi).
+        A rest curvature of c times its coupling tilts the sheet by that times a wavelength/(2 pi).
         """
         bent = abs(self.curvature_coupling) * self.sheet.length / (2 * np.pi)
         return self.drive.speed_per_rate(abs(self.alpha) + bent, leading)
 
     def key(self) -> str:
-        """64 hexadecimal digits that are the same for every scene of this content, in every process.
+        """64 hexadecimal digits, the same for every scene with this content, in every process.
 
         Scenes with the same key give the same numbers. Raises Unidentifiable, a ValueError that says
-        what to name, for a function without a content of its own.
+        what to name, for a function that cannot be identified by its content.
         """
         parts = {name: content_key(getattr(self, name), name) for name in PARTS}
         return content_key(parts, "scene")
@@ -240,28 +253,36 @@ class Scene(Shown):
         slip_speed: float | None = None,
         **growth: Any,
     ) -> "Scene":
-        """The scene of a call: that of a sheet that stretches in its plane, or one that is given whole.
+        """The scene of a call: made from sheet, wave and alpha, or a complete scene.
 
-        growth: growth_law and area; load, friction: names or objects, None for the defaults or for what
-        the scene says. Raises ValueError as Scene does, and for a wave or alpha beside a scene.
+        growth: growth_law and area; load, friction: names or objects, None for the defaults or those of
+        the scene; a scene that states neither contact nor such effects takes those given. Raises
+        ValueError as Scene does, for a wave or alpha in addition to a scene, and for arguments that
+        contradict it.
         """
         if not isinstance(sheet, Scene):
             contact = Contact.named(load, friction, slip_speed)
             if alpha is None:
-                raise ValueError("alpha = None: must be given, the order is sheet, wave, alpha")
+                raise ValueError("alpha = None: must be given; the arguments are sheet, wave, alpha")
             return cls(sheet, wave, alpha, contact=contact, **growth)  # type: ignore[arg-type]
         for name, value in {"wave": wave, "alpha": alpha}.items():
             if value is not None:
-                raise ValueError(f"{name} = {validation.shown(value)}: must be None beside a scene")
-        named = {name: value for name, value in growth.items() if value is not None}
-        return (sheet.but(**named) if named else sheet).resting(load, friction, slip_speed)
+                raise ValueError(
+                    f"{name} = {validation.shown(value)}: must be None if a scene is given"
+                )
+        for name, value in growth.items():
+            if value is not None:
+                own = getattr(sheet.growth, GROWTH[name])
+                asked = getattr(replace(sheet.growth, **{GROWTH[name]: value}), GROWTH[name])
+                _check_agrees(name, asked, own)
+        return sheet.resting(load, friction, slip_speed)
 
     @classmethod
     def from_dict(cls, data: Mapping[str, Any], **given: Any) -> "Scene":
-        """The scene that `to_dict` has written, from JSON too; given: arguments that replace its own.
+        """The scene written by `to_dict`, also from JSON; given: arguments that replace its own.
 
-        Raises ValueError for what is no scene, and for waves and ground that are functions, which no
-        text holds: give them, as wave=... or effects=...
+        Raises ValueError for data that are not those of a scene, and for waves and ground given by
+        functions, which cannot be stored as text: pass them, as wave=... or effects=...
 
         >>> import json
         >>> from linear_theory import Scene, Sheet, SineWave
@@ -269,7 +290,7 @@ class Scene(Shown):
         >>> print(Scene.from_dict(json.loads(json.dumps(scene.to_dict()))) == scene)
         True
         """
-        from linear_theory.scene.reading import arguments_of  # it knows this class
+        from linear_theory.scene.reading import arguments_of  # here: it imports this class
 
         arguments, contact = arguments_of(data, given)
         scene = cls(**{**arguments, **given})
@@ -326,35 +347,52 @@ class Scene(Shown):
         return import_module(ELEMENTS).Elements(cells, mesh, element).on(self.sheet)
 
     def _check(self) -> None:
-        """Whatever the parts may contradict."""
+        """Raise ValueError for parts that contradict each other."""
         if self.effects:
             self.growth.law.check(self.alpha, self.extremes)
             if not any(effect.stretches for effect in self.effects):
                 names = ", ".join(type(effect).__name__ for effect in self.effects)
                 raise ValueError(
-                    f"effects = {names}: must name Membrane, without which nothing has a shape"
+                    f"effects = {names}: must name Membrane, else the sheet has no in-plane stiffness"
                 )
         for effect in self.effects:
             effect.check_scene(self)
         if self.curvature_coupling and not any(effect.bends for effect in self.effects):
             raise ValueError(
                 f"curvature_coupling = {self.curvature_coupling:g}: must be 0 without the effect "
-                "Bending, the only one that knows of a rest curvature"
+                "Bending, the only one that depends on a rest curvature"
             )
 
     @cached_property
     def extremes(self) -> Array:
-        """c on a grid of places and times, to find growth that no rest state can have."""
+        """c on a grid of points and times, to detect growth for which no rest state exists."""
         x, y = np.array([-0.5, 0, 0.5]) * self.sheet.width, np.linspace(-0.5, 0.5, 33)
         x, y, times = x[:, None], self.sheet.length * y, np.append(phases(self.period, 64), 0.0)
         return np.stack([self.drive.value(x, y, t) for t in times])
 
 
 def _grown(growth: Growth | None, said: dict[str, Any]) -> Growth:
-    """That, with what is said beside it."""
+    """The growth given as an object, or made from the separate arguments."""
     changes = {name: value for name, value in said.items() if value is not None}
     if growth is not None:
-        return replace(validation.instance("growth", growth, Growth), **changes)
+        validation.instance("growth", growth, Growth)
+        twice = [name for name, part in GROWTH.items() if part in changes]
+        if twice:
+            value = validation.shown(said[GROWTH[twice[0]]])
+            raise ValueError(f"{twice[0]} = {value}: must be None if growth is given")
+        return growth
     if "alpha" not in changes:
         raise ValueError("alpha = None: must be given, or growth = Growth(alpha, ...)")
     return Growth(**changes)
+
+
+def _check_agrees(name: str, given: object, own: object) -> None:
+    """Raise ValueError for an argument that contradicts the scene beside which it is given."""
+    if given != own:
+        raise ValueError(
+            f"{name} = {_quoted(given)}: must be None or that of the scene, {_quoted(own)}"
+        )
+
+
+def _quoted(value: object) -> str:
+    return repr(str(value)) if isinstance(value, str) else validation.shown(value)

@@ -1,1 +1,1 @@
-"""The sheet: a rectangle of one material."""
+"""The sheet: a rectangle of a homogeneous material."""

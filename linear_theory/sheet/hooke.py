@@ -12,13 +12,13 @@ Array = NDArray[np.float64]
 
 
 def strain(stress: Array, growth: Array, poisson: float) -> Array:
-    """(xx, yy, xy) strain of a stress (3, ...) where the growth is c (...)."""
+    """Strain (xx, yy, xy) for a stress (3, ...) and growth c (...)."""
     xx, yy, xy = stress
     return np.stack([xx - poisson * yy + growth, yy - poisson * xx + growth, (1 + poisson) * xy])
 
 
 def stress(strain: Array, growth: Array, poisson: float) -> Array:
-    """(xx, yy, xy) stress of a strain (3, ...) where the growth is c (...)."""
+    """Stress (xx, yy, xy) for a strain (3, ...) and growth c (...)."""
     xx, yy = strain[0] - growth, strain[1] - growth
     modulus = 1 / (1 - poisson**2)
     return np.stack(

@@ -1,1 +1,1 @@
-"""Answers: the speed of a sheet, its errors and its reach, and the path of the sheet."""
+"""Results: the speed of a sheet, its errors and range of validity, and the path of the sheet."""

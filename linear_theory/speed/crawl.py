@@ -1,4 +1,4 @@
-"""Speed of a crawling sheet in the theories of small growth: first order, or to second order."""
+"""Speed of a crawling sheet for small growth: first-order theory, or to second order in alpha."""
 
 import math
 import time
@@ -8,7 +8,8 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from linear_theory.balance.period import Crawl, average, first_resolution
+from linear_theory.balance.crawl import Crawl, first_resolution
+from linear_theory.balance.period import average
 from linear_theory.common import validation
 from linear_theory.common.progress import Report, watched
 from linear_theory.common.threads import one_blas_thread
@@ -17,7 +18,7 @@ from linear_theory.deformation.airy import airy_series
 from linear_theory.deformation.field import LinearField, checked_field
 from linear_theory.deformation.ritz import ritz_field
 from linear_theory.friction.contact import Contact
-from linear_theory.friction.laws import FrictionLaw
+from linear_theory.friction.law import FrictionLaw
 from linear_theory.friction.load import Load
 from linear_theory.friction.regime import warn_if_viscous
 from linear_theory.growth.growth import Reference
@@ -31,6 +32,7 @@ from linear_theory.speed.model_error import LEVELS, model_error
 from linear_theory.speed.reach import judged, too_large_growth, warn_if_beyond
 from linear_theory.speed.result import CrawlSpeed, Estimate, RigidSpeed
 from linear_theory.speed.second_order import second_order_speed
+from linear_theory.speed.wave_error import with_wave_error
 from linear_theory.speed.words import model_words
 from linear_theory.wave.protocol import Wave
 
@@ -39,10 +41,10 @@ Array = NDArray[np.float64]
 METHODS = ("auto", "airy", "ritz")
 
 ORDERS = (1, 2)
-"""Of the theories that `crawl_speed` offers."""
+"""Orders of theory offered by `crawl_speed`."""
 
 SHOWN_RTOL = 1e-3
-"""Relative error of a deformation that is only drawn: less than a line is wide."""
+"""Relative error of a deformation used for drawing only: below the width of a line."""
 
 
 def crawl_speed(
@@ -61,33 +63,33 @@ def crawl_speed(
     *,
     progress: bool | Report | None = None,
 ) -> CrawlSpeed:
-    """Mean speed of a rectangular sheet in the small-strain theory (eqs 10 and 11), or to second order.
+    """Mean speed of a rectangular sheet in small-strain theory (eqs 10 and 11), or to second order.
 
-    sheet, wave, alpha: the sheet, what drives it, and the growth coupling; or a `Scene` that says it
-    all and is planar, whose load and friction those that are given here must not contradict.
-    load: "current" unless given, "grown" or "material", see `Load`; friction: "coulomb" unless given,
-    "tanh" with its slip_speed (length per time), or "viscous"; rtol, atol: see `Tolerance`; of a motion
-    that is not mirror symmetric the sizes of rigid_error and rigid_mean count (all three components,
-    see `rigid.RigidNorm`);
-    method: "airy" for waves c(y, t), "ritz" for any, or "auto".
+    sheet, wave, alpha: the sheet, the wave of growth and the growth coupling; or, instead of all three,
+    a planar `Scene`, whose load and friction must agree with any given here.
+    load: normal load, "current" by default, "grown" or "material", see `Load`; friction: "coulomb" by
+    default, "tanh" with its slip_speed (length per time), or "viscous"; rtol, atol: see `Tolerance`;
+    for a motion without mirror symmetry they apply to the norms of rigid_error and rigid_mean (all
+    three components, see `rigid.RigidNorm`);
+    method: "airy" for waves c(y, t), "ritz" for any wave, or "auto".
 
-    order = 1 is the paper's theory: strains of first order, in a balance that is not expanded. It is
-    good for waves that crawl at order alpha (pulses, c(t + T/2) != -c(t)), with a relative error of
-    order alpha; for a sine wave, whose speed is of order alpha^2, it is the speed of the stated model,
-    not a leading term (25 % too fast for the default sheet). order = 2 is V_1 alpha + V_2 alpha^2 of
-    the nonlinear sheet with that growth_law ("exp" unless given) and area ("grown" unless given; see
-    `second_order`), right up to order alpha^3, for a sine alpha^4; any wave, by Ritz. It says nothing
-    of large alpha. order = 1 does not depend on growth_law and area but for its `model_error`: the
-    distance to the nonlinear sheet of that growth_law, area and load where it was measured
-    (`model_error.model_error`), else NaN.
+    order = 1 is the paper's theory: first-order strains in a friction balance that is not expanded. It
+    is accurate, with a relative error of order alpha, for waves whose speed is of order alpha (pulses,
+    c(t + T/2) != -c(t)). For a sine wave, whose speed is of order alpha^2, it is the speed of the
+    stated model, not the leading term (25 % too fast for the default sheet). order = 2 is V_1 alpha +
+    V_2 alpha^2 of the nonlinear sheet with that growth_law ("exp" by default) and area ("grown" by
+    default; see `second_order`), with an error of order alpha^3, for a sine alpha^4; for any wave, by
+    Ritz; not valid for large alpha. order = 1 depends on growth_law and area only through its
+    `model_error`: the distance to the nonlinear sheet with that growth_law, area and load where it was
+    measured (`model_error.model_error`), else NaN.
     progress: True prints on stderr, a function is called with a `progress.Progress`.
 
-    Raises ValueError for bad input, among it an alpha so large that the area element
+    Raises ValueError for bad input, including an alpha so large that the area element
     1 + alpha tr(strain) is not positive somewhere (order 1) or that lengths vanish (order 2), and
-    NotConvergedError where the wave, one that jumps, asks more of the deformation than fits in memory.
-    Warns (ViscousRegimeWarning) where friction = "tanh" acts as viscous: see `CrawlSpeed.regime`; and
-    (BeyondReachWarning) where growth is too large for a theory of small growth, |alpha c| > 1/2 or
-    sooner, see `reach`: such a speed is never converged, and `CrawlSpeed.beyond_reach` says why.
+    NotConvergedError if the deformation by a discontinuous wave needs more memory than is available.
+    Warns (ViscousRegimeWarning) if friction = "tanh" acts as viscous, see `CrawlSpeed.regime`, and
+    (BeyondReachWarning) if growth is too large for the theory, |alpha c| > 1/2 or less, see `reach`:
+    such a speed is never converged, and `CrawlSpeed.beyond_reach` says why.
 
     >>> from linear_theory import Sheet, SineWave, crawl_speed
     >>> for order in (1, 2):  # of the theory, for the sheet of the paper
@@ -109,24 +111,27 @@ def crawl_speed(
 def theory_speed(
     scene: Scene, tolerance: Tolerance, order: int = 1, method: str = "auto"
 ) -> CrawlSpeed:
-    """`crawl_speed` of a scene, without its warnings."""
+    """`crawl_speed` for a scene, without its warnings."""
     THEORY.require(scene)
     if validation.integer("order", order) not in ORDERS:
         raise ValueError(f"order = {order}: must be one of {', '.join(map(str, ORDERS))}")
     validation.choice("method", method, METHODS if order == 1 else ("auto", "ritz"))
-    if order == 2:
-        found, method = second_order_speed(scene, tolerance), "ritz"
-    else:
-        field = _field(scene, tolerance.rtol, method)
-        found = _field_speed(field, scene.alpha, scene.contact, tolerance)
-    # Found anew if it is drawn, so that a speed does not hold on to a solution and its tables.
+    method = method if order == 1 else "ritz"
+    solve = partial(second_order_speed, scene) if order == 2 else partial(_first, scene, method)
+    found = with_wave_error(scene, tolerance, solve)
+    # Computed again for drawing, so that a speed does not keep a solution and its tables in memory.
     deformation = drawn_deformation(scene, method)
     distance = model_error(LEVELS[order], scene)
     return replace(found, model_error=distance, deformation=deformation)
 
 
+def _first(scene: Scene, method: str, tolerance: Tolerance) -> CrawlSpeed:
+    field = _field(scene, tolerance.rtol, method)
+    return _field_speed(field, scene.alpha, scene.contact, tolerance)
+
+
 def drawn_deformation(scene: Scene, method: str = "ritz") -> LinearDeformation:
-    """The sheet of a scene as small strain deforms it, for pictures."""
+    """The small-strain deformation of the sheet of a scene, for pictures."""
     return LinearDeformation(partial(_field, scene, SHOWN_RTOL, method), scene.alpha, scene.contact)
 
 
@@ -139,7 +144,7 @@ def field_speed(
     rtol: float = 1e-4,
     atol: float | None = None,
 ) -> CrawlSpeed:
-    """`crawl_speed` for a deformation that is known: series, Ritz or finite elements.
+    """`crawl_speed` for a given deformation: series, Ritz or finite elements.
 
     Raises ValueError and warns as `crawl_speed` does.
 
@@ -160,7 +165,7 @@ def field_speed(
 
 
 def _field(scene: Scene, rtol: float, method: str) -> LinearField:
-    """Deformation of first order for a speed that is right to rtol."""
+    """First-order deformation, accurate enough for a speed to rtol."""
     sheet, wave, series = scene.sheet, scene.wave, scene.drive.series
     if method == "airy" and series is None:
         raise ValueError("method = 'airy': must be 'ritz' for a wave that depends on x")
@@ -174,7 +179,7 @@ def _field(scene: Scene, rtol: float, method: str) -> LinearField:
 def _field_speed(
     field: LinearField, alpha: float, contact: Contact, tolerance: Tolerance
 ) -> CrawlSpeed:
-    """`field_speed` without its warnings."""
+    """`field_speed`, without its warnings."""
     start, law = time.perf_counter(), contact.friction
     tolerance = tolerance.of_speed(alpha, field.sheet.length / field.drive.period)
     model = model_words(f"small strain ({type(field).__name__})", None, contact)
@@ -196,15 +201,15 @@ def _field_speed(
         slip_ratio=law.slip_ratio(period.fastest),
         first_order=period.first_order,
         sticks=period.sticks,
-        turning=None if field.mirrored else turning,
+        turning=None if crawl.mirrored else turning,
         deformation=deformation,
     )
     return judged(found, beyond_reach(field, alpha))
 
 
 def beyond_reach(field: LinearField, alpha: float) -> str:
-    """Why small strain says nothing at this alpha, in words; empty if it does."""
-    x = y = np.zeros(1)  # a series shows all its phases at any point
+    """Why small-strain theory is not valid at this alpha, in words; empty if it is."""
+    x = y = np.zeros(1)  # a series goes through all its phases at any point
     if alpha and field.drive.series is None:
         grid = CellGrid.uniform(field.sheet, 4, 8, half=False)
         x, y = field.motion(np.zeros(1), grid, order=5).position

@@ -1,6 +1,6 @@
-"""How the sheet behind a speed deforms through a period: what pictures of it are made of.
+"""Deformation of the sheet of a given speed over one period, for pictures.
 
-A speed carries a `Deformation` and asks nothing of it: a deformation that nobody draws costs nothing.
+A speed carries a `Deformation` that is evaluated only for drawing, and costs nothing otherwise.
 """
 
 from collections.abc import Callable, Mapping
@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from linear_theory.common.shown import Shown
 from linear_theory.deformation.field import LinearField
 from linear_theory.friction.contact import Contact
-from linear_theory.friction.laws import FrictionLaw
+from linear_theory.friction.law import FrictionLaw
 from linear_theory.wave.protocol import Drive
 
 Array = NDArray[np.float64]
@@ -26,16 +26,16 @@ class _Touch(NamedTuple):
 
 
 class Touch(Shown, _Touch):
-    """At one time, at n points: velocity (2, n) in the frame of the body, length per time, and load
-    (n,) per area of the undeformed sheet, 1 without growth."""
+    """Contact at n points at one time: velocity (2, n) in the frame of the body, length per time, and
+    normal load (n,) per area of the undeformed sheet, 1 without growth."""
 
 
 class Deformation(Protocol):
-    """A sheet that deforms periodically, as seen from its own frame.
+    """A periodically deforming sheet, in the frame of the body.
 
     The frame has its origin in the centre of mass of the undeformed area and moves and turns with the
-    sheet as a whole (see `path`). points: (2, n), of the undeformed sheet, units of length. words: what
-    the shape is, for a caption.
+    sheet as a whole (see `path`). points: (2, n), of the undeformed sheet, units of length. words:
+    description of the shape, for a caption.
     """
 
     alpha: float
@@ -54,19 +54,19 @@ class Deformation(Protocol):
         """Points (2, n) and triangles (m, 3) that cover the undeformed sheet, fine enough to draw."""
 
     def places(self, points: Array, times: Array) -> Array:
-        """Where the points are relative to the centre of mass, (2 or 3, times, n)."""
+        """Positions of the points relative to the centre of mass, (2 or 3, times, n)."""
 
     def growth(self, points: Array, times: Array) -> Array:
         """c at the points, (times, n)."""
 
     def contact(self, points: Array, t: float) -> Touch:
-        """What friction acts on, at one time."""
+        """Velocity and normal load at the points, at one time."""
 
 
 class LinearDeformation(Shown):
-    """`Deformation` x + alpha u(x, y, t) of small strain.
+    """`Deformation` x + alpha u(x, y, t) in small-strain theory.
 
-    find: returns the field u; called when it is first needed, so that a speed need not keep a solution.
+    find: returns the field u; called on first use, so that a speed need not keep a solution.
     """
 
     def __init__(
@@ -74,7 +74,7 @@ class LinearDeformation(Shown):
         find: Callable[[], LinearField],
         alpha: float,
         contact: Contact,
-        words: str = "shape of first order in alpha",
+        words: str = "shape to first order in alpha",
     ) -> None:
         self._find, self.alpha, self.words = find, alpha, words
         self._load, self.law = contact.load, contact.friction

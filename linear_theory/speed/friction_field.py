@@ -1,17 +1,17 @@
-"""Friction on a crawling sheet, point by point."""
+"""Friction forces on a crawling sheet at given points."""
 
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from linear_theory.balance.period import Crawl, first_resolution
+from linear_theory.balance.crawl import Crawl, first_resolution
 from linear_theory.common import validation
 from linear_theory.common.shown import Shown
 from linear_theory.common.threads import one_blas_thread
 from linear_theory.deformation.field import LinearField, checked_field
 from linear_theory.friction.contact import Contact
-from linear_theory.friction.laws import FrictionLaw
+from linear_theory.friction.law import FrictionLaw
 from linear_theory.friction.load import Load
 from linear_theory.speed.crawl import beyond_reach
 from linear_theory.speed.reach import warn_if_beyond
@@ -30,7 +30,7 @@ def friction_field(
     slip_speed: float | None = None,
     rtol: float = 1e-6,
 ) -> "FrictionField":
-    """Friction on a crawling sheet at time t and at the points x, y (broadcast).
+    """Friction forces on a crawling sheet at time t and at the points x, y (broadcast).
 
     Raises ValueError as `crawl_speed` does, and for points outside the sheet. Warns
     (BeyondReachWarning) as it does.
@@ -63,20 +63,17 @@ def _friction_field(
     contact: Contact,
     rtol: float,
 ) -> "FrictionField":
-    """`friction_field` without its checks and its warning."""
+    """`friction_field`, without its checks and its warning."""
     v_x = v_y = omega = 0.0
     if alpha != 0:
         motion = Crawl(field, alpha, contact, first_resolution(rtol)).balance(np.array([t]))
         v_x, v_y, omega = alpha * (motion.leading + alpha * motion.remainder)[0]
     rigid = np.stack([v_x - omega * (y - field.centre[1]), v_y + omega * (x - field.centre[0])])
     slip = alpha * field.velocity(x, y, t) + rigid
-    speed = np.hypot(*slip)
     growth = field.drive.value(x, y, t)
     rate = contact.load.rate(field.strain(x, y, t)[:2].sum(0), growth)
     weight = 1 + alpha * rate
-    with np.errstate(divide="ignore", invalid="ignore"):
-        force = np.where(speed > 0, -weight * contact.friction.ratio(speed) * slip, 0.0)
-    return FrictionField(force, slip, weight)
+    return FrictionField(-weight * contact.friction.force(slip), slip, weight)
 
 
 class _Forces(NamedTuple):
@@ -86,5 +83,6 @@ class _Forces(NamedTuple):
 
 
 class FrictionField(Shown, _Forces):
-    """force (2, ...): per reference area, over mu times the weight per area; slip (2, ...): velocity
-    against the ground, length per time; weight (...): load per reference area, 1 without growth."""
+    """force (2, ...): per reference area, divided by mu times the weight per area; slip (2, ...):
+    velocity relative to the ground, length per time; weight (...): normal load per reference area, 1
+    without growth."""

@@ -1,14 +1,14 @@
-"""How far a theory is from the nonlinear sheet, from a table of measured distances.
+"""Model error: the distance of a theory to the nonlinear sheet, from a table of measured distances.
 
-The target is the planar nonlinear sheet of a growth law, area measure and load, under dry friction and
-too stiff for it to change its shape. Theories of three levels were compared with it for sine waves (see
+The target is the planar nonlinear sheet with a growth law, area measure and load, under dry friction,
+too stiff for friction to change its shape. Three levels were compared with it for sine waves (see
 `figures/measure/model_error.py`): a narrow strip at finite strain, small strain (order = 1 of
 `crawl_speed`) and the second order in alpha (order = 2). With V of order alpha^2 the distances are
 
     |V - V_target| = D alpha^2,                 the second order: D alpha^4,
 
-and D varies slowly with width, Poisson ratio and alpha. Between points of the table its largest value
-at the points around is taken, times a factor of safety.
+and D varies slowly with width, Poisson ratio and alpha. Between points of the table, the largest value
+at the surrounding points times a safety factor is used.
 """
 
 import functools
@@ -31,23 +31,24 @@ PATH = Path(__file__).parents[1] / "data" / "model_error.csv"
 COMMAND = "python -m figures.measure.model_error"
 
 LEVELS = ("strip", "first order", "second order")
-"""Names of the theories, as in `fem_check.choice.levels`, and of columns of the table."""
+"""Names of the theories, as in `fem_check.choice.levels`, and their columns of the table."""
 
 SAFETY = 1.25
-"""Factor between points of the table. Of 32 other sheets, waves and growths (widths 0.12 to 0.85 L,
-alpha 0.03 to 0.38) under three loads none was farther from any theory than the points around."""
+"""Safety factor between points of the table. For none of 32 other sheets, waves and growths (widths
+0.12 to 0.85 L, alpha 0.03 to 0.38), under three loads, was D above its value at the surrounding
+points."""
 
 SAME = 1e-12
-"""Relative distance of numbers that count as one."""
+"""Relative difference below which numbers count as equal."""
 
 
 @dataclass(frozen=True)
 class Row(Shown):
     """One point of the table; speeds over alpha^2 L/T.
 
-    nonlinear: of the target, the limit V_2 for alpha = 0, nan where the sheet has no static shape;
-    error: numerical error of it and of any level together; strip, first_order, second_order: difference
-    of the level to it, nan where a level has no answer.
+    nonlinear: speed of the target, for alpha = 0 the limit V_2, nan where the sheet has no equilibrium;
+    error: sum of its numerical error and that of any level; strip, first_order, second_order:
+    difference of the level to the target, nan where a level has no answer.
     """
 
     width: float
@@ -70,30 +71,29 @@ Model = tuple[str, str, str, int]
 
 @dataclass(frozen=True, eq=False)
 class _Grid:
-    """Distances of one model: axes of W/L, nu and alpha, and |difference| + error, (3, W, nu,
-    alpha)."""
+    """Distances for one model: axes W/L, nu and alpha, and |difference| + error, (3, W, nu, alpha)."""
 
     axes: tuple[Array, Array, Array]
     distances: Array
 
 
 def model_error(level: str, scene: Scene) -> float:
-    """Measured bound of |V - V_target| for a theory, absolute, in length/time.
+    """Measured bound of |V - V_target| for a theory, absolute, length/time.
 
     level: "strip", "first order" or "second order"; the target has the growth, load and friction of the
-    scene, which must be planar. The numerical error of V itself is not in it.
+    scene, which must be planar. The numerical error of V itself is not included.
 
-    0 without growth that changes. NaN where the distance is not known: any wave but a sine of 1 or 2
-    waves on the sheet (the amplitude of a wave counts as a part of alpha); widths beyond 0.1 to 2 L,
-    with two waves 1 L, Poisson ratios beyond 0 to 1/2, |alpha| beyond 0.4; friction other than dry; and
+    0 for growth constant in time. NaN where the distance is unknown: any wave other than a sine with 1
+    or 2 waves on the sheet (its amplitude is absorbed in alpha); widths outside 0.1 to 2 L (1 L for two
+    waves), Poisson ratios outside 0 to 1/2, |alpha| above 0.4; friction other than dry; and points
     where the level or the target has no speed. Between points of the table the bound is mostly 1.5 to 3
-    times the difference, and more where that changes its sign. Raises ValueError for a level that does
-    not exist and FileNotFoundError where the table is missing.
+    times the difference, and more where that changes sign. Raises ValueError for an unknown level and
+    FileNotFoundError if the table is missing.
     """
     validation.choice("level", level, LEVELS)
     sheet, series, growth, contact = scene.sheet, scene.drive.series, scene.growth, scene.contact
     if growth.alpha == 0 or (series is not None and not series.moves):
-        return 0.0  # the sheet is at rest in every theory
+        return 0.0  # the sheet is at rest in all theories
     if contact.friction != Coulomb() or series is None or series.sine_amplitude is None:
         return math.nan
     model = growth.law.name, str(growth.energy_area), str(contact.load), abs(series.count)
@@ -106,7 +106,7 @@ def model_error(level: str, scene: Scene) -> float:
 
 
 def _bound(grid: _Grid, level: str, point: tuple[float, float, float]) -> float:
-    """Bound of the distance at (W/L, nu, alpha), in L/T."""
+    """Bound of the distance at the point (W/L, nu, alpha), in L/T."""
     alpha = point[2]
     if alpha == 0:
         return 0.0
@@ -116,7 +116,7 @@ def _bound(grid: _Grid, level: str, point: tuple[float, float, float]) -> float:
     widths, poissons, alphas = around
     power = 2
     if level == "second order":
-        power, alphas = 4, alphas[grid.axes[2][alphas] > 0]  # there it has no difference: 0/0
+        power, alphas = 4, alphas[grid.axes[2][alphas] > 0]  # at alpha = 0 the difference is 0/0
     strengths = grid.axes[2][alphas]
     values = grid.distances[LEVELS.index(level)][np.ix_(widths, poissons, alphas)]
     largest = (values * strengths ** (2.0 - power)).max()  # NaN if any of them is
@@ -125,7 +125,7 @@ def _bound(grid: _Grid, level: str, point: tuple[float, float, float]) -> float:
 
 
 def _around(axis: Array, value: float) -> NDArray[np.intp]:
-    """Indices of the points next to a value: one where it is a point, two, or none beyond the ends."""
+    """Indices of the points around a value: one if it is a point, else two, or none outside."""
     same = np.flatnonzero(abs(axis - value) <= SAME * abs(value))
     if same.size:
         return same
@@ -135,7 +135,7 @@ def _around(axis: Array, value: float) -> NDArray[np.intp]:
 
 @functools.cache
 def table(path: Path = PATH) -> dict[Model, _Grid]:
-    """The table by models, read once."""
+    """The table grouped by model; read once."""
     rows = read(path)
     models = sorted({(r.growth_law, r.area, r.load, r.count) for r in rows})
     return {

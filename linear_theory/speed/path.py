@@ -1,30 +1,29 @@
 """The path of a sheet that crawls and turns: the rigid motion of one period, repeated.
 
 The body frame moves and turns with the sheet as a whole. Its origin is the centre of mass of the sheet
-and its axes are turned so that the mean rotation is zero, both means over the undeformed area: for
-small strains that of (du_y/dx - du_x/dy)/2, else the rotation in the mean deformation gradient.
-`CrawlSpeed.rigid` is the velocity of its origin along its own axes and its rate of rotation,
+and its axes are oriented so that the mean rotation is zero, with means over the undeformed area: for
+small strains that of (du_y/dx - du_x/dy)/2, else the rotation of the mean deformation gradient.
+`CrawlSpeed.rigid` is the velocity of the origin along these axes and their rate of rotation,
 
     dX/dt = R(theta) (V_x, V_y),   dtheta/dt = Omega.
 
-One period moves it by d and turns it by phi, in its axes at the start of the period. n of them make, as
-complex numbers x + i y,
+One period moves the frame by d, in its axes at the start of the period, and turns it by phi. After n
+periods it is, in complex numbers x + i y, at
 
     z_n = d (1 + q + ... + q^(n - 1)) = d (1 - q^n)/(1 - q),   q = exp(i phi),
 
-which lie on a circle of radius |d|/(2 sin(phi/2)). d is not T times the mean of V: a sheet that goes to
-and fro at order alpha while it swings at order alpha gets ahead by order alpha^2 from that alone.
+on a circle of radius |d|/(2 sin(phi/2)). d is not T times the mean of V: a sheet that oscillates at
+order alpha both in position and in heading advances by order alpha^2 from that alone.
 """
 
 import math
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.interpolate import CubicHermiteSpline
 
 from linear_theory.balance.time_grid import TimeGrid
 from linear_theory.common import validation
@@ -32,11 +31,14 @@ from linear_theory.common.tables import LENGTH, RADIANS, TIME, Column, Tabular
 from linear_theory.common.threads import one_blas_thread
 from linear_theory.speed.result import CrawlSpeed
 
+if TYPE_CHECKING:
+    from scipy.interpolate import CubicHermiteSpline
+
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
 SAME = 1e-6
-"""Relative difference of time steps that count as equal; times have the roundoff of the period."""
+"""Relative difference below which time steps count as equal, the roundoff of times."""
 
 _NODES = np.arange(5.0)
 _POWERS = np.arange(5)
@@ -49,10 +51,10 @@ in the last row. Step 1."""
 
 @dataclass(frozen=True)
 class Poses(Tabular):
-    """Where the body frame was: times (N,), position (2, N) of its origin, heading (N,).
+    """Poses of the body frame: times (N,), position (2, N) of its origin, heading (N,).
 
-    The heading is the angle of its axes against those of the resting sheet, anticlockwise, radians, not
-    reduced to a circle.
+    The heading is the angle of its axes relative to those of the sheet at rest, anticlockwise, radians,
+    not reduced modulo 2 pi.
     """
 
     times: Array
@@ -60,7 +62,7 @@ class Poses(Tabular):
     heading: Array
 
     def seen_from(self, index: int) -> "Poses":
-        """Position and heading in the axes of the pose of that index; the times are the same."""
+        """Positions and headings relative to the pose with that index; the times are unchanged."""
         origin = self.position[0, index] + 1j * self.position[1, index]
         place = self.position[0] + 1j * self.position[1] - origin
         place = place * np.exp(-1j * self.heading[index])
@@ -82,9 +84,10 @@ class Path(Poses):
     """The path of a sheet over many periods, from the origin with heading 0 at the first time.
 
     step (2,), turn: displacement d and angle phi of one period in the axes at its start, length and
-    radians (anticlockwise); period: T. step_error, turn_error: estimates of their numerical errors,
-    absolute. position_error, heading_error (N,): of the path, which add up over the periods. Like the
-    error of the speed they leave out how far its model is from another one. seconds: spent here.
+    radians (anticlockwise); period: T. step_error, turn_error: their estimated numerical errors,
+    absolute. position_error, heading_error (N,): errors of the path, which accumulate over the periods.
+    Like the error of the speed they do not include the model error. seconds: computing time of the
+    path.
     """
 
     period: float
@@ -98,19 +101,19 @@ class Path(Poses):
 
     @property
     def is_straight(self) -> bool:
-        """Whether the turning is not told from none."""
+        """Whether the turning angle is zero within its error."""
         return abs(self.turn) <= self.turn_error
 
     @property
     def radius(self) -> float:
-        """Of the circle on which the origin lies at the ends of the periods; infinite if straight."""
+        """Radius of the circle through the origins at the ends of periods; infinite if straight."""
         if self.is_straight:
             return math.inf
         return float(np.linalg.norm(self.step) / abs(2 * math.sin(self.turn / 2)))
 
     @property
     def radius_error(self) -> float:
-        """Estimate of its error, absolute; infinite if straight."""
+        """Estimated error of `radius`, absolute; infinite if straight."""
         if self.is_straight:
             return math.inf
         relative = self.turn_error / abs(self.turn)
@@ -138,19 +141,19 @@ class Path(Poses):
 
 @one_blas_thread
 def rigid_path(speed: CrawlSpeed, periods: int = 1, samples: int = 16) -> Path:
-    """The path that the rigid motion of one period makes when it is repeated.
+    """The path from repeating the rigid motion of one period.
 
-    speed: of `crawl_speed`, `field_speed` or `cycle_speed`; where `rigid` is None the motion is mirror
-    symmetric and its path straight. The path is that of the centre of mass, from where it is at
-    speed.times[0] (which counts as 0, 0 wherever an outline lies), and with `periods` periods of
-    `samples` equal intervals it has N = periods samples + 1 times.
+    speed: result of `crawl_speed`, `field_speed` or `cycle_speed`; if its `rigid` is None the motion is
+    mirror symmetric and the path straight. The path is that of the centre of mass, starting at 0, 0 at
+    speed.times[0] (for any outline), with N = periods * samples + 1 times: `periods` periods of
+    `samples` equal intervals.
 
-    The mean velocities and their errors are those of the speed. To d adds what comes of turning within
-    the period, (R(theta) - 1)(V_x, V_y); its quadrature in time is compared with one that is coarser.
+    The mean velocities and their errors are those of the speed. Turning within the period contributes
+    (R(theta) - 1)(V_x, V_y) to d; the error of its quadrature in time comes from a coarser one.
 
-    Raises ValueError for numbers below 1, for a speed whose times are not those of a solver: panels of
-    five equidistant times, neighbours sharing their ends, and for one with `rigid` but without
-    rigid_mean and rigid_error. A sheet at rest (alpha = 0) has one time only.
+    Raises ValueError for numbers below 1, for a speed whose times are not those of a solver (panels of
+    five equidistant times, neighbours sharing their ends), and for one with `rigid` but without
+    rigid_mean and rigid_error. A sheet at rest (alpha = 0) has a single time.
 
     >>> import numpy as np
     >>> from linear_theory import FieldWave, Sheet, crawl_speed, rigid_path
@@ -184,10 +187,10 @@ def rigid_path(speed: CrawlSpeed, periods: int = 1, samples: int = 16) -> Path:
 
 
 class _Cycle(NamedTuple):
-    """One period. spline: x, y, heading over the time; inner, inner_turn: errors within the period
-    that do not add up; swing: largest distance from the start."""
+    """One period. spline: x, y, heading as functions of time; inner, inner_turn: errors within the
+    period, which do not accumulate; swing: largest distance from the start."""
 
-    spline: CubicHermiteSpline
+    spline: "CubicHermiteSpline"
     step_error: float
     turn_error: float
     inner: float
@@ -212,16 +215,16 @@ class _Cycle(NamedTuple):
         return float(self.spline(self.spline.x[-1])[2])
 
     def repeated(self, whole: Array, share: Array) -> tuple[Complex, Array]:
-        """Place (complex) and heading after whole periods and a share of the next."""
+        """Position (complex) and heading after whole periods and a fraction of the next."""
         x, y, angle = self.spline(self.start + share * self.length).T
         turned = np.exp(1j * self.turn * whole)
         return self.step * _powers(whole, self.turn) + turned * (x + 1j * y), self.turn * whole + angle
 
     def errors(self, periods: Array) -> tuple[Array, Array]:
-        """Bounds of the errors of place and heading within so many periods, of first order.
+        """First-order bounds of the errors of position and heading within given numbers of periods.
 
-        Every period brings the same error of d and phi: d times the sum of q^k, its slope in phi times
-        the sum of k q^k, k < n. On a circle both sums stop growing like n and n^2.
+        Every period has the same errors of d and phi, which enter with the sums of q^k and of d k q^k,
+        k < n. On a circle these sums stop growing like n and n^2.
         """
         chord = max(abs(math.sin(self.turn / 2)) - self.turn_error / 2, 1e-300)
         sums = np.minimum(periods, 1 / chord)
@@ -233,7 +236,7 @@ class _Cycle(NamedTuple):
 
 
 def _powers(count: Array, angle: float) -> Complex:
-    """1 + q + ... + q^(count - 1) of q = exp(i angle)."""
+    """1 + q + ... + q^(count - 1) for q = exp(i angle)."""
     half = math.remainder(angle, 2 * math.pi) / 2
     if half == 0:
         return count.astype(complex)
@@ -241,8 +244,8 @@ def _powers(count: Array, angle: float) -> Complex:
 
 
 def _checked_grid(speed: CrawlSpeed) -> TimeGrid:
-    """Panels of the whole period with its end. Raises ValueError where the times are none."""
-    hint = "crawl_speed, field_speed and cycle_speed make one"
+    """Panels of the whole period with its end. Raises ValueError if the times do not form panels."""
+    hint = "use crawl_speed, field_speed or cycle_speed"
     times = validation.instance("speed", speed, CrawlSpeed, hint).times
     if times.size < 4 or times.size % 4:
         raise ValueError(f"speed.times has {times.size} times: must be panels of four, 4 or more")
@@ -254,7 +257,7 @@ def _checked_grid(speed: CrawlSpeed) -> TimeGrid:
 
 
 def _one_period(grid: TimeGrid, speed: CrawlSpeed) -> _Cycle:
-    """The motion through one period and its errors."""
+    """The motion over one period and its errors."""
     times, length = grid.times, grid.lengths.sum()
     rigid, mean_errors = _closed_velocities(grid, speed)
     along, omega = rigid[0] + 1j * rigid[1], rigid[2]
@@ -265,11 +268,11 @@ def _one_period(grid: TimeGrid, speed: CrawlSpeed) -> _Cycle:
     rates = np.stack([velocity.real, velocity.imag, omega], 1)
     inner, inner_turn = _inner_errors(times, poses, rates)
     mean_error = math.hypot(mean_errors[0], mean_errors[1])
-    # a wrong heading within the period turns the ways there
+    # an error of the heading within the period rotates the displacements there
     wrong_way = inner_turn * float(grid.mean(abs(along))[0])
     turning = grid.error(np.stack([(velocity - along).real, (velocity - along).imag]))
     return _Cycle(
-        spline=CubicHermiteSpline(times, poses, rates),
+        spline=_spline(times, poses, rates),
         step_error=length * (mean_error + wrong_way + turning),
         turn_error=length * mean_errors[2],
         inner=inner,
@@ -281,7 +284,8 @@ def _one_period(grid: TimeGrid, speed: CrawlSpeed) -> _Cycle:
 def _closed_velocities(grid: TimeGrid, speed: CrawlSpeed) -> tuple[Array, Array]:
     """V_x, V_y, Omega at all times of the grid, (3, times), and the errors of their means, (3,).
 
-    The means are the speed's own: it knows better than the values, of which a part has exactly none.
+    The means are those of the speed, more accurate than means of the values: part of the motion has
+        exactly zero mean.
     """
     if speed.turning is None:
         rigid = np.multiply.outer([0.0, 1.0, 0.0], speed.velocity)
@@ -300,8 +304,14 @@ def _integral(grid: TimeGrid, values: NDArray[np.inexact]) -> NDArray[np.inexact
     return np.append((before[:-1, None] + inside[:, :-1]).ravel(), before[-1])
 
 
+def _spline(times: Array, poses: Array, rates: Array) -> "CubicHermiteSpline":
+    from scipy.interpolate import CubicHermiteSpline  # here: scipy takes long to import
+
+    return CubicHermiteSpline(times, poses, rates)
+
+
 def _inner_errors(times: Array, poses: Array, rates: Array) -> tuple[float, float]:
-    """Largest errors of place and heading within the period: what every second time leaves out."""
-    coarse = CubicHermiteSpline(times[::2], poses[::2], rates[::2])
+    """Largest errors of position and heading within the period, from omitting every second time."""
+    coarse = _spline(times[::2], poses[::2], rates[::2])
     x, y, angle = (coarse(times) - poses).T
     return float(np.hypot(x, y).max()), float(abs(angle).max())

@@ -1,4 +1,4 @@
-"""The answer to the one question: how fast, how sure, at what cost."""
+"""The speed of a sheet, with its errors, regime and cost."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
@@ -24,7 +24,7 @@ class _Estimate(NamedTuple):
 
 
 class Estimate(Shown, _Estimate):
-    """A number and the estimate of its numerical error, absolute.
+    """A number and its estimated numerical error, absolute.
 
     >>> from linear_theory import Sheet, SineWave, crawl_speed
     >>> found = crawl_speed(Sheet(), SineWave(), alpha=0.25, rtol=1e-2).estimate
@@ -35,11 +35,11 @@ class Estimate(Shown, _Estimate):
 
 @dataclass(frozen=True, eq=False)
 class RigidSpeed(Shown):
-    """The rigid motion of a sheet that does not keep to a line.
+    """The rigid motion of a sheet without mirror symmetry: along, sideways and turning.
 
     velocity (3, T): V_x, V_y of the centre of mass of the undeformed area and the rate of rotation
     Omega about it (anticlockwise) in the frame of the body (see `second_order`); mean, error (3,):
-    their means and the estimates of their numerical errors, absolute.
+    their means and estimated numerical errors, absolute.
     """
 
     velocity: Array
@@ -54,27 +54,28 @@ class RigidSpeed(Shown):
 
 @dataclass(frozen=True)
 class CrawlSpeed(Drawable, Tabular):
-    """Speed of a crawling sheet, in length/time; positive is towards +y, the way of the wave.
+    """Speed of a crawling sheet, length/time, positive towards +y, the direction of the wave.
 
-    estimate: V averaged over one period, `mean`, and the estimate of its numerical error, `error`;
-    model_error: distance to the nonlinear sheet, absolute, NaN where it is not known;
-    converged: whether error met the tolerance that was asked for; where rigid_error is given, that; and
-    the theory reaches so far.
+    estimate: V averaged over one period, `mean`, and its estimated numerical error, `error`;
+    model_error: distance to the nonlinear sheet, absolute, NaN where unknown;
+    converged: whether the numerical error (rigid_error, if given) meets the tolerance and the theory is
+    valid at this alpha.
     times (T,), velocity (T,): V_y(t) over one period.
-    turning: the whole rigid motion, for motions that are not mirror symmetric in x; None otherwise. Its
-    arrays are also rigid (3, T), rigid_mean and rigid_error (3,).
-    first_order, second_order: V_1 and V_2 of V = V_1 alpha + V_2 alpha**2 + ..., within this model;
-    NaN where they were not computed.
-    slip_ratio: slip speed of the friction law over the largest speed relative to the ground: dry
-    friction where it is << 1, viscous where it is >> 1; 0 for Coulomb, infinite for viscous, and for
-    tanh where nothing moves; NaN without friction. `regime` is what it means.
-    sticks: whether at some time part of the sheet is at rest and a range of forces is balanced,
-    so that V is the value that the regularised law selects.
-    seconds: time spent, set-up and solution; model: what is assumed, in words.
-    beyond_reach: why a theory of small growth says nothing at this alpha (see `reach`), in words; empty
-    where it does. Such answers are never converged.
-    deformation: how the sheet deforms, for pictures (see `deformation.Deformation`); None where there
-    is no shape. It is not part of the value, and a copy or a pickle goes without it.
+    turning: the full rigid motion, for motions without mirror symmetry in x; None otherwise. Its
+    arrays are also available as rigid (3, T), rigid_mean and rigid_error (3,).
+    first_order, second_order: V_1 and V_2 in V = V_1 alpha + V_2 alpha**2 + ..., within this model;
+    NaN if not computed.
+    slip_ratio: slip speed of the friction law over the largest speed relative to the ground: << 1 for
+    dry, >> 1 for viscous friction; 0 for Coulomb, infinite for viscous friction and for tanh if nothing
+    moves; NaN without friction. `regime` puts it into words.
+    sticks: whether at some time part of the sheet is at rest, where friction can balance a range of
+    forces, so that V is the value selected by the regularised law.
+    seconds: time for set-up and solution; model: assumptions, in words.
+    beyond_reach: why a theory of small growth is not valid at this alpha (see `reach`), in words; empty
+    if it is. Such results are never converged.
+    wave_error: the part of error due to a measured wave (see `wave_error`), 0 for an exact one.
+    deformation: the deformation of the sheet, for pictures (see `drawn.Deformation`); None if there
+    is no shape. It is not part of the value and is not copied or pickled.
 
     >>> from linear_theory import Sheet, SineWave, crawl_speed
     >>> speed = crawl_speed(Sheet(), SineWave(), alpha=0.25, rtol=1e-3)
@@ -97,15 +98,16 @@ class CrawlSpeed(Drawable, Tabular):
     sticks: bool = False
     turning: RigidSpeed | None = None
     beyond_reach: str = ""
+    wave_error: float = 0.0
     deformation: "Deformation | None" = field(default=None, repr=False, compare=False)
 
     def __getstate__(self) -> dict[str, Any]:
-        """Without the deformation: a speed that travels between processes is numbers only."""
+        """The state without the deformation: a pickled speed contains numbers only."""
         return self.__dict__ | {"deformation": None}
 
     @classmethod
     def steady(cls, speed: float, model: str, slip_ratio: float, seconds: float = 0.0) -> "CrawlSpeed":
-        """Of a sheet that does not grow: the same at all times, and exact."""
+        """The exact, constant speed of a sheet that does not grow."""
         return cls(
             Estimate(speed, 0.0),
             0.0,
@@ -125,42 +127,42 @@ class CrawlSpeed(Drawable, Tabular):
 
     @property
     def error(self) -> float:
-        """Estimate of the numerical error of `mean`, absolute."""
+        """Estimated numerical error of `mean`, absolute."""
         return self.estimate.error
 
     @property
     def rigid(self) -> Array | None:
-        """V_x, V_y, Omega through the period, (3, T), where the motion is not mirror symmetric."""
+        """V_x, V_y, Omega over the period, (3, T), if the motion is not mirror symmetric."""
         return None if self.turning is None else self.turning.velocity
 
     @property
     def rigid_mean(self) -> Array | None:
-        """Their means, (3,)."""
+        """Means of V_x, V_y, Omega, (3,)."""
         return None if self.turning is None else self.turning.mean
 
     @property
     def rigid_error(self) -> Array | None:
-        """Estimates of the numerical errors of the means, (3,)."""
+        """Estimated numerical errors of `rigid_mean`, (3,)."""
         return None if self.turning is None else self.turning.error
 
     @property
     def regime(self) -> Regime:
-        """Friction as the sheet meets it: "dry", "mixed", "viscous", or "none" where there is none."""
+        """Friction regime by `slip_ratio`: "dry", "mixed", "viscous", or "none" without friction."""
         return regime_of(self.slip_ratio)
 
     @property
     def reach(self) -> str:
-        """What the answer says of the nonlinear sheet, in words."""
+        """Relation of the speed to that of the nonlinear sheet, in words."""
         if self.beyond_reach:
             return f"beyond the reach of the theory: {self.beyond_reach}"
         if np.isnan(self.model_error):
-            return "distance to the nonlinear sheet not known"
+            return "distance to the nonlinear sheet unknown"
         if self.model_error == 0:
-            return "no distance to the nonlinear sheet"
+            return "agrees with the nonlinear sheet"
         return f"within {self.model_error:.1g} of the nonlinear sheet"
 
     def _contents(self) -> Mapping[str, Any]:
-        """By the names that programs read, the groups spread out."""
+        """Values under the names that programs read, with groups flattened."""
         parts = dict(super()._contents())
         del parts["estimate"], parts["turning"]
         rigid = {name: getattr(self, name) for name in ("rigid", "rigid_mean", "rigid_error")}
@@ -170,10 +172,12 @@ class CrawlSpeed(Drawable, Tabular):
         return f"CrawlSpeed: {speed_in_words(self.mean, self.error, self.converged)}"
 
     def _rows(self) -> Mapping[str, Any]:
-        """All but what the title says and what was not computed."""
+        """All values except those in the title and those not computed."""
         ratio = "" if np.isnan(self.slip_ratio) else f", slip ratio {self.slip_ratio:.3g}"
         first = {"model_error": self.model_error, "regime": f"{self.regime}{ratio}"}
         rest = {name: v for name, v in self._contents().items() if name not in TOLD and _is_there(v)}
+        if not self.wave_error:
+            del rest["wave_error"]
         return {**first, **rest}
 
     def _columns(self) -> Sequence[Column]:
@@ -190,17 +194,17 @@ class CrawlSpeed(Drawable, Tabular):
 
 
 TOLD = ("mean", "error", "converged", "model_error", "slip_ratio")
-"""What the title of a speed and its first rows say."""
+"""Values shown in the title of a speed and its first rows."""
 
 
 def speed_in_words(mean: float, error: float, converged: bool) -> str:
-    """A mean speed with its error and direction, and whether its tolerance was met."""
+    """A mean speed with its error and direction, and whether it converged."""
     met = "converged" if converged else "NOT converged"
     return f"mean {with_error(mean, error)} length/time, {direction(mean, error)}, {met}"
 
 
 def direction(mean: float, error: float) -> str:
-    """Which way a speed goes, where its error leaves no doubt."""
+    """Direction of a speed, if its error resolves the sign."""
     if mean == 0 and error == 0:
         return "at rest"
     if not abs(mean) > error:
@@ -209,7 +213,7 @@ def direction(mean: float, error: float) -> str:
 
 
 def _is_there(value: Any) -> bool:
-    """Whether a field says more than that it was not computed, or is not so."""
+    """Whether a field has a value other than None, NaN, False or empty."""
     if isinstance(value, float):
         return not np.isnan(value)
     return value is not None and value is not False and not (isinstance(value, str) and not value)

@@ -1,24 +1,25 @@
 """The speed of a nonlinear sheet to second order in the growth coupling, V = V_1 alpha + V_2 alpha^2.
 
 With v = alpha v_1 + alpha^2 v_2 from `second_field`, load 1 + alpha e and V = alpha q_0 + alpha^2 q_1
-the balance of friction says, at its first and second order,
+the friction balance is, at first and second order,
 
     int f(|w|) w/|w| . R dA = 0,                                   w = v_1 + q_0,
     int [D(w) (v_2 + q_1) + e f(|w|) w/|w|] . R dA = 0,             D(w) = d(f(|w|) w/|w|)/dw.
 
-For waves that are not mirror symmetric in x, q stands for V_x, V_y and Omega together, and displaced
-points turn: R = (-y - alpha u_y, x + alpha u_x) for the rotation about the centre of mass, so that v_2
-is joined by Omega_0 (-u_y, u_x), and the moment by the force of first order times that arm.
+For waves without mirror symmetry in x, q stands for V_x, V_y and Omega, and the displaced points
+rotate: R = (-y - alpha u_y, x + alpha u_x) for the rotation about the centre of mass, so that
+Omega_0 (-u_y, u_x) is added to v_2, and the first-order force times that arm to the moment.
 
 V_x and V_y are the velocity of the centre of mass (of the undeformed area) along the axes of the body,
-Omega the rate at which these axes turn, with the mean deformation gradient: see `second_field`, and
+Omega the rate at which these axes rotate, with the mean deformation gradient: see `second_field`, and
 `fem_check/shell/cycle/frame.py` for the same frame of a nonlinear sheet. Another choice of axes would
-change V_x and V_y at order alpha^2. Means of V_x, V_y are not the drift over the ground, which Omega
-turns.
+change V_x and V_y at order alpha^2. Because the axes rotate with Omega, the means of V_x and V_y are
+not the drift over the ground.
 
-For dry friction D(w) is of size 1/|w|: at the few points where w = 0 that is integrable in the plane.
-The cells are halved towards these points until the rest, of size the square root of the area of the
-last cell, is below the tolerance (`period.first_resolution`); V_1 and V_2 are the means of q_0 and q_1.
+For dry friction D(w) is of order 1/|w|, an integrable singularity in the plane at the few stagnation
+points w = 0. The cells are halved towards these points until the error, proportional to the square root
+of the area of the last cell, is below the tolerance (`period.first_resolution`); V_1 and V_2 are the
+means of q_0 and q_1.
 """
 
 import math
@@ -30,14 +31,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linear_theory.balance.balance import RigidMotion
-from linear_theory.balance.period import Crawl, Period, average, first_resolution
+from linear_theory.balance.crawl import Crawl, first_resolution
+from linear_theory.balance.period import Period, average
 from linear_theory.common import validation
 from linear_theory.common.shown import Shown, with_error
 from linear_theory.common.threads import one_blas_thread
 from linear_theory.common.tolerance import Tolerance
 from linear_theory.deformation.second.field import SecondOrderField, second_order_field
 from linear_theory.friction.contact import Contact
-from linear_theory.friction.laws import FrictionLaw
+from linear_theory.friction.law import FrictionLaw
 from linear_theory.friction.load import Load
 from linear_theory.growth.growth import Reference
 from linear_theory.growth.laws import GrowthLaw
@@ -53,20 +55,20 @@ from linear_theory.wave.protocol import Wave
 Array = NDArray[np.float64]
 
 TINY_ALPHA = 1e-9
-"""At which the balance is solved: what is neglected is of this relative size."""
+"""The alpha at which the balance is solved; neglected terms are of this relative size."""
 
 MORE_HALVINGS = 8
-"""Of cells, than an alpha that is not tiny asks for: a point at rest next to which a cell is not halved
-enough makes q_1(t) uneven, and the mean over time would then be refined in vain."""
+"""Additional halvings of cells compared with an alpha that is not tiny: cells too coarse at a
+stagnation point make q_1(t) rough, and the mean over time would then be refined in vain."""
 
 POINTS = 33
-"""Points per direction at which growth of any shape is checked."""
+"""Points per direction at which growth of any form is checked."""
 
 FIELD_SHARE = 0.1
-"""Of rtol, for the deformation: it costs little."""
+"""Fraction of rtol allotted to the deformation, small because accuracy is cheap there."""
 
 FIRST_SHARE, SECOND_SHARE = 0.02, 1.2
-"""Of the error of the velocity, what at most reaches V_1 (see `Crawl.field_error`) and V_2."""
+"""Bounds of the errors of V_1 (see `Crawl.field_error`) and V_2 relative to that of the velocity."""
 
 
 class _Orders(NamedTuple):
@@ -83,14 +85,15 @@ class _Orders(NamedTuple):
 
 
 class SecondOrder(Shown, _Orders):
-    """Coefficients of V = first alpha + second alpha^2 + ..., length/time, and their errors, absolute.
+    """Coefficients in V = first alpha + second alpha^2 + ..., length/time, and their absolute errors.
 
-    first is 0 where c(t + T/2) = -c(t). second is NaN, its error infinite, where at some time part of
-    the sheet is at rest, since V is not smooth in alpha then.
-    seconds: time spent; model: what is assumed, in words.
-    rigid_first, rigid_second (3,): coefficients of the means of V_x, V_y (these are first and second
-    again) and of Omega (1/time, anticlockwise), in the frame of the body, see the module's head;
-    rigid_first_error, rigid_second_error (3,): their errors. V_x and Omega are 0 for mirrored motions.
+    first is 0 if c(t + T/2) = -c(t). second is NaN, with infinite error, if part of the sheet is at
+    rest at some time, since V is then not smooth in alpha.
+    seconds: computing time; model: assumptions, in words.
+    rigid_first, rigid_second (3,): coefficients of the means of V_x, V_y (equal to first and second)
+    and of Omega (1/time, anticlockwise), in the frame of the body, see the module docstring;
+    rigid_first_error, rigid_second_error (3,): their errors. For mirror-symmetric motions V_x and Omega
+    are 0.
 
     >>> from linear_theory import Sheet, SineWave, second_order
     >>> found = second_order(Sheet(), SineWave(), rtol=1e-2)
@@ -104,17 +107,17 @@ class SecondOrder(Shown, _Orders):
         return f"SecondOrder: V = ({first}) alpha + ({second}) alpha^2, length/time"
 
     def rigid_mean(self, alpha: float) -> Array:
-        """Means of V_x, V_y, Omega at one alpha, (3,)."""
+        """Means of V_x, V_y, Omega at a given alpha, (3,)."""
         return np.asarray(alpha * self.rigid_first + alpha**2 * self.rigid_second)
 
     def rigid_error(self, alpha: float) -> Array:
-        """Their errors, (3,)."""
+        """Errors of `rigid_mean`, (3,)."""
         return np.asarray(abs(alpha) * self.rigid_first_error + alpha**2 * self.rigid_second_error)
 
 
 @dataclass(frozen=True)
 class _Coefficients(Crawl):
-    """The balance of which q_1 alone counts."""
+    """The balance with q_1 alone as counted motion."""
 
     field: SecondOrderField
 
@@ -124,7 +127,7 @@ class _Coefficients(Crawl):
         return False
 
     def field_error(self, motion: RigidMotion) -> float:
-        """What the errors of u_1 and u_2 do to V_2."""
+        """Error of V_2 due to the errors of u_1 and u_2."""
         return self.alpha**2 * _second_field_error(self.field, motion.fastest)
 
 
@@ -139,20 +142,22 @@ def second_order(
     slip_speed: float | None = None,
     rtol: float = 1e-3,
 ) -> SecondOrder:
-    """Coefficients of the mean speed of a stiff, planar, nonlinear sheet for small growth.
+    """Leading coefficients of the mean speed of a stiff, planar, nonlinear sheet for small growth.
 
     They are those of the planar Koiter membrane (eq. 1a), not of a linear theory: for a sine wave,
-    first = 0 and second is the limit of V/alpha^2. How far in alpha two orders reach they do not say.
+    first = 0 and second is the limit of V/alpha^2. They carry no information on the range of validity
+    in alpha.
 
-    sheet, wave: any wave; or a planar `Scene`, whose alpha does not count. growth_law: of lengths,
-    "exp" exp(alpha c) unless given, "linear" 1 + alpha c or "metric" (1 + 2 alpha c)^(1/2); area: in
-    which energy is counted, "grown" unless given, or "undeformed"; load: "current" unless given,
-    "grown" or "material" (see `Load`); friction: "coulomb" unless given, "viscous", or "tanh" with
-    slip_speed. slip_speed: length per time *and unit |alpha|*, since what stays fixed as alpha -> 0 is
-    its ratio to the speeds. `crawl_speed(order=2, alpha=a, slip_speed=s)` takes a speed and looks s/|a|
-    up here. rtol: of `second`, whose error is to be below max(rtol |second|, 0.01 rtol L/T); where the
-    motion is not mirror symmetric, of the size of rigid_second (see `rigid.RigidNorm`). A miss shows in
-    the errors. All else comes with the same cells and times.
+    sheet, wave: any wave; or a planar `Scene`, whose alpha only converts its slip speed. growth_law:
+    the stretch, "exp" exp(alpha c) by default, "linear" 1 + alpha c or "metric" (1 + 2 alpha c)^(1/2);
+    area: reference area of the elastic energy density, "grown" by default, or "undeformed"; load:
+    normal load, "current" by default, "grown" or "material" (see `Load`); friction: "coulomb" by
+    default, "viscous", or "tanh" with slip_speed. slip_speed: length per time *and unit |alpha|*, since
+    its ratio to the speeds stays fixed as alpha -> 0. `crawl_speed(order=2, alpha=a, slip_speed=s)`
+    takes a speed and uses s/|a| here. rtol: tolerance for `second`, whose error should be below
+    max(rtol |second|, 0.01 rtol L/T); without mirror symmetry, for the norm of rigid_second (see
+    `rigid.RigidNorm`). A missed tolerance shows in the errors. The other coefficients are computed with
+    the same cells and times.
 
     Raises ValueError for bad input.
 
@@ -171,18 +176,33 @@ def second_order(
     THEORY.require(scene)
     rtol = validation.tolerance(rtol)
     field = second_order_field(scene.sheet, scene.wave, scene.growth, field_tolerance(rtol))
-    return coefficients(field, leading_period(field, scene.contact, rtol), scene.contact, start)
+    own = isinstance(sheet, Scene) and friction is None and slip_speed is None
+    contact = _per_alpha(scene) if own else scene.contact
+    return coefficients(field, leading_period(field, contact, rtol), contact, start)
+
+
+def _per_alpha(scene: Scene) -> Contact:
+    """The contact with its friction law for speeds per unit |alpha|.
+
+    Raises ValueError for a law that has a slip speed where alpha = 0: there is no such ratio then.
+    """
+    law = scene.contact.friction
+    if scene.alpha == 0 and law.regularised:
+        raise ValueError(
+            f"alpha = 0: must not be 0 for {law.words}, whose slip speed counts per unit |alpha|"
+        )
+    return replace(scene.contact, friction=law.scaled(abs(scene.alpha) or 1.0))
 
 
 def field_tolerance(rtol: float) -> float:
-    """Of the deformation, whose error is then a small part of that of V_2."""
+    """Tolerance of the deformation, so that its error is a small part of that of V_2."""
     return max(FIELD_SHARE * rtol, validation.SMALLEST_RTOL)
 
 
 def leading_period(field: SecondOrderField, contact: Contact, rtol: float) -> Period:
-    """A period of motion at TINY_ALPHA, whose mean and error are those of second order alone.
+    """A period of motion at TINY_ALPHA, with the mean and error of second order alone.
 
-    contact: with a law of friction for speeds per unit alpha.
+    contact: with a friction law for speeds per unit alpha.
     """
     unit = field.sheet.length / field.drive.period
     tolerance = Tolerance(rtol, 1e-2 * rtol * TINY_ALPHA**2 * unit)
@@ -196,9 +216,9 @@ def leading_period(field: SecondOrderField, contact: Contact, rtol: float) -> Pe
 def coefficients(
     field: SecondOrderField, period: Period, contact: Contact, start: float
 ) -> SecondOrder:
-    """Means of q_0 and q_1 and their errors; start: of the time that is counted."""
+    """Means of q_0 and q_1 and their errors; start: time at which the computation began."""
     first, second = period.means
-    first_error, second_error = period.mean_errors + field_errors(field, period)
+    first_error, second_error = period.mean_errors + field_errors(field, period, contact)
     if period.sticks:
         second, second_error = np.full(3, math.nan), np.full(3, math.inf)
     return SecondOrder(
@@ -215,29 +235,30 @@ def coefficients(
     )
 
 
-def field_errors(field: SecondOrderField, period: Period) -> Array:
+def field_errors(field: SecondOrderField, period: Period, contact: Contact) -> Array:
     """What the errors of u_1 and u_2 do to V_x, V_y, Omega of first and second order, (2, 3).
 
-    Nothing where symmetry makes them 0.
+    0 where the motion vanishes by symmetry.
     """
     fastest = period.fastest / TINY_ALPHA
-    first = 0.0 if field.drive.changes_sign else FIRST_SHARE * field.error * fastest
-    norm = RigidNorm(field.gyration, field.mirrored)
+    even = contact.friction.even
+    first = 0.0 if field.drive.changes_sign and even else FIRST_SHARE * field.error * fastest
+    norm = RigidNorm(field.gyration, field.mirrored and even)
     return np.stack([norm.each(first), norm.each(_second_field_error(field, fastest))])
 
 
 def _second_field_error(field: SecondOrderField, fastest: float) -> float:
-    """What the errors of u_1 and u_2 do to V_2.
+    """Error of V_2 due to the errors of u_1 and u_2.
 
-    At single times met were factors up to 1.1 where SECOND_SHARE stands (widths from 0.1 L to 2 L,
-    one and two waves, all loads); most are below 0.1.
+    The factors measured at single times are at most 1.1, against SECOND_SHARE used here (widths from
+    0.1 L to 2 L, one and two waves, all loads); most are below 0.1.
     """
     return SECOND_SHARE * (field.error * fastest + field.second_error * field.second_speed)
 
 
 @one_blas_thread
 def second_order_speed(scene: Scene, tolerance: Tolerance) -> CrawlSpeed:
-    """V_1 alpha + V_2 alpha^2 of a planar scene; results and errors are those of `crawl_speed`."""
+    """V_1 alpha + V_2 alpha^2 for a planar scene; result and errors as in `crawl_speed`."""
     start, alpha, contact = time.perf_counter(), scene.alpha, scene.contact
     tolerance, law = tolerance.of_speed(alpha, scene.unit), contact.friction
     per_alpha = replace(contact, friction=law.scaled(abs(alpha) or 1.0))
@@ -246,10 +267,11 @@ def second_order_speed(scene: Scene, tolerance: Tolerance) -> CrawlSpeed:
     scene.growth.law.check(alpha, scene.drive.growths(*_points(scene.sheet)))
     period = leading_period(field, per_alpha, rtol)
     both = coefficients(field, period, contact, start)
-    norm = RigidNorm(field.gyration, field.mirrored)
+    mirrored = field.mirrored and law.even
+    norm = RigidNorm(field.gyration, mirrored)
     fastest = abs(alpha) * period.fastest / TINY_ALPHA
     found = replace(
-        speed_at(alpha, both, period, field.mirrored),
+        speed_at(alpha, both, period, mirrored),
         converged=norm.meets(both.rigid_mean(alpha), both.rigid_error(alpha), tolerance),
         slip_ratio=law.slip_ratio(fastest),
         seconds=time.perf_counter() - start,
@@ -259,7 +281,7 @@ def second_order_speed(scene: Scene, tolerance: Tolerance) -> CrawlSpeed:
 
 
 def speed_at(alpha: float, found: SecondOrder, period: Period, mirrored: bool) -> CrawlSpeed:
-    """What coefficients say at one alpha, without any judgement of it."""
+    """The speed from the coefficients at a given alpha, without a check of its validity."""
     rigid = alpha * period.orders[0] + alpha**2 * period.orders[1]
     turning = RigidSpeed(rigid, found.rigid_mean(alpha), found.rigid_error(alpha))
     return CrawlSpeed(

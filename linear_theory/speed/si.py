@@ -14,7 +14,7 @@ Number = TypeVar("Number", float, NDArray[np.float64])
 
 @dataclass(frozen=True)
 class Scale(Value):
-    """What L = 1 and T = 1 stand for: a sheet of `length_m` metres, a wave of `period_s` seconds.
+    """Scales in SI units: L = `length_m` metres, the length of the sheet, T = `period_s` seconds.
 
     Its methods take numbers and arrays in L and T. Raises ValueError unless both are finite and
     positive.

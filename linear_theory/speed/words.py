@@ -1,11 +1,11 @@
-"""What an answer assumes, in one line: `CrawlSpeed.model`."""
+"""Assumptions of a result in one line: `CrawlSpeed.model`."""
 
 from linear_theory.friction.contact import Contact
 from linear_theory.growth.growth import Growth
 
 
 def model_words(shape: str, growth: Growth | None, contact: Contact | None, *remarks: str) -> str:
-    """How the shape is found, how it grows where that matters, remarks, load and friction if there are.
+    """The method for the shape, the growth (if relevant), remarks, and (if any) load and friction.
 
     >>> from linear_theory import Contact, Growth, Tanh
     >>> print(model_words("static shapes", Growth(0.1), Contact(friction=Tanh(0.02))))
@@ -15,7 +15,7 @@ def model_words(shape: str, growth: Growth | None, contact: Contact | None, *rem
     if growth is not None:
         parts += [f"growth law {growth.law.name}", f"energy per {growth.energy_area} area"]
     if contact is not None and contact.slope:
-        parts.append(f"on a slope of {contact.slope:g} of its friction")
+        parts.append(f"on a slope of {contact.slope:g} times its friction")
     parts += filter(None, remarks)
     if contact is not None:
         parts += [f"{contact.load} load", contact.friction.words]

@@ -1,1 +1,1 @@
-"""Waves of growth, travelling or given, and what drives a body: a wave on it (`protocol.Drive`)."""
+"""Waves of growth, travelling or general, and waves on a body (`protocol.Drive`)."""

@@ -1,4 +1,4 @@
-"""The checks of sheets and waves that every public function makes first."""
+"""Checks of sheets and waves, made first by every public function."""
 
 from typing import Any
 
@@ -7,33 +7,33 @@ from linear_theory.sheet.rectangle import Sheet
 from linear_theory.wave.protocol import Wave
 
 WAVE_PARTS = ("period", "value", "rate")
-"""What makes an object a wave, see `protocol.Wave`."""
+"""Attributes that define a wave, see `protocol.Wave`."""
 
 
 def sheet(value: object, name: str = "sheet") -> Sheet:
-    """`value`, which must be a Sheet. Raises ValueError that says what to do with anything else."""
+    """`value`, which must be a Sheet. Raises ValueError, with a remedy, for anything else."""
     hint = ""
     if value is Sheet:
         hint = "write Sheet()"
     elif _is_wave(value):
-        hint = "a wave stands in its place, the order is sheet, wave, alpha"
+        hint = "a wave was given; the arguments are sheet, wave, alpha"
     elif hasattr(value, "corners") and hasattr(value, "mesh"):
-        hint = "an outline goes to plane_stress_field, or into Scene(..., mesh=outline.mesh(size))"
+        hint = "pass an outline to plane_stress_field, or to Scene(..., mesh=outline.mesh(size))"
     return validation.instance(name, value, Sheet, hint)
 
 
 def wave(value: Any, name: str = "wave") -> Wave:
-    """`value`, which must have what `protocol.Wave` asks for. Raises ValueError otherwise."""
+    """`value`, which must satisfy `protocol.Wave`. Raises ValueError otherwise."""
     if _is_wave(value):
         validation.positive(f"{name}.period", value.period)
         return value
     hint = "must be a SineWave, a TravellingWave or a FieldWave"
     if isinstance(value, type):
-        hint += f"; make one of it, {value.__name__}(...)"
+        hint += f"; a class was given, use an instance, {value.__name__}(...)"
     elif isinstance(value, Sheet):
-        hint += "; a sheet stands in its place, the order is sheet, wave, alpha"
+        hint += "; a sheet was given; the arguments are sheet, wave, alpha"
     elif callable(value):
-        hint += "; FieldWave(function, period) makes one of a function of x, y, t"
+        hint += "; for a function of x, y, t use FieldWave(function, period)"
     else:
         missing = ", ".join(part for part in WAVE_PARTS if not hasattr(value, part))
         hint += f", or have their {', '.join(WAVE_PARTS)} (no {missing})"
@@ -41,5 +41,5 @@ def wave(value: Any, name: str = "wave") -> Wave:
 
 
 def _is_wave(value: object) -> bool:
-    """Whether it is an object, and no class, with all parts of a wave."""
+    """Whether a value is an instance, not a class, with all attributes of a wave."""
     return not isinstance(value, type) and all(hasattr(value, part) for part in WAVE_PARTS)

@@ -1,4 +1,4 @@
-"""A wave of growth c(x, y, t) of any shape, given by a function."""
+"""A general wave of growth c(x, y, t), given by a function."""
 
 import copy
 import math
@@ -21,12 +21,12 @@ Array = NDArray[np.float64]
 Growth = Callable[[Any, Any, Any], ArrayLike]
 
 STEP, HARMONIC = 1 / 512, 10
-"""Step of the difference quotient in periods; the k-th harmonic in time is right to about
-(2 pi k STEP)**8 / 630 (4e-11 at k = HARMONIC), roundoff adds 1e-14 of the fundamental's rate."""
+"""Step of the difference quotient in periods. The relative error of the k-th harmonic in time is about
+(2 pi k STEP)**8 / 630 (4e-11 at k = HARMONIC); roundoff adds 1e-14 of the fundamental's rate."""
 
 FINE_SHARES = 1e-6, 1e-4
-"""Of dc/dt, that may lie in harmonics for which a rate by differences is not made fine enough: the
-first where it is known; a wave with kinks has neither."""
+"""Fraction of dc/dt that may lie in harmonics beyond the accuracy of a rate by differences: the first
+value if that fraction is known; a wave with kinks satisfies neither."""
 
 DIFFERENCE = {1: 4 / 5, 2: -1 / 5, 3: 4 / 105, 4: -1 / 280}
 """Weights of (c(t + j h) - c(t - j h))/h in the central difference of eighth order."""
@@ -35,20 +35,20 @@ DIFFERENCE = {1: 4 / 5, 2: -1 / 5, 3: 4 / 105, 4: -1 / 280}
 class FieldWave(Value):
     """c(x, y, t) = value(x, y, t) in the coordinates of the sheet (origin at its centre).
 
-    value: takes arrays x, y (units of length) and t that broadcast, returns c, dimensionless, of
-    their common shape (or one that broadcasts to it); period in units of time, c must repeat after
-    it. rate: dc/dt likewise; left out, it is a central difference of eighth order (see STEP), whose
-    step solvers make shorter for waves of high harmonics. They refuse a wave that does not repeat after
-    its period, and a rate that is not the derivative of value. name: what the functions are known by
-    where a wave is to be known again, as in a snapshot of a run, and their code does not tell (see
-    `identity.content_key`); another function must have another name.
+    value: function of arrays x, y (units of length) and t that broadcast; returns c, dimensionless, of
+    their common shape (or one that broadcasts to it). period: time after which c repeats. rate: dc/dt,
+    same arguments; by default a central difference of eighth order (see STEP), whose step solvers
+    reduce for waves with high harmonics. Solvers refuse a wave that does not repeat after its period,
+    and a rate that is not the derivative of value. name: identifies the functions, for instance in a
+    snapshot of a run, where their code cannot (see `identity.content_key`); different functions must
+    have different names.
 
-    Waves are equal where their functions have the same content, or their names are the same, and so are
-    their periods; a function whose content is not known is equal to itself alone.
+    Waves are equal if their periods are equal and their functions have the same content or the same
+    name; a function that cannot be identified by its content is equal only to itself.
 
-    Raises ValueError for a period that is not finite and positive, a value or rate that cannot be
-    called, a name that is no text, and, once they are called, for results that are not finite, real and
-    of that shape.
+    Raises ValueError for a period that is not finite and positive, a value or rate that is not
+    callable, a name that is not text, and, when they are called, for results that are not finite, real
+    and of that shape.
 
     >>> import numpy as np
     >>> from linear_theory import FieldWave
@@ -67,7 +67,7 @@ class FieldWave(Value):
         self.name = None if name is None else validation.label("name", name)
 
     def identified_by(self) -> object:
-        """What its content key is made of."""
+        """The content from which its key is computed."""
         functions = (self._value, self._rate) if self.name is None else self.name
         return functions, self.period
 
@@ -82,7 +82,7 @@ class FieldWave(Value):
             return False
 
     def __hash__(self) -> int:
-        """Not of the functions, whose content follows the arrays and names that they read."""
+        """Hash without the functions, whose content changes with the arrays and names they read."""
         return hash((self.period, self.name))
 
     def _contents(self) -> Mapping[str, Any]:
@@ -93,11 +93,11 @@ class FieldWave(Value):
 
     @property
     def differenced(self) -> bool:
-        """Whether the rate is a difference of values."""
+        """Whether the rate is computed by differences of values."""
         return self._rate is None
 
     def resolving(self, harmonic: float) -> "FieldWave":
-        """The same wave, its rate as accurate up to that harmonic in time as else up to HARMONIC."""
+        """The same wave, with the rate as accurate up to this harmonic as by default up to HARMONIC."""
         if not self.differenced or harmonic <= HARMONIC:
             return self
         finer = FieldWave(self._value, self._period, name=self.name)
@@ -105,7 +105,7 @@ class FieldWave(Value):
         return finer
 
     def on(self, sheet: Sheet, places: Places | None = None) -> "FieldDrive":
-        """The wave on a body within that rectangle; places: of another outline, see `protocol.Wave`."""
+        """The wave on a body within that rectangle; places: points of its outline, see `Wave`."""
         return FieldDrive(self, sheet, places)
 
     @property
@@ -114,7 +114,7 @@ class FieldWave(Value):
         return self._period
 
     def value(self, x: ArrayLike, y: ArrayLike, t: ArrayLike, length: float = 1.0) -> Array:
-        """c; x, y, t broadcast. The function knows the sheet: `length` has no effect."""
+        """c; x, y, t broadcast. The function is in units of length: `length` has no effect."""
         return _evaluate("value", self._value, x, y, t)
 
     def rate(self, x: ArrayLike, y: ArrayLike, t: ArrayLike, length: float = 1.0) -> Array:
@@ -131,17 +131,17 @@ class FieldWave(Value):
 
 
 class FieldDrive(SampledDrive):
-    """A given wave on a body; made by `FieldWave.on`. A rate by differences is right, if not fine."""
+    """A general wave on a body; returned by `FieldWave.on`. Differences have the default step."""
 
     wave: FieldWave
 
     @cached_property
     def fine(self) -> "FieldDrive":
-        """With a rate as fine as the harmonics of the wave ask for, where it is a difference."""
+        """The drive with the step of a rate by differences adapted to the harmonics of the wave."""
         if not self.wave.differenced:
             return self
         known = [h for h in map(self.rates.highest, FINE_SHARES) if h < math.inf]
-        finer = copy.copy(self)  # with all that was seen of the values, which are the same
+        finer = copy.copy(self)  # with the cached samples of the values, which are the same
         finer.wave = self.wave.resolving(known[0]) if known else self.wave
         return finer
 

@@ -1,4 +1,4 @@
-"""Times at which a periodic wave is looked at."""
+"""Times at which a periodic wave is sampled."""
 
 import math
 
@@ -9,9 +9,9 @@ Array = NDArray[np.float64]
 
 
 def phases(period: float, count: int) -> Array:
-    """Times in [0, period), ascending, (count,), at which errors are estimated: evenly, on no grid.
+    """Ascending times in [0, period), (count,), for error estimates: evenly distributed, not a grid.
 
-    Multiples of the golden section: no harmonic has the same value at all of them, and a front that
-    travels lies on the lines of a mesh at no two.
+    Multiples of the golden ratio: no harmonic has the same value at all of them, and a travelling front
+    lies on a mesh line at one of them at most.
     """
     return period * np.sort(np.arange(1, count + 1) * (math.sqrt(5) - 1) / 2 % 1)

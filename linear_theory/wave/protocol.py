@@ -1,12 +1,12 @@
-"""What drives a sheet: a wave of growth c(x, y, t), and that wave on a body of known length.
+"""A wave of growth c(x, y, t), and the drive: that wave on a body of known length.
 
-A user gives a `Wave`: values, their rate and a period. All who solve something for it ask its `Drive`
-on their body: values there, symmetries, the shortest scales in space and time. What is known exactly
-and what must be looked for in samples is settled once, by the wave itself (see `sampled.drive`).
+A user gives a `Wave`: values, rate and period. Solvers use its `Drive` on their body: values there,
+symmetries, the shortest scales in space and time. The wave itself decides which of these are known
+exactly and which are estimated from samples (see `sampled.drive`).
 
-Solvers see a wave at some times and places only, and what lies between can hide: N equidistant times do
-not tell a harmonic k from k - N, so that doublings of N agree on a wrong answer. Velocities follow
-dc/dt, so that harmonics in time are weighed by their shares of that rate.
+Solvers sample a wave at discrete times and points and can miss features in between: on N equidistant
+times a harmonic k aliases to k - N, so that results for N and 2 N may agree on a wrong answer.
+Velocities are proportional to dc/dt, so that harmonics in time are weighted by their part of that rate.
 """
 
 import math
@@ -27,20 +27,21 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 PER_HARMONIC = 5
-"""Times to a period of a harmonic with which it is seen: two, and every second of four, can all fall on
+"""Times per period needed to resolve a harmonic: two, and every second of four, can all coincide with
 its zeros."""
 
 FAINT, FEW = 0.1, 0.01
-"""Shares of a wave that may be shorter than `short_waves`, since cells have several points, and than
-`waves_along`, after which meshes are chosen unless they are given: their errors are estimated."""
+"""Fractions of a wave that may lie in wavelengths shorter than `short_waves` (cells have several
+points) and than `waves_along` (for default meshes, whose error is estimated)."""
 
 
 class Wave(Protocol):
-    """What a user must give: c(x, y, t), its rate and its period.
+    """A wave as given by the user: c(x, y, t), its rate and its period.
 
-    A wave that knows more of itself has `on(sheet, places=None)`, too, which returns its `Drive` on a
-    body. sheet: the rectangle around the body; places: x and y (n,) of points all over it where it is
-    not the whole rectangle, to look at the wave there.
+    A wave with further information also has `on(sheet, places=None)`, which returns its `Drive` on a
+    body. sheet: the rectangle around the body; places: x and y (n,) of points distributed over a body
+    that is not the whole rectangle, at which the wave is sampled. One that is not known exactly has
+    `uncertainty`, which the errors of speeds include (see `uncertain`).
     """
 
     @property
@@ -51,19 +52,19 @@ class Wave(Protocol):
         """Growth c on a sheet of that length."""
 
     def rate(self, x: ArrayLike, y: ArrayLike, t: ArrayLike, length: float = 1.0) -> Array:
-        """Its time derivative."""
+        """Time derivative dc/dt on a sheet of that length."""
 
 
 class Drive(Shown, ABC):
-    """A wave on a body: all that solvers ask of c(x, y, t).
+    """A wave on a body: the information on c(x, y, t) needed by solvers.
 
-    wave: what is driven with; sheet: the rectangle around the body. Points x, y (units of length) and
-    times t broadcast. series: the travelling wave that c is, whose harmonics in time are the load cases
-    of an elastic problem; None where c is no such series. mirrored: whether c(-x, y, t) = c(x, y, t) is
-    known, so that half of a symmetric body will do. has_state: whether c comes of an equation in time
-    and must be brought on by `advance`; no wave so far.
+    wave: the wave; sheet: the rectangle around the body. Points x, y (units of length) and times t
+    broadcast. series: c as a travelling wave, whose harmonics in time are the load cases of an elastic
+    problem; None if c is not such a series. mirrored: whether c(-x, y, t) = c(x, y, t) is known, so
+    that half of a symmetric body suffices. has_state: whether c is the solution of an evolution
+    equation and must be advanced in time by `advance`; no wave so far.
 
-    What has an answer here is that of a wave of which nothing is known.
+    The defaults given here are those of a wave without further information.
 
     >>> from linear_theory import Sheet, SineWave
     >>> drive = SineWave(count=2).on(Sheet(length=3.0))
@@ -83,7 +84,7 @@ class Drive(Shown, ABC):
 
     @property
     def period(self) -> float:
-        """Time after which c repeats; all levels so far need one, also of a wave that has a state."""
+        """Time after which c repeats, required by all levels so far, even for a wave with a state."""
         return float(self.wave.period)
 
     def value(self, x: ArrayLike, y: ArrayLike, t: ArrayLike) -> Array:
@@ -95,12 +96,12 @@ class Drive(Shown, ABC):
         return self.wave.rate(x, y, t, self.sheet.length)
 
     def advance(self, t: float) -> "Drive":
-        """The drive whose state is known up to time t: itself where c is a function of time."""
+        """The drive with its state advanced to time t; the same object if c is a function of time."""
         return self
 
     @property
     def fine(self) -> "Drive":
-        """The drive whose rate, where it is a difference of values, is as fine as its harmonics ask."""
+        """The drive with the step of a rate by differences adapted to the harmonics of the wave."""
         return self
 
     @property
@@ -110,13 +111,13 @@ class Drive(Shown, ABC):
 
     @property
     def reversal_time(self) -> float | None:
-        """t_0 with c(-y, t_0 - t) = c(y, t), so that V(t_0 - t) = V(t); None where none is known."""
+        """t_0 with c(-y, t_0 - t) = c(y, t), so that V(t_0 - t) = V(t); None if none is known."""
         return None
 
     @property
     @abstractmethod
     def depends_on_x(self) -> bool:
-        """Whether c is another one off the axis x = 0."""
+        """Whether c off the axis x = 0 differs from that on it."""
 
     @property
     @abstractmethod
@@ -126,49 +127,49 @@ class Drive(Shown, ABC):
     @property
     @abstractmethod
     def rates(self) -> Spectrum:
-        """Root mean squares of the harmonics in time of dc/dt, per time."""
+        """Spectrum of dc/dt in time: root mean squares of the harmonics, 1/time."""
 
     @property
     @abstractmethod
     def short_waves(self) -> tuple[int, int]:
-        """Numbers of the shortest waves that matter across and along the body, all but FAINT."""
+        """Wave numbers across and along the body up to which all of c but FAINT is resolved."""
 
     @property
     def waves_along(self) -> int:
-        """Waves along the body in which there is all but FEW of c; 1 where it is not known."""
+        """Wave number along the body up to which all of c but FEW is resolved; 1 if unknown."""
         return 1
 
     def degree_along(self, share: float) -> float:
-        """Degree of polynomials of y that carry all but that share of c; inf where it is not known."""
+        """Degree of polynomials in y that resolve c but for that fraction; inf if unknown."""
         return math.inf
 
     @abstractmethod
     def growths(self, x: Array, y: Array) -> Array:
-        """c at such places and times that no extreme of a smooth wave is left out by much.
+        """c at points and times dense enough to come close to every extremum of a smooth wave.
 
-        x, y: (n,), points of the body; not all are taken where they are many.
+        x, y: (n,), points of the body; a subset is used if there are many.
         """
 
     @abstractmethod
     def check_period(self) -> None:
-        """Raise ValueError where c does not repeat after its period."""
+        """Raise ValueError if c does not repeat after its period."""
 
     def check(self) -> None:
-        """Raise ValueError where c does not repeat after its period or `rate` is not its derivative."""
+        """Raise ValueError if c does not repeat after its period or `rate` is not its derivative."""
         self.check_period()
 
     def speed_per_rate(self, alpha: float, leading: bool) -> float:
-        """Largest V that dc/dt of root mean square 1 makes: half of the sheet grows in phase.
+        """Largest V for dc/dt of root mean square 1, with half of the sheet growing in phase.
 
-        leading: whether terms of order alpha have a mean; else V is alpha c times smaller.
+        leading: whether terms of order alpha have a non-zero mean; else V is smaller by alpha c.
         """
         size = abs(alpha) * self.sheet.length / 2
         return size if leading else size * abs(alpha) * self.size
 
     def times_for(self, rate: float) -> float:
-        """Equidistant times per period from which no more than that part of dc/dt hides; may be inf."""
+        """Equidistant times per period that resolve dc/dt but for `rate`; may be inf."""
         return PER_HARMONIC * self.rates.needed(rate)
 
     def hidden(self, step: float, steps: int = PER_HARMONIC) -> float:
-        """Root mean square of dc/dt in harmonics to a period of which there are fewer such steps."""
+        """Root mean square of dc/dt in harmonics with fewer than `steps` time steps per period."""
         return self.rates.beyond(self.period / step / steps * (1 + 1e-9))

@@ -1,7 +1,6 @@
-"""The drive of any wave: what its values at random points and times tell of it.
+"""The drive of a general wave, with its properties estimated from values at random points and times.
 
-The wave alone is looked at, in time at random points and along lines at random times, which costs
-little.
+Only the wave is sampled, in time at random points and along lines at random times, which is cheap.
 """
 
 import math
@@ -19,28 +18,28 @@ from linear_theory.wave.spectrum import Spectrum, chebyshev, fourier
 Array = NDArray[np.float64]
 
 TIMES, LINES = 192, 24
-"""Random times of the period, random lines along or across the body."""
+"""Numbers of random times in the period and of random lines along or across the body."""
 
 HARMONICS, DEGREES = (32, 4096), (16, 1024)
-"""Fewest and most samples in time and along a line; waves that jump or have kinks need more."""
+"""Smallest and largest number of samples in time and along a line; jumps and kinks would need more."""
 
 EXTREME_POINTS, EXTREME_TIMES = 2000, 64
-"""Points, at most about so many, and times at which the largest growth is looked for."""
+"""Approximate largest number of points, and number of times, at which the largest growth is sought."""
 
 REPEATS = 1e-6
-"""Share of the largest |c| by which c(t) and c(t + T) may differ."""
+"""Largest difference of c(t) and c(t + T), relative to the largest |c|."""
 
 RATE_STEPS = 1 / 512, 1 / 1024, 1 / 2048
 RATE_AGREES, RATE_RIGHT = 1e-4, 1e-3
-"""Steps, in periods, of the differences by which a rate is judged where they agree to the first of
-these shares of the largest rate; it may be off by the second."""
+"""Steps, in periods, of the differences that check a rate where they agree to the first of these
+fractions of the largest rate; the rate may deviate by the second."""
 
 CHANGES_SIGN = 1e-12
-"""Share of the largest |c| by which c(t + T/2) may differ from -c(t)."""
+"""Largest difference of c(t + T/2) and -c(t), relative to the largest |c|."""
 
 
 def drive(wave: Wave, sheet: Sheet, places: Places | None = None) -> Drive:
-    """A wave on a body: `wave.on(sheet, places)` where it has that method, else what samples tell.
+    """A wave on a body: `wave.on(sheet, places)` if it has that method, else estimated from samples.
 
     sheet: the rectangle around the body; places: points (see `Places`) of a body that is not the whole
     rectangle.
@@ -59,18 +58,18 @@ def drive(wave: Wave, sheet: Sheet, places: Places | None = None) -> Drive:
 
 
 class SampledDrive(Drive):
-    """A wave on a body, known by its values alone; x, y (points,): places at which it is looked at."""
+    """A wave on a body, known only by its values; x, y (points,): sampling points."""
 
     def __init__(self, wave: Wave, sheet: Sheet, places: Places | None = None) -> None:
         super().__init__(wave, sheet)
         self.x, self.y = on_sheet(sheet) if places is None else places
 
     def value(self, x: ArrayLike, y: ArrayLike, t: ArrayLike) -> Array:
-        """c at points of the body, spread where the wave leaves out what it does not depend on."""
+        """c at points of the body, broadcast if the wave returns a smaller shape."""
         return _spread_over(super().value(x, y, t), x, y, t)
 
     def rate(self, x: ArrayLike, y: ArrayLike, t: ArrayLike) -> Array:
-        """dc/dt likewise."""
+        """dc/dt at points of the body, broadcast in the same way."""
         return _spread_over(super().rate(x, y, t), x, y, t)
 
     @cached_property
@@ -81,7 +80,7 @@ class SampledDrive(Drive):
 
     @cached_property
     def depends_on_x(self) -> bool:
-        """Whether c is another one off the axis x = 0."""
+        """Whether c off the axis x = 0 differs from that on it."""
         on_axis = self.value(0 * self.x, self.y, self._times[:, None])
         return bool(abs(self._seen - on_axis).max() > REPEATS * abs(self._seen).max())
 
@@ -92,7 +91,7 @@ class SampledDrive(Drive):
 
     @cached_property
     def rates(self) -> Spectrum:
-        """Root mean squares of the harmonics in time of dc/dt, per time."""
+        """Spectrum of dc/dt in time: root mean squares of the harmonics, 1/time."""
         found = fourier(
             lambda share: self._at(self.period * share), self._times / self.period, *HARMONICS
         )
@@ -100,7 +99,7 @@ class SampledDrive(Drive):
 
     @cached_property
     def along(self) -> Spectrum:
-        """Root mean squares of c in Chebyshev polynomials of 2y/L, by degree."""
+        """Spectrum of c in Chebyshev polynomials of 2y/L: root mean squares by degree."""
         x, t = self.x[:LINES], self._times[:LINES]
         return chebyshev(
             lambda s: self.value(x, self.sheet.length / 2 * s[:, None], t), self._stations, *DEGREES
@@ -108,38 +107,38 @@ class SampledDrive(Drive):
 
     @cached_property
     def across(self) -> Spectrum:
-        """Likewise of 2x/W."""
+        """Spectrum of c in Chebyshev polynomials of 2x/W: root mean squares by degree."""
         y, t = self.y[:LINES], self._times[:LINES]
         return chebyshev(
             lambda s: self.value(self.sheet.width / 2 * s[:, None], y, t), self._stations, *DEGREES
         )
 
     def degree_along(self, share: float) -> float:
-        """Degree of polynomials of y that carry all but that share of c; inf where it is not known."""
+        """Degree of polynomials in y that resolve c but for that fraction; inf if unknown."""
         return self.along.highest(share)
 
     @cached_property
     def short_waves(self) -> tuple[int, int]:
-        """Numbers of the shortest waves that matter across and along the body, at least 1 and 2.
+        """Wave numbers across and along the body up to which c is resolved, at least 1 and 2.
 
-        Those of a wave whose growth jumps may not be known: then the least, error estimates show the
-        rest.
+        They may be unknown for discontinuous growth: then the minimum, and shorter waves show in error
+        estimates.
         """
         across, along = (_waves(spectrum.highest(FAINT)) for spectrum in (self.across, self.along))
         return max(across, 1), max(along, 2)
 
     def growths(self, x: Array, y: Array) -> Array:
-        """c at some of the points and at times that no harmonic has in common, (times, points)."""
+        """c at some of the points, at times incommensurate with all harmonics, (times, points)."""
         some = slice(None, None, math.ceil(x.size / EXTREME_POINTS))
         return self.value(x.ravel()[some], y.ravel()[some], phases(self.period, EXTREME_TIMES)[:, None])
 
     def check(self) -> None:
-        """Raise ValueError where c does not repeat after its period or `rate` is not its derivative."""
+        """Raise ValueError if c does not repeat after its period or `rate` is not its derivative."""
         self.check_period()
         self._check_rate()
 
     def check_period(self) -> None:
-        """Raise ValueError where c does not repeat after its period."""
+        """Raise ValueError if c does not repeat after its period."""
         size = abs(self._seen).max()
         apart = abs(self._at(self._times + self.period) - self._seen)
         i, j = np.unravel_index(apart.argmax(), apart.shape)
@@ -151,7 +150,7 @@ class SampledDrive(Drive):
             )
 
     def _check_rate(self) -> None:
-        """At places where differences of value with several steps agree: elsewhere c has a kink."""
+        """Check the rate where differences with several steps agree: elsewhere c has a kink."""
         quotients = np.stack([self._quotient(share * self.period) for share in RATE_STEPS])
         rate = self.rate(self.x, self.y, self._times[:, None])
         size = max(abs(quotients).max(), abs(rate).max())
@@ -160,8 +159,7 @@ class SampledDrive(Drive):
         if apart[i, j] > RATE_RIGHT * size:
             raise ValueError(
                 f"rate = {rate[i, j]:.6g} at {self._place(i, j)}: must be the time derivative of "
-                f"value, whose differences give {quotients[-1, i, j]:.6g} there; correct it, or leave "
-                "it out"
+                f"value, whose differences give {quotients[-1, i, j]:.6g} there; correct or omit rate"
             )
 
     def _quotient(self, step: float) -> Array:
@@ -180,7 +178,7 @@ class SampledDrive(Drive):
 
     @cached_property
     def _stations(self) -> Array:
-        """Random places along a line, in [-1, 1)."""
+        """Stratified random positions along a line, in [-1, 1)."""
         return 2 * spread(TIMES, SEED + 2) - 1
 
     @cached_property
@@ -189,15 +187,16 @@ class SampledDrive(Drive):
         return self._at(self._times)
 
     def _at(self, times: Array) -> Array:
-        """c at the random points and any times (n,), (n, points)."""
+        """c at the random points and given times (n,), (n, points)."""
         return self.value(self.x, self.y, times[:, None])
 
 
 def _spread_over(values: ArrayLike, *points: ArrayLike) -> Array:
-    """Values at points, of their common shape."""
-    return np.broadcast_to(np.asarray(values), np.broadcast_shapes(*map(np.shape, points)))
+    """Values broadcast to the common shape of the points."""
+    values, shape = np.asarray(values), np.broadcast(*points).shape
+    return values if values.shape == shape else np.broadcast_to(values, shape)
 
 
 def _waves(degree: float) -> int:
-    """Waves that polynomials up to a degree carry, pi of them each; 0 for inf."""
+    """Waves resolved by polynomials up to a degree, pi degrees per wave; 0 for inf."""
     return 0 if math.isinf(degree) else int(degree / math.pi)

@@ -1,7 +1,7 @@
-"""Series of functions of one variable, from samples that are checked at places in between.
+"""Series expansions of functions of one variable, from samples, checked at random points.
 
-Samples at N points are met by a series of N terms whatever the function. That it is the function is
-seen at other points, which are random: an alias, or what is finer than the samples, differs there.
+A series of N terms interpolates samples of any function at N points. Whether it represents the function
+is checked at other, random points, where aliases and features finer than the samples show.
 """
 
 import math
@@ -11,22 +11,21 @@ from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.fft import dct
 
 from linear_theory.common.shown import Shown
 
 Array = NDArray[np.float64]
 Function = Callable[[Array], Array]
-"""Values (n, lines) at points (n,), of several functions at once."""
+"""Several functions at once: values (n, lines) at points (n,)."""
 
 RESOLVED, ROUNDOFF = 1e-9, 1e-13
-"""Root mean square of what a series misses that counts as nothing: shares of that of the function less
-its mean, and of its largest value."""
+"""Largest negligible root-mean-square error of a series, relative to that of the function without its
+mean, and to its largest value."""
 
 
 @dataclass(frozen=True, eq=False)
 class Spectrum(Shown):
-    """sizes (K,): root mean squares of the terms 1 ... K of a series; missed: of all that they miss."""
+    """sizes (K,): root mean squares of the terms 1 ... K of a series; missed: of the remainder."""
 
     sizes: Array
     missed: float
@@ -37,33 +36,33 @@ class Spectrum(Shown):
         return float(self._beyond[0])
 
     def beyond(self, term: float) -> float:
-        """Root mean square of the terms above this one."""
+        """Root mean square of the terms above `term`, with the remainder."""
         return float(self._beyond[min(max(int(term), 0), self.sizes.size)])
 
     def needed(self, size: float) -> float:
-        """The term beyond which no more than that size is left; inf where it is not known."""
+        """The term beyond which the root mean square is at most `size`; inf if unknown."""
         enough = np.flatnonzero(self._beyond <= size)
         return float(max(enough[0], 1)) if enough.size else math.inf
 
     def highest(self, share: float) -> float:
-        """The term beyond which no more than that share is left; inf where it is not known."""
+        """The term beyond which at most that fraction of the total is left; inf if unknown."""
         return self.needed(share * self.total)
 
     def of_rates(self, period: float) -> "Spectrum":
-        """That of the time derivative, the terms being harmonics of that period."""
+        """The spectrum of the time derivative, for terms that are harmonics of that period."""
         frequency, harmonics = 2 * np.pi / period, np.arange(1, self.sizes.size + 1)
         missed = frequency * (self.sizes.size + 1) * self.missed
         return Spectrum(frequency * harmonics * self.sizes, missed)
 
     @cached_property
     def _beyond(self) -> Array:
-        """Above term 0, 1, ..., K, (K + 1,)."""
+        """Root mean squares above term 0, 1, ..., K, (K + 1,)."""
         squares = np.cumsum(np.append(self.missed, self.sizes[::-1]) ** 2)
         return np.sqrt(squares[::-1])
 
 
 def fourier(function: Function, checks: Array, fewest: int, most: int) -> Spectrum:
-    """Harmonics of functions of period 1; checks: random points (n,); fewest, most: samples."""
+    """Harmonics of functions of period 1; checks: random points (n,); fewest, most: sample counts."""
     known, tolerance = _checked(function, checks)
     count = fewest
     values = function(np.arange(count) / count)
@@ -81,7 +80,9 @@ def fourier(function: Function, checks: Array, fewest: int, most: int) -> Spectr
 
 
 def chebyshev(function: Function, checks: Array, fewest: int, most: int) -> Spectrum:
-    """Chebyshev polynomials of functions on [-1, 1]; arguments as of `fourier`."""
+    """Chebyshev expansion of functions on [-1, 1]; arguments as for `fourier`."""
+    from scipy.fft import dct  # here: scipy takes long to import
+
     known, tolerance = _checked(function, checks)
     count = fewest
     while True:
@@ -98,7 +99,7 @@ def chebyshev(function: Function, checks: Array, fewest: int, most: int) -> Spec
 
 
 def _checked(function: Function, checks: Array) -> tuple[Array, float]:
-    """Values at the checks, and the distance from them that counts as nothing."""
+    """Values at the check points, and the largest negligible deviation from them."""
     known = function(checks)
     varying = float(np.sqrt(np.mean(np.var(known, axis=0))))
     return known, max(RESOLVED * varying, ROUNDOFF * float(abs(known).max()))

@@ -1,12 +1,12 @@
 """Travelling waves of growth c(y, t).
 
-Every wave here repeats along the sheet, so that it is a finite Fourier series in y/L:
+Every wave here is periodic along the sheet, a finite Fourier series in y/L:
 
     c(y, t) = mean + sum_k [ p_k cos(k phi) + q_k sin(k phi) ],   phi = 2 pi (n y/L - t/T),
 
-with n = `count` waves on the sheet. Splitting the sums into parts even and odd in y separates
-y from t, which is all that a linear theory needs to know: one elastic problem for each of
-cos(2 pi r y/L) and sin(2 pi r y/L), r = |k n|, times a factor that depends on t alone.
+with n = `count` waves on the sheet. Splitting the sums into parts even and odd in y separates y from t,
+as a linear theory requires: one elastic problem for each of cos(2 pi r y/L) and sin(2 pi r y/L),
+r = |k n|, times a factor that depends on t alone.
 
 Sign convention: n > 0 runs towards +y. The printed amplitudes of the seed paper (appendix A.1,
 a_r = delta_1r cos wt, b_s = delta_1s sin wt) belong to cos(2 pi y/L - wt), not to this sine.
@@ -42,15 +42,16 @@ class TimeFactors(Shown, _Factors):
 
 @dataclass(frozen=True, eq=False)
 class TravellingWave(Value):
-    """c = mean + sum_k cosine[k-1] cos(k phi) + sine[k-1] sin(k phi), phi as in the module's head.
+    """c = mean + sum_k cosine[k-1] cos(k phi) + sine[k-1] sin(k phi), phi as in the module docstring.
 
     cosine, sine: (harmonics,) dimensionless amplitudes; count: waves on the sheet, any non-zero
     integer (negative runs towards -y); period in units of time. Raises ValueError otherwise.
-    Amplitudes, and a mean, up to 2.2e-16 of the largest amplitude are set to 0, and harmonics that are
-    0 are left out at the end: they are lost in the rounding of c, but would ask for fine meshes and
-    break symmetries.
+    Amplitudes and a mean below 2.2e-16 of the largest amplitude are set to 0, and zero harmonics at the
+    end are dropped: they are lost in the rounding of c, but would require fine meshes and break
+    symmetries.
 
-    Waves of the same numbers are equal, a SineWave and the TravellingWave of its one harmonic, too.
+    Waves with the same amplitudes, mean, count and period are equal, also a SineWave and the
+        TravellingWave with this single harmonic.
 
     >>> from linear_theory import TravellingWave
     >>> pulse = TravellingWave(cosine=[1.0, 0.5], sine=[0.0, 0.0])
@@ -82,7 +83,7 @@ class TravellingWave(Value):
     def __setstate__(self, state: dict[str, Any]) -> None:
         self.__dict__.update(state)
         for array in (self.cosine, self.sine):
-            array.setflags(write=False)  # arrays come out of pickle as writeable
+            array.setflags(write=False)  # unpickled arrays are writeable
 
     def __eq__(self, other: object) -> bool:
         return self._key == other._key if isinstance(other, TravellingWave) else NotImplemented
@@ -100,8 +101,8 @@ class TravellingWave(Value):
         """The wave whose profile takes `samples` at N equidistant phases phi = 2 pi j/N.
 
         samples: (N,), N >= 3, over one full wavelength; interpolated trigonometrically. Amplitudes and
-        a mean that rounding alone can make, up to 9e-16 of the largest sample, are left out: a sampled
-        sine is the sine.
+        a mean within rounding, up to 9e-16 of the largest sample, are dropped: a sampled sine gives
+        exactly one harmonic.
         """
         values = validation.real_array("samples", samples)
         if values.ndim != 1 or values.size < 3:
@@ -120,7 +121,7 @@ class TravellingWave(Value):
 
     @property
     def orders(self) -> NDArray[np.int64]:
-        """r = |k count|, the number of full waves on the sheet of each harmonic."""
+        """r = |k count|, the number of waves on the sheet for each harmonic, (harmonics,)."""
         return self.harmonics * abs(self.count)
 
     @property
@@ -130,12 +131,12 @@ class TravellingWave(Value):
 
     @property
     def is_half_period_antisymmetric(self) -> bool:
-        """Whether c(t + T/2) = -c(t): then dry friction gives no speed of first order."""
+        """Whether c(t + T/2) = -c(t): then there is no speed of first order in alpha."""
         return self.mean == 0 and not np.any(self.cosine[1::2]) and not np.any(self.sine[1::2])
 
     @property
     def reversal_time(self) -> float | None:
-        """t_0 with c(-y, t_0 - t) = c(y, t), so that V(t_0 - t) = V(t); None where none is seen."""
+        """t_0 with c(-y, t_0 - t) = c(y, t), so that V(t_0 - t) = V(t); None if there is none."""
         if not np.any(self.sine):
             return 0.0
         if self.is_half_period_antisymmetric and not np.any(self.cosine):
@@ -144,24 +145,24 @@ class TravellingWave(Value):
 
     @property
     def sine_amplitude(self) -> float | None:
-        """a of a wave that is one sine, c = a sin(2 pi n y/L - 2 pi t/T + b), else None."""
+        """a for a single sine, c = a sin(2 pi n y/L - 2 pi t/T + b), else None."""
         if self.mean != 0 or np.any(self.cosine[1:]) or np.any(self.sine[1:]):
             return None
         return float(np.hypot(self.cosine[0], self.sine[0]))
 
     def on(self, sheet: Sheet, places: Places | None = None) -> TravellingDrive:
-        """The wave on a body within that rectangle, whatever its outline: see `protocol.Drive`."""
+        """The wave on a body of any outline within that rectangle, see `protocol.Drive`."""
         return TravellingDrive(self, sheet)
 
     def profile(self, phase: ArrayLike) -> Array:
-        """f(phi) of c = f(2 pi (n y/L - t/T)), same shape as `phase` (radians)."""
+        """The profile f(phi) in c = f(2 pi (n y/L - t/T)), same shape as `phase` (radians)."""
         k, cosine, sine = self._present
         angle = np.multiply.outer(k, validation.real_array("phase", phase))
         value = np.tensordot(cosine, np.cos(angle), 1) + np.tensordot(sine, np.sin(angle), 1)
         return np.asarray(self.mean + value)
 
     def profile_slope(self, phase: ArrayLike) -> Array:
-        """df/dphi, same shape as `phase` (radians)."""
+        """Slope df/dphi of the profile, same shape as `phase` (radians)."""
         k, cosine, sine = self._present
         angle = np.multiply.outer(k, validation.real_array("phase", phase))
         return np.asarray(
@@ -177,7 +178,7 @@ class TravellingWave(Value):
         return -2 * np.pi / self.period * self.profile_slope(self._phase(x, y, t, length))
 
     def factors(self, t: ArrayLike) -> TimeFactors:
-        """c = mean + sum_j even[j] cos(2 pi r_j y/L) + odd[j] sin(2 pi r_j y/L), r = `orders`."""
+        """even, odd in c = mean + sum_j even[j] cos(2 pi r_j y/L) + odd[j] sin(...), r = `orders`."""
         p, q, angle = self._phasors(t)
         even = p * np.cos(angle) - q * np.sin(angle)
         odd = p * np.sin(angle) + q * np.cos(angle)
@@ -199,7 +200,7 @@ class TravellingWave(Value):
 
     @cached_property
     def _present(self) -> tuple[NDArray[np.int64], Array, Array]:
-        """Wave numbers and amplitudes of the harmonics that are not 0."""
+        """Wave numbers and amplitudes of the non-zero harmonics."""
         some = (self.cosine != 0) | (self.sine != 0)
         return self.harmonics[some], self.cosine[some], self.sine[some]
 
@@ -223,7 +224,7 @@ class _Series(NamedTuple):
         return float(max(abs(self.cosine).max(), abs(self.sine).max()))
 
     def rounded(self, smallest: float) -> "_Series":
-        """With 0 for what is not above `smallest`, and no harmonics of 0 at the end but the first."""
+        """The series with terms up to `smallest` set to 0 and zero harmonics at the end dropped."""
         parts = [np.where(abs(part) > smallest, part, 0.0) for part in (self.cosine, self.sine)]
         last = np.flatnonzero((parts[0] != 0) | (parts[1] != 0)).max(initial=0)
         cosine, sine = (part[: last + 1].copy() for part in parts)
@@ -233,11 +234,11 @@ class _Series(NamedTuple):
 
 
 def _roundoff(samples: Array) -> float:
-    """Amplitudes that rounding makes of samples, at the most: 4 units in the last place of the largest.
+    """Largest amplitudes due to the rounding of samples: 4 units in the last place of the largest.
 
-    A sample is known to half a unit, and to 2 more where it is a function of a phase that is rounded
-    near 2 pi; the same sign everywhere would make an amplitude of as much. Measured on sines, cosines,
-    their squares and sums at phases from 0 to 2 pi, N from 3 to 4096: up to 1.5 units.
+    A sample has an error of half a unit, and of 2 more if it is a function of a phase rounded near
+    2 pi; errors of the same sign everywhere would give an amplitude of that size. Measured for sines,
+    cosines, their squares and sums at phases from 0 to 2 pi, N from 3 to 4096: up to 1.5 units.
     """
     return 4 * EPS * float(abs(samples).max())
 

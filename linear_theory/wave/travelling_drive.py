@@ -1,4 +1,4 @@
-"""The drive of a travelling wave: all of it known from the series."""
+"""The drive of a travelling wave, known exactly from the series."""
 
 import math
 from functools import cached_property
@@ -17,11 +17,11 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 PHASES = 256
-"""Phases per harmonic at which the largest growth is looked for."""
+"""Phases per harmonic at which the largest growth is sought."""
 
 
 class TravellingDrive(Drive):
-    """A travelling wave on a body; made by `TravellingWave.on`."""
+    """A travelling wave on a body; returned by `TravellingWave.on`."""
 
     series: "TravellingWave"
     mirrored = True
@@ -37,7 +37,7 @@ class TravellingDrive(Drive):
 
     @property
     def reversal_time(self) -> float | None:
-        """t_0 with c(-y, t_0 - t) = c(y, t), where the series has one."""
+        """t_0 with c(-y, t_0 - t) = c(y, t), if the series has one."""
         return self.series.reversal_time
 
     @property
@@ -53,31 +53,31 @@ class TravellingDrive(Drive):
 
     @cached_property
     def rates(self) -> Spectrum:
-        """Root mean squares of the harmonics in time of dc/dt, per time."""
+        """Spectrum of dc/dt in time: root mean squares of the harmonics, 1/time."""
         return Spectrum(self._amplitudes / math.sqrt(2), 0.0).of_rates(self.period)
 
     @property
     def short_waves(self) -> tuple[int, int]:
-        """1, and that of the shortest harmonic whose rate is not FAINT."""
+        """1 across, and along the wave number of the shortest harmonic whose rate exceeds FAINT."""
         rates = self.series.harmonics * self._amplitudes
         return 1, int(self.series.orders[rates >= FAINT * rates.max()][-1])
 
     @property
     def waves_along(self) -> int:
-        """Waves along the body in which there is all but FEW of c."""
+        """Wave number along the body up to which all of c but FEW is resolved."""
         highest = Spectrum(self._amplitudes, 0.0).highest(FEW)
         return int(self.series.orders[int(highest) - 1])
 
     def growths(self, x: Array, y: Array) -> Array:
-        """c at phases, all of which are seen at any point."""
+        """c at equidistant phases; every point goes through all of them."""
         wave, count = self.series, PHASES * self.series.cosine.size
         spectrum = np.concatenate([[2 * wave.mean], wave.cosine - 1j * wave.sine]) * (count / 2)
         return np.fft.irfft(spectrum, count)
 
     def check_period(self) -> None:
-        """Nothing to check: the series repeats."""
+        """Nothing to check: the series is periodic."""
 
     @property
     def _amplitudes(self) -> Array:
-        """Of the harmonics, (harmonics,)."""
+        """Amplitudes of the harmonics, (harmonics,)."""
         return np.hypot(self.series.cosine, self.series.sine)

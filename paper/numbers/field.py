@@ -14,8 +14,8 @@ from linear_theory import (
     line_speed,
     ritz_field,
 )
+from linear_theory.common.quadrature import gauss_legendre
 from linear_theory.deformation.field import LinearField
-from linear_theory.deformation.ritz.legendre import gauss
 from paper.numbers.number import SHEET, SHOWN_ALPHA, WAVE, Number, Numbers
 
 MODES = (5, 10, 20, 40)
@@ -79,7 +79,7 @@ def _central_error(field: AirySeries, exact: AirySeries) -> float:
 
 def _end_traction(field: AirySeries) -> float:
     """Root mean square of sigma_yy on the middle 80 % of the end, unit even load."""
-    nodes, weights = gauss(40)
+    nodes, weights = gauss_legendre(40)
     x = 0.8 * nodes * SHEET.width / 2
     return float(np.sqrt(weights @ field.stress(x, SHEET.length / 2, WAVE.period / 4)[1] ** 2 / 2))
 

@@ -16,8 +16,8 @@ from linear_theory import (
     line_balance,
     second_order,
 )
+from linear_theory.common.quadrature import gauss_legendre
 from linear_theory.deformation.field import LinearField
-from linear_theory.deformation.ritz.legendre import gauss
 from linear_theory.friction.load import WEIGHTS as LOADS
 from paper.numbers.number import SHEET, SHOWN_ALPHA, SMALL_ALPHA, WAVE, Number, Numbers
 from tests.shell_scenes import planar
@@ -43,7 +43,7 @@ def sheet() -> Numbers:
 
 def _without_sideways_slip(field: LinearField, alpha: float) -> float:
     """Mean speed where v_x is left out of eq. 11: at every time a weighted median of v_y."""
-    nodes, weights = gauss(160)
+    nodes, weights = gauss_legendre(160)
     x, y = nodes[:, None] * SHEET.width / 2, nodes * SHEET.length / 2
     weights = np.multiply.outer(weights, weights)
     times = (np.arange(64) + 0.5) / 64

@@ -92,7 +92,7 @@ def slip(speed: float) -> Outcome:
 
 def joining(speed: float) -> Outcome:
     """tanh friction between its limits, against the literal balance of one time, eq. 11 with eq. 3."""
-    from linear_theory.balance.period import Crawl, first_resolution
+    from linear_theory.balance.crawl import Crawl, first_resolution
     from linear_theory.friction.laws import Tanh
 
     field, alpha, t = airy_series(PAPER, SINE, rtol=1e-8), 0.25, 0.06

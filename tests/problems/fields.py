@@ -289,7 +289,7 @@ PROBLEMS: tuple[Problem, ...] = family(
         "degrees that fit in memory",
         lambda: jumping(lambda: ritz_field(Sheet(), FRONT, rtol=1e-2)),
         expected="refused",
-        limit=r"rtol = 0\.01: would need degrees",
+        limit=r"rtol = 0\.01: requires degrees",
         raises=NotConvergedError,
     ),
     case(
@@ -325,6 +325,6 @@ PROBLEMS: tuple[Problem, ...] = family(
         "area > 0",
         degenerate_mesh,
         expected="refused",
-        limit="1 of 2 elements are inverted or without area",
+        limit="1 of 2 elements are inverted or have no area",
     ),
 )

@@ -23,7 +23,8 @@ from fem_check.shell.effects.koiter import Bending, Membrane
 from fem_check.shell.effects.loads import DeadLoad
 from fem_check.shell.material import Material
 from linear_theory.friction.contact import Contact
-from linear_theory.friction.laws import Coulomb, FrictionLaw, Tanh, Viscous
+from linear_theory.friction.law import FrictionLaw
+from linear_theory.friction.laws import Coulomb, Tanh, Viscous
 from linear_theory.friction.load import Load
 from linear_theory.scene.scene import Scene
 from linear_theory.sheet.rectangle import Sheet
@@ -115,15 +116,10 @@ class Effects:
 
 
 def effects_of(
-    tables: Mapping[str, Any],
-    order: list[str],
-    system: System,
-    sheet: Sheet,
-    folder: Path,
-    mistakes: Mistakes,
+    tables: Mapping[str, Any], system: System, sheet: Sheet, folder: Path, mistakes: Mistakes
 ) -> list[Any]:
-    """In the order of their tables; stretching first, with any of them or with Young's modulus."""
-    named = [name for name in order if name in EFFECTS and name in tables]
+    """Those that tables name; stretching with any of them, and with Young's modulus."""
+    named = [name for name in EFFECTS if name in tables]
     if "friction" in named and tables["friction"].coefficient is None:
         named.remove("friction")
     young = tables["sheet"].young

@@ -39,26 +39,19 @@ class SceneFile(Shown):
     path: Path
 
 
-def built(
-    tables: Mapping[str, Table], order: list[str], path: Path, mistakes: Mistakes
-) -> SceneFile | None:
-    """The scene of tables that are right, each for itself; None where mistakes were found.
-
-    order: of the tables in the file, which is that of the effects.
-    """
+def built(tables: Mapping[str, Table], path: Path, mistakes: Mistakes) -> SceneFile | None:
+    """The scene of tables that are right, each for itself; None where mistakes were found."""
     system = system_of(tables, mistakes)
     if system is None:
         return None
     run = _run(tables["run"], system, mistakes) if "run" in tables else None
-    scene = _scene(tables, order, system, path.parent, mistakes)
+    scene = _scene(tables, system, path.parent, mistakes)
     if mistakes or scene is None or run is None:
         return None
     return SceneFile(scene, run, system.units, path)
 
 
-def _scene(
-    tables: Mapping[str, Any], order: list[str], system: System, folder: Path, mistakes: Mistakes
-) -> Scene | None:
+def _scene(tables: Mapping[str, Any], system: System, folder: Path, mistakes: Mistakes) -> Scene | None:
     """As far as it can be made; None where a part is missing that others need."""
     sheet = wave = growth = None
     if "sheet" in tables:
@@ -72,7 +65,7 @@ def _scene(
             growth = growth_of(tables["growth"], system, sheet, wave)
     if sheet is None:
         return None
-    effects = effects_of(tables, order, system, sheet, folder, mistakes)
+    effects = effects_of(tables, system, sheet, folder, mistakes)
     if mistakes or wave is None or growth is None:
         return None
     scene = None

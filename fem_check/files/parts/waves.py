@@ -1,9 +1,7 @@
 """The wave and the growth of a scene file."""
 
-import importlib.util
-from collections.abc import Callable
-from importlib import import_module
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -14,13 +12,13 @@ from linear_theory.growth.bilayer import bilayer
 from linear_theory.growth.growth import Growth, Reference
 from linear_theory.growth.laws import growth_law
 from linear_theory.sheet.rectangle import Sheet
+from linear_theory.wave.measured import SampledWave
 from linear_theory.wave.protocol import Wave
 from linear_theory.wave.pulse import pulse_wave
 from linear_theory.wave.travelling import SineWave, TravellingWave
 
-MEASURED = "linear_theory.wave.sampled_wave"
-"""The module whose function read(path, period=...) makes a wave of a table of samples, where it exists.
-period: in units of the file, None where the table itself is to say it."""
+MEASURED = ("period", "harmonics", "degree")
+"""Keys of a measured wave beside its samples."""
 
 ONLY = {"width": "pulse", "cosine": "harmonics", "sine": "harmonics", "mean": "harmonics"}
 """Keys of a wave that only one kind has."""
@@ -31,8 +29,11 @@ WAYS = ("alpha", "swelling", "bilayer")
 
 def wave_of(table: WaveTable, system: System, folder: Path) -> Wave:
     """The wave. Raises ValueError for keys that do not go together."""
-    if table.csv is not None:
+    if table.csv is not None or table.samples is not None:
         return _measured(table, system, folder)
+    for name in MEASURED[1:]:
+        if name in table.model_fields_set:
+            raise ValueError(f"{name}: must be left out, only a measured wave has it")
     kind = table.kind or "sine"
     for name, owner in ONLY.items():
         if name in table.model_fields_set and kind != owner:
@@ -51,17 +52,21 @@ def wave_of(table: WaveTable, system: System, folder: Path) -> Wave:
 
 
 def _measured(table: WaveTable, system: System, folder: Path) -> Wave:
-    """A wave from a table of samples, by the module that reads them."""
-    others = sorted(table.model_fields_set - {"csv", "period"})
+    """A wave from samples, in this file or in another one."""
+    way = "csv" if table.samples is None else "samples"
+    others = sorted(table.model_fields_set - {way, *MEASURED})
     if others:
-        raise ValueError(f"csv = {table.csv!r}: must be without {', '.join(others)}")
-    if importlib.util.find_spec(MEASURED) is None:
-        raise ValueError(
-            f"csv = {table.csv!r}: this version reads no measured waves; give the wave by its harmonics"
-        )
+        raise ValueError(f"{way}: must not be combined with {', '.join(others)}")
     period = None if table.period is None else system.number(table.period)
-    read: Callable[..., Wave] = import_module(MEASURED).read
-    return read(folder / str(table.csv), period=period)
+    degree = tuple(table.degree) if isinstance(table.degree, list) else table.degree
+    options: dict[str, Any] = {"period": period, "harmonics": table.harmonics, "degree": degree}
+    if table.samples is not None:
+        named = (getattr(table.samples, name) for name in ("x", "y", "t", "c"))
+        return SampledWave(*(values for values in named if values is not None), **options)
+    path = folder / str(table.csv)
+    if not path.is_file():
+        raise ValueError(f"csv = {table.csv!r}: there is no such file")
+    return SampledWave.from_csv(path, **options)
 
 
 def growth_of(table: GrowthTable, system: System, sheet: Sheet, wave: Wave) -> Growth:

@@ -6,36 +6,20 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from fem_check.shell.effects.effect import Effect, identity, outer
+from fem_check.shell.effects.effect import Effect
 from fem_check.shell.effects.gravity import Gravity
 from fem_check.shell.effects.koiter import Membrane
 from fem_check.shell.kinematics.point_state import PointState, dot
 from fem_check.shell.kinematics.rates import Step
 from fem_check.shell.kinematics.region import Entries
 from linear_theory.common import validation
+from linear_theory.common.pairs import outer, pairs_among, product
 from linear_theory.common.shown import Value
-from linear_theory.friction.laws import FrictionLaw, Tanh
+from linear_theory.friction.law import FrictionLaw
+from linear_theory.friction.laws import Tanh, friction_law
 from linear_theory.scene.scene import Scene
 
 Array = NDArray[np.float64]
-
-
-def log_cosh(s: Array) -> Array:
-    """log cosh s for s >= 0, to full accuracy: about s^2/2 near 0, s - log 2 far away."""
-    near = np.log1p(2 * np.sinh(np.minimum(s, 1) / 2) ** 2)
-    return np.asarray(np.where(s < 1, near, s + np.log1p(np.exp(-2 * s)) - np.log(2)))
-
-
-def tanh_ratio(s: Array) -> Array:
-    """tanh(s)/s for s >= 0, 1 at 0."""
-    safe = np.maximum(s, 1e-4)
-    return np.asarray(np.where(s < 1e-4, 1 - np.minimum(s, 1) ** 2 / 3, np.tanh(safe) / safe))
-
-
-def sech_squared(s: Array) -> Array:
-    """1/cosh(s)^2 for s >= 0, without overflow."""
-    decay = np.exp(-2 * s)
-    return np.asarray(4 * decay / (1 + decay) ** 2)
 
 
 WEAK = 0.1
@@ -58,31 +42,44 @@ def friction_over_growth(scene: Scene) -> float:
     return float(strain / abs(scene.alpha)) if scene.alpha else np.inf
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, init=False)
 class Friction(Value, Effect):
-    """The force -mu N tanh(|v|/v0) v/|v| of eq. 3, whose potential is mu N v0 log cosh(|v|/v0).
+    """The force -mu N f(v) of a law f of friction, whose potential is mu N times that of the law.
 
-    coefficient: mu > 0. slip_speed: v0 > 0, length per time; small against the speeds it is dry
-    friction (the potential tends to mu N |v|), large against them viscous. v is the velocity along
-    the ground at the end of the step, an affine function of the position, and N the load that the
-    step holds fixed. Raises ValueError for values out of range.
+    coefficient: mu > 0. slip_speed: v0 > 0, length per time, of the law tanh(|v|/v0) v/|v| of eq. 3; or
+    law: any `FrictionLaw` or its name, but for dry friction, which has no derivative at rest. v is the
+    velocity along the ground at the end of the step, an affine function of the position, and N the load
+    that the step holds fixed. Raises ValueError for values out of range, and unless exactly one of
+    slip_speed and law is given.
+
+    >>> from fem_check import Friction
+    >>> from linear_theory import Tanh, Viscous
+    >>> print(Friction(0.5, slip_speed=0.01) == Friction(0.5, law=Tanh(0.01)))
+    True
+    >>> print(Friction(0.5, law=Viscous()).law.words)
+    viscous friction
     """
 
     coefficient: float
-    slip_speed: float
+    law: FrictionLaw
     entries: ClassVar[Entries] = (0,)
     is_static: ClassVar[bool] = False
     moves: ClassVar[bool] = True
     stored_as: ClassVar[None] = None
 
-    def __post_init__(self) -> None:
-        validation.positive("coefficient", self.coefficient)
-        validation.positive("slip_speed", self.slip_speed)
+    def __init__(
+        self,
+        coefficient: float,
+        slip_speed: float | None = None,
+        law: FrictionLaw | str | None = None,
+    ) -> None:
+        object.__setattr__(self, "coefficient", validation.positive("coefficient", coefficient))
+        object.__setattr__(self, "law", _law(slip_speed, law))
 
     @property
-    def law(self) -> FrictionLaw:  # type: ignore[override]
-        """See Effect."""
-        return Tanh(self.slip_speed)
+    def slip_speed(self) -> float:
+        """Width of the law, length per time."""
+        return self.law.width
 
     @property
     def mu(self) -> float:  # type: ignore[override]
@@ -91,29 +88,20 @@ class Friction(Value, Effect):
 
     def velocity(self, state: PointState) -> Array:
         """Velocity along the ground, (components, points)."""
-        assert state.step is not None
-        assert state.step.velocity is not None
-        velocity = state.step.velocity(state.position)
-        normal = state.step.normal
-        if normal is not None:
-            return np.asarray(velocity - normal * dot(normal, velocity))
-        if state.components == 3:
-            velocity[2] = 0
-        return velocity
+        return _along(state, state.step.moving(state.position))
 
     def force(self, state: PointState) -> Array:
         """Force of the ground on each point, (components, points)."""
-        velocity = self.velocity(state)
-        ratio = tanh_ratio(self._speed(velocity) / self.slip_speed)
-        return np.asarray(-self._limit(state) * ratio / self.slip_speed * velocity)
+        velocity, limit = self.velocity(state), self._limit(state)
+        if _is_level(state):  # the law in the plane costs half of that in space
+            return _along(state, -limit * self.law.force(velocity[:2]))
+        return -limit * _along(state, self.law.force(velocity))
 
     def energy(self, state: PointState) -> Array:
         """See Effect. Time step times dissipation potential."""
-        assert state.step is not None
-        assert state.step.velocity is not None
-        speed = self._speed(self.velocity(state))
-        scale = self._limit(state) * self.slip_speed / state.step.velocity.rate
-        return np.asarray(scale * log_cosh(speed / self.slip_speed))
+        scale = self._limit(state) / state.step.moving.rate
+        velocity = self.velocity(state)
+        return np.asarray(scale * self.law.potential(velocity[:2] if _is_level(state) else velocity))
 
     def gradient(self, state: PointState) -> Array:
         """See Effect."""
@@ -121,35 +109,15 @@ class Friction(Value, Effect):
 
     def hessian(self, state: PointState) -> Array:
         """See Effect."""
-        assert state.step is not None
-        assert state.step.velocity is not None
+        scale = self._limit(state) * state.step.moving.rate
         velocity = self.velocity(state)
-        speed = self._speed(velocity)
-        s = speed / self.slip_speed
-        across, along = tanh_ratio(s), sech_squared(s)
-        direction = velocity / np.where(speed > 0, speed, 1)
-        scale = self._limit(state) * state.step.velocity.rate / self.slip_speed
-        tangent = scale * across * self._projection(state)
-        return np.asarray(tangent + scale * (along - across) * outer(direction, direction))[None, None]
-
-    def _projection(self, state: PointState) -> Array:
-        """Identity minus normal times normal, (pairs, points or 1)."""
-        unit = identity(state.components)
-        assert state.step is not None
-        if state.step.normal is not None:
-            return np.asarray(unit - outer(state.step.normal, state.step.normal))
-        if state.components == 3:
-            unit[-1] = 0
-        return unit
+        if _is_level(state):
+            return _spread(scale * self.law.tangent(velocity[:2]))[None, None]
+        return np.asarray(scale * _tangent_along(state, self.law.tangent(velocity)))[None, None]
 
     def _limit(self, state: PointState) -> Array:
         """mu N, (points,)."""
-        assert state.step is not None
-        assert state.step.load is not None
-        return np.asarray(self.coefficient * state.step.load)
-
-    def _speed(self, velocity: Array) -> Array:
-        return np.sqrt(dot(velocity, velocity))
+        return np.asarray(self.coefficient * state.step.pressed)
 
     def check_scene(self, scene: Scene) -> None:
         """Raise ValueError for friction without load."""
@@ -177,3 +145,46 @@ class Friction(Value, Effect):
             raise ValueError(
                 "step: Friction needs one with a velocity and a load; it has no static form"
             )
+
+
+def _law(slip_speed: float | None, law: FrictionLaw | str | None) -> FrictionLaw:
+    """That of the arguments of Friction. Raises ValueError unless they give one with a width."""
+    found = friction_law(Tanh.name if law is None else law, slip_speed, "law")
+    if found.width == 0:
+        raise ValueError(
+            f"law = {found!r}: must have a derivative at rest, which a step in time needs; use "
+            "Tanh(slip_speed), dry friction for speeds well above its slip speed"
+        )
+    return found
+
+
+def _is_level(state: PointState) -> bool:
+    """Whether the sheet is in space on level ground, so that vectors along it lie in the plane."""
+    return state.components == 3 and state.step.normal is None
+
+
+def _along(state: PointState, vector: Array) -> Array:
+    """The part along the ground of vectors (components, points)."""
+    if state.components == 2:
+        return vector
+    if state.step.normal is None:
+        return np.stack([vector[0], vector[1], np.zeros_like(vector[0])])
+    normal = state.step.normal
+    return np.asarray(vector - normal * dot(normal, vector))
+
+
+def _tangent_along(state: PointState, tangent: Array) -> Array:
+    """P K P of symmetric tensors K (pairs, points), P = 1 - n n along the ground."""
+    normal = state.step.normal
+    if normal is None:
+        return tangent
+    across = product(tangent, normal)
+    both = outer(normal, across) + outer(across, normal)
+    return np.asarray(tangent - both + dot(normal, across) * outer(normal, normal))
+
+
+def _spread(tangent: Array) -> Array:
+    """Tensors of the plane, (3, points), as those of space, (6, points)."""
+    out = np.zeros((6, *tangent.shape[1:]))
+    out[pairs_among(3, slice(0, 2))] = tangent
+    return out

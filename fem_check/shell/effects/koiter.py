@@ -18,19 +18,20 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from fem_check.shell.effects.effect import Effect, identity, outer
+from fem_check.shell.effects.effect import Effect
 from fem_check.shell.kinematics.point_state import PointState, dot
 from fem_check.shell.kinematics.rates import Step
 from fem_check.shell.kinematics.region import Entries
 from fem_check.shell.material import Material, check_materials
 from linear_theory.common import validation
+from linear_theory.common.pairs import identity, outer
 from linear_theory.common.shown import Value
 from linear_theory.scene.scene import Scene
 
 Array = NDArray[np.float64]
 
 _ENGINEERING = np.array([1.0, 1.0, 2.0])[:, None]
-"""Weights of (11, 22, 12) in a full contraction of symmetric tensors."""
+"""Weights of the components (11, 22, 12) in a full contraction of symmetric tensors."""
 
 
 def _apply(tensor: Array, strain: Array) -> Array:
@@ -133,7 +134,7 @@ class Bending(Value, Effect):
         """See Effect."""
         weights, normal, dual = self._weights(state), state.normal, state.dual
         out = self._scalar(state)[:, :, None] * outer(normal, normal)
-        # The turning of the normal: entries a_c along n, all entries along a^c.
+        # From the rotation of the normal: entries a_c along n, all entries along a^c.
         out[:2] -= outer(normal, dual)[:, None] * weights[:, None]
         out[:, :2] -= outer(dual, normal) * weights[:, None, None]
         return np.asarray(out)

@@ -1,6 +1,6 @@
-"""The deformed sheet at quadrature points, as effects read it.
+"""The deformed sheet at quadrature points, in the form read by effects.
 
-Everything is computed when it is first asked for: an effect that a scene does not name costs nothing.
+All quantities are computed on first use: effects that a scene does not name cost nothing.
 Points are the last axis, so that every operation runs over contiguous memory.
 """
 
@@ -34,11 +34,14 @@ def cross(u: Array, v: Array) -> Array:
     return out
 
 
+STILL = Step()
+
+
 class PointState:
     """Position jet, rest state and time step at the points of some elements of a region.
 
-    u: displacement unknowns. entries: which derivatives of the position will be read. part: which
-    elements. rest, step: of the points of that part.
+    u: displacement unknowns. entries: derivatives of the position to be read. part: slice of elements.
+    rest, step: at the points of that part; in statics the step holds nothing fixed.
     """
 
     def __init__(
@@ -52,7 +55,7 @@ class PointState:
     ) -> None:
         points = region.points(part)
         self.region, self.part, self._points = region, part, points
-        self._rest, self._step = rest, step
+        self._rest, self.step = rest, STILL if step is None else step
         self._jet = dict(zip(entries, region.position(u, entries, part), strict=True))
 
     @property
@@ -63,13 +66,9 @@ class PointState:
     @property
     def rest(self) -> RestState:
         """Rest state of these points."""
-        assert self._rest is not None
+        if self._rest is None:
+            raise ValueError("rest = None: must be given for an effect that reads it")
         return self._rest
-
-    @property
-    def step(self) -> Step | None:
-        """Time step of these points, None in statics."""
-        return self._step
 
     @property
     def position(self) -> Array:
@@ -120,14 +119,12 @@ class PointState:
         return self.region.weights.ravel()[self._points] * self.jacobian
 
     def area_of(self, load: Load) -> Array:
-        """Quadrature weight times the area that a load is counted in, (points,)."""
+        """Quadrature weight times the reference area of a load, (points,)."""
         if load is Load.MATERIAL:
             return self.measure
         if load is Load.GROWN:
             return self.rest.grown_area
-        assert self._step is not None
-        assert self._step.area is not None
-        return self._step.area
+        return self.step.counted
 
     @cached_property
     def normal(self) -> Array:

@@ -1,9 +1,10 @@
 """Velocity and acceleration as affine functions of the position at the end of a time step.
 
-A step as a minimisation needs no more of a time integrator than this: v = rate (x - base).
+A time step formulated as a minimisation requires only this of an integrator: v = rate (x - base).
 """
 
 from dataclasses import dataclass
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,6 +13,7 @@ from linear_theory.common import validation
 from linear_theory.common.shown import Shown
 
 Array = NDArray[np.float64]
+T = TypeVar("T")
 
 NEWMARK_BETA = 0.25
 NEWMARK_GAMMA = 0.5
@@ -25,7 +27,7 @@ class Affine(Shown):
     base: Array
 
     def __call__(self, x: Array) -> Array:
-        """Its value at positions x, (components, points)."""
+        """Velocity or acceleration at positions x, (components, points)."""
         return np.asarray(self.rate * (x - self.base))
 
     def part(self, points: slice) -> "Affine":
@@ -35,15 +37,15 @@ class Affine(Shown):
 
 @dataclass(frozen=True, eq=False)
 class Step(Shown):
-    """What a minimisation holds fixed while it looks for the position: a time step, or a lagged area.
+    """Quantities held fixed during a minimisation: the time step, and lagged load, area and normals.
 
-    velocity: of the points, from their position; None in statics. acceleration: likewise, None without
-    inertia. load (points,): normal force of each point (pressure times area) that friction is
-    proportional to. area (points,): quadrature weight times current area, in which "current" loads are
-    counted. normal (3, points): unit normal of the ground under each point, None where it is e_z.
+    velocity: of the points as a function of position; None in statics. acceleration: likewise, None
+    without inertia. load (points,): normal force at each point (pressure times area), to which friction
+    is proportional. area (points,): quadrature weight times current area, for "current" loads.
+    normal (3, points): unit normal of the ground under each point, None if it is e_z.
 
-    load, area and normal are those of the last state: as functions of the position they would not have
-    a potential. Repeat the minimisation until they no longer change.
+    load, area and normal are those of the last state, since as functions of the position they would not
+    have a potential. The minimisation is repeated until they no longer change.
     """
 
     velocity: Affine | None = None
@@ -51,6 +53,26 @@ class Step(Shown):
     load: Array | None = None
     area: Array | None = None
     normal: Array | None = None
+
+    @property
+    def moving(self) -> Affine:
+        """The rule of the velocity. Raises ValueError in statics."""
+        return _held(self.velocity, "velocity")
+
+    @property
+    def accelerated(self) -> Affine:
+        """The rule of the acceleration. Raises ValueError without inertia."""
+        return _held(self.acceleration, "acceleration")
+
+    @property
+    def pressed(self) -> Array:
+        """The load. Raises ValueError where none is held fixed."""
+        return _held(self.load, "load")
+
+    @property
+    def counted(self) -> Array:
+        """The current area. Raises ValueError where none is held fixed."""
+        return _held(self.area, "area")
 
     def part(self, points: slice) -> "Step":
         """The same for a slice of the points."""
@@ -63,6 +85,12 @@ class Step(Shown):
         return Step(velocity, acceleration, load, area, normal)
 
 
+def _held(value: T | None, name: str) -> T:
+    if value is None:
+        raise ValueError(f"step.{name} = None: must be given for an effect that reads it")
+    return value
+
+
 def backward_euler(x: Array, dt: float) -> Affine:
     """v = (x_new - x)/dt, first order in dt; x (components, points) at the start of the step."""
     return Affine(1 / validation.positive("dt", dt), x)
@@ -71,8 +99,8 @@ def backward_euler(x: Array, dt: float) -> Affine:
 def two_step(x: Array, before: Array, dt: float, dt_before: float | None = None) -> Affine:
     """v at the end of a step from three positions, second order in dt (BDF2).
 
-    x, before: positions at its start and dt_before (by default dt) earlier. It is the slope of the
-    parabola through them; for equal steps (3 x_new - 4 x + x_before)/(2 dt).
+    x, before: positions at the start of the step and dt_before (by default dt) earlier. v is the slope
+    of the parabola through the positions; for equal steps (3 x_new - 4 x + x_before)/(2 dt).
     """
     dt = validation.positive("dt", dt)
     ratio = 1.0 if dt_before is None else dt / validation.positive("dt_before", dt_before)

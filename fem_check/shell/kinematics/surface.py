@@ -4,8 +4,8 @@ A surface is a function of the parameters (xi_1, xi_2) that returns the six vect
 
     X, X_1, X_2, X_11, X_22, X_12          array (6, 3, *points)
 
-The unit normal is X_1 x X_2 over its length and the curvature B_ab = N . X_ab, so that a sphere
-seen from outside (N outwards) has negative curvature.
+The unit normal N is X_1 x X_2 over its length and the curvature B_ab = N . X_ab, so that a sphere
+with outward N has negative curvature.
 """
 
 from dataclasses import dataclass
@@ -44,36 +44,6 @@ class Flat(Value):
     def __call__(self, xi1: Array, xi2: Array) -> Array:
         """See Surface."""
         return _vectors(xi1, (xi1, xi2, self.height), (1, 0, 0), (0, 1, 0))
-
-
-@dataclass(frozen=True)
-class Trapezoid(Value):
-    """A flat trapezoid: |xi_1| <= 1/2 runs across, |xi_2| <= length/2 along.
-
-    start, end: widths at xi_2 = -length/2 and +length/2. Raises ValueError for sizes <= 0.
-    """
-
-    start: float
-    end: float
-    length: float = 1.0
-
-    def __post_init__(self) -> None:
-        for name in ("start", "end", "length"):
-            validation.positive(name, getattr(self, name))
-
-    def __call__(self, xi1: Array, xi2: Array) -> Array:
-        """See Surface."""
-        slope = (self.end - self.start) / self.length
-        width = (self.start + self.end) / 2 + slope * xi2
-        return _vectors(
-            xi1,
-            (xi1 * width, xi2, 0),
-            (width, 0, 0),
-            (xi1 * slope, 1, 0),
-            (0, 0, 0),
-            (0, 0, 0),
-            (slope, 0, 0),
-        )
 
 
 @dataclass(frozen=True)

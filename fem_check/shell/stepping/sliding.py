@@ -10,8 +10,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from fem_check.shell.effects.friction import Friction, sech_squared, tanh_ratio
-from fem_check.shell.kinematics.point_state import PointState, dot
+from fem_check.shell.effects.friction import Friction
+from fem_check.shell.kinematics.point_state import PointState
+from linear_theory.friction.isotropic import norm
+from linear_theory.friction.law import FrictionLaw
 
 Array = NDArray[np.float64]
 
@@ -24,7 +26,8 @@ MOST_CORRECTIONS = 30
 class Sliding(NamedTuple):
     """At one time. fastest: largest speed along the ground. linear: share of the load that moves slower
     than the slip speed. step, slip (2,): change of the velocity of the sheet along the ground if the
-    velocities were exact in time, and if the slip speed were `COMPARED` times its value."""
+    velocities were exact in time, and if the slip speed were `COMPARED` times its value (NaN for a law
+    that does not stand for dry friction)."""
 
     fastest: float
     linear: float
@@ -34,18 +37,15 @@ class Sliding(NamedTuple):
 
 def sliding(friction: Friction, state: PointState, error: Array, measure: Array) -> Sliding:
     """error: estimated (exact - computed) velocity of the points, (components, points)."""
-    assert state.step is not None
-    assert state.step.load is not None
-    assert state.step.velocity is not None
-    velocity, load = friction.velocity(state)[:2], state.step.load
-    speed = np.sqrt(dot(velocity, velocity))
+    velocity, load = friction.velocity(state)[:2], state.step.pressed
+    speed, law = norm(velocity), friction.law
     total = load.sum()
-    share = load[speed < friction.slip_speed].sum() / total if total > 0 else 0.0
-    tangent = friction.hessian(state)[0, 0] / state.step.velocity.rate
+    share = load[speed < law.width].sum() / total if total > 0 else 0.0
+    tangent = friction.hessian(state)[0, 0] / state.step.moving.rate
     pairs = tangent[[0, 1, 3]] if state.components == 3 else tangent
     # Of a velocity error the mean over the sheet is seen directly, and the rest through friction.
     step = rigid(pairs, error[:2]) + error[:2] @ measure / measure.sum()
-    return Sliding(float(speed.max()), float(share), step, _slip_change(friction, velocity, load))
+    return Sliding(float(speed.max()), float(share), step, _slip_change(law, velocity, load))
 
 
 def rigid(tangent: Array, change: Array) -> Array:
@@ -63,42 +63,33 @@ def _solve(tangent: Array, force: Array) -> Array:
     return np.array([yy * force[0] - xy * force[1], xx * force[1] - xy * force[0]]) / determinant
 
 
-def _slip_change(friction: Friction, velocity: Array, load: Array) -> Array:
-    """w (2,) that keeps the sum of forces when the slip speed is multiplied by `COMPARED`.
+def _slip_change(law: FrictionLaw, velocity: Array, load: Array) -> Array:
+    """w (2,) that keeps the sum of forces when the width of the law is multiplied by `COMPARED`.
 
-    Newton's steps where they reduce what the forces lack. Else steps with the secants f(v)/v, by which
-    the convex potential always falls: it lies below the parabola of that curvature that touches it.
+    Newton's steps where they reduce what the forces lack. Else steps with the largest stiffness in any
+    direction, by which the convex potential always falls under an isotropic law: f(v)/v, across the
+    motion, is the curvature of a parabola that touches the potential and lies above it. NaN for a law
+    that does not stand for dry friction.
     """
-    target = (load * _secants(velocity, friction.slip_speed) * velocity).sum(1)
-    w, slip = np.zeros(2), COMPARED * friction.slip_speed
-    lacking = target - _forces(velocity, load, slip)
+    if not law.regularised:
+        return np.full(2, np.nan)
+    narrower, target = law.scaled(1 / COMPARED), law.force(velocity) @ load
+    w, lacking = np.zeros(2), target - narrower.force(velocity) @ load
     for _ in range(MOST_CORRECTIONS):
-        moved = velocity + w[:, None]
-        change = _solve(_tangent(moved, load, slip), lacking)
-        after = target - _forces(moved + change[:, None], load, slip)
+        tangent = load * narrower.tangent(velocity + w[:, None])
+        change = _solve(tangent, lacking)
+        after = target - narrower.force(velocity + (w + change)[:, None]) @ load
         if not np.abs(after).max() < np.abs(lacking).max():
-            stiffness = (load * _secants(moved, slip)).sum()
+            stiffness = _largest(tangent).sum()
             change = lacking / stiffness if stiffness > 0 else np.zeros(2)
-            after = target - _forces(moved + change[:, None], load, slip)
+            after = target - narrower.force(velocity + (w + change)[:, None]) @ load
         w, lacking = w + change, after
-        if np.abs(change).max() < 1e-6 * slip:
+        if np.abs(change).max() < 1e-6 * narrower.width:
             break
     return w
 
 
-def _forces(velocity: Array, load: Array, slip: float) -> Array:
-    return np.asarray((load * _secants(velocity, slip) * velocity).sum(1))
-
-
-def _secants(velocity: Array, slip: float) -> Array:
-    """tanh(|v|/slip)/|v|, (points,)."""
-    return tanh_ratio(np.sqrt(dot(velocity, velocity)) / slip) / slip
-
-
-def _tangent(velocity: Array, load: Array, slip: float) -> Array:
-    """Derivative of load tanh(|v|/slip) v/|v| by v, (xx, xy, yy) at the points."""
-    speed = np.sqrt(dot(velocity, velocity))
-    along, across = sech_squared(speed / slip) / slip, _secants(velocity, slip)
-    x, y = velocity / np.where(speed > 0, speed, 1)
-    change = along - across
-    return np.asarray(load * np.stack([across + change * x**2, change * x * y, across + change * y**2]))
+def _largest(tangent: Array) -> Array:
+    """Larger eigenvalue of (xx, xy, yy), (points,)."""
+    xx, xy, yy = tangent
+    return np.asarray((xx + yy) / 2 + np.sqrt((xx - yy) ** 2 / 4 + xy**2))

@@ -27,6 +27,7 @@ from figures.measure.cost.cases import (
 )
 from figures.measure.cost.peers import peer
 from linear_theory import airy_series, ritz_field
+from linear_theory.common.quadrature import gauss_legendre
 from linear_theory.deformation.field import LinearField
 
 Array = NDArray[np.float64]
@@ -54,7 +55,7 @@ class Fields:
     """All ways to the displacement, and the references that they are judged by."""
 
     def __init__(self) -> None:
-        nodes = [np.polynomial.legendre.leggauss(n) for n in POINTS]
+        nodes = [gauss_legendre(n) for n in POINTS]
         self.x = SHEET.width / 2 * nodes[0][0][:, None]
         self.y = SHEET.length / 2 * nodes[1][0][None, :]
         self.times = WAVE.period * np.arange(PHASES) / PHASES

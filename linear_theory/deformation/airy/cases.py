@@ -7,10 +7,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from linear_theory.deformation.airy import loads
-from linear_theory.deformation.airy.system import Pair
-from linear_theory.deformation.airy.terms import pair_displacement, pair_stress
-from linear_theory.motion.cells import gauss
+from linear_theory.common.quadrature import gauss_legendre
+from linear_theory.deformation.airy import loads, terms
+from linear_theory.deformation.airy.system import Solution
 from linear_theory.sheet.rectangle import Sheet
 
 Array = NDArray[np.float64]
@@ -23,14 +22,13 @@ class Cases:
     """Solved cases in the order: cosines cos(2 pi r y/L), sines, uniform growth 1.
 
     orders: (K,), r; tail: whether the sines were solved without their line and with tails;
-    even, odd: amplitudes for the cosines and the sines.
+    solution: amplitudes for the cosines (even) and the sines (odd).
     """
 
     sheet: Sheet
     orders: NDArray[np.int64]
     tail: bool
-    even: Pair
-    odd: Pair
+    solution: Solution
 
     def displacements(self, x: Array, y: Array) -> Array:
         """(2K + 1, 2, *broadcast(x, y).shape), without mean displacement and rotation."""
@@ -52,36 +50,37 @@ class Cases:
         waves = loads.growth(self.sheet, self.orders, y)
         return np.concatenate([waves, np.ones((1, *y.shape))])
 
-    def mean_squares(self, amplitudes: Array) -> Array:
-        """Mean over the sheet of |u|^2 of combinations, amplitudes (2K + 1, N) -> (N,); to a few %.
+    def mean_squares(self, factors: Array, mean: float) -> Array:
+        """Mean over the sheet of |u|^2, (times,), to a few %, for a growth of that mean.
 
-        By Gauss quadrature over a quarter, tails left out. Cosines and sines are orthogonal over the
-        sheet, though not over its quarter.
+        factors: of the cosines and of the sines, (2, K, times). By Gauss quadrature over a quarter,
+        tails left out. Cosines and sines are orthogonal over the sheet, though not over its quarter.
         """
-        x, weights_x = gauss(4)[:2]
-        y, weights_y = gauss(5 + 2 * int(self.orders[-1]))[:2]
-        without = replace(self, even=self.even.without_tail(), odd=self.odd.without_tail())
-        u = without._quarter_displacements(
-            (x + 1) * self.sheet.width / 4, (y + 1) * self.sheet.length / 4, grid=True
-        )
-        weights = np.multiply.outer(weights_x, weights_y) / 4
-        count = self.orders.size
-        total = np.zeros(amplitudes.shape[1])
-        for part in ([*range(count), 2 * count], [*range(count, 2 * count)]):
-            squares = np.tensordot(amplitudes[part].T, u[part], 1) ** 2
-            total += np.einsum("ncxy,xy->n", squares, weights)
-        return total
+        x, weights_x = gauss_legendre(4)
+        y, weights_y = gauss_legendre(5 + 2 * int(self.orders[-1]))
+        x, y = (x + 1) * self.sheet.width / 4, (y + 1) * self.sheet.length / 4
+        waves = replace(self, solution=self.solution.without_tail())._quarter_waves(x, y, grid=True)
+        u = factors.swapaxes(1, 2) @ waves.reshape(2, self.orders.size, -1)
+        if mean:
+            u[0] += mean * _uniform(x[:, None], y).ravel()
+        weights = np.multiply.outer(weights_x, weights_y).ravel() / 4
+        return np.einsum("ancp,p->n", (u * u).reshape(2, -1, 2, weights.size), weights)
 
     def _quarter_displacements(self, x: Array, y: Array, grid: bool) -> Array:
-        terms = [pair_displacement(pair, self.sheet, x, y, grid) for pair in (self.even, self.odd)]
+        uniform = _uniform(x[:, None] if grid else x, y)
+        return np.concatenate([self._quarter_waves(x, y, grid), uniform[None]])
+
+    def _quarter_waves(self, x: Array, y: Array, grid: bool) -> Array:
+        """Of the cosines and the sines alone."""
+        free = terms.displacement(self.solution, self.sheet.poisson, x, y, grid)
         x = x[:, None] if grid else x
         held = loads.held_displacement(self.sheet, self.orders, x, y, without_line=self.tail)
-        uniform = np.stack(np.broadcast_arrays(x, y))
-        return np.concatenate([held + np.concatenate(terms), uniform[None]])
+        return held + free.reshape(held.shape)
 
     def _quarter_stresses(self, x: Array, y: Array, grid: bool) -> Array:
-        terms = [pair_stress(pair, self.sheet, x, y, grid) for pair in (self.even, self.odd)]
-        stress = np.concatenate([*terms, np.zeros_like(terms[0][:1])])
+        free = terms.stress(self.solution, x, y, grid)
+        free = free.reshape(-1, *free.shape[2:])
+        stress = np.concatenate([free, np.zeros_like(free[:1])])
         held = loads.held_stress(self.sheet, self.orders, y, without_line=self.tail)
         stress[:-1, 0] += held[:, None] if grid else held
         return stress
@@ -117,8 +116,13 @@ class Cases:
             values = quarter(distinct_x, distinct_y, True)
             return values[..., at_x.reshape(np.shape(x)), at_y.reshape(np.shape(y))]
         all_x, all_y = (a.ravel() for a in np.broadcast_arrays(x, y))
-        modes = sum(family.count for family in self.even.families)
+        modes = sum(family.count for family in self.solution.families)
         step = max(_BLOCK // (modes * 2 * self.orders.size), 1)
         blocks = [slice(i, i + step) for i in range(0, size, step)]
         values = np.concatenate([quarter(all_x[b], all_y[b], False) for b in blocks], axis=-1)
         return values.reshape(*values.shape[:-1], *shape)
+
+
+def _uniform(x: Array, y: Array) -> Array:
+    """Displacement by uniform growth 1, (2, *broadcast(x, y).shape)."""
+    return np.stack(np.broadcast_arrays(x, y))

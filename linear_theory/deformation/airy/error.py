@@ -3,36 +3,46 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from linear_theory.deformation.airy.system import Pair, coupling, tail_couplings
+from linear_theory.deformation.airy.family import Family
+from linear_theory.deformation.airy.system import Equations, Solution, coupling
 
 Array = NDArray[np.float64]
 
 
-def missing_mean_square(pair: Pair, load: Array, factors: Array) -> Array:
+def missing_mean_square(solution: Solution, factors: Array) -> Array:
     """Mean over the sheet of |u|^2 in the first modes left out, (times,).
 
-    load: barred right-hand sides of the C- or D-equations for twice as many modes, (2 count, cases);
-    factors: (cases, times). The truncated solution leaves in the equations just beyond the last a
+    factors: (2, cases, times). The truncated solution leaves in the equations just beyond the last a
     residual, which is the traction on the edges in those modes; divided by the diagonal it is an
     estimate of what the amplitudes lack there.
     """
-    total = np.zeros(factors.shape[1])
-    extended = [family.extended() for family in pair.families]
-    beyond = [slice(family.count, None) for family in pair.families]
-    wavenumbers = [family.wavenumbers[b] for family, b in zip(extended, beyond, strict=True)]
-    tails = tail_couplings(list(zip(wavenumbers, pair.families[::-1], strict=True)))
-    for i, family in enumerate(extended):
-        k, diagonal = wavenumbers[i], family.diagonal[beyond[i]]
-        traction = coupling(k, pair.families[1 - i]) @ pair.amplitudes[1 - i]
-        law = diagonal * family.tail / family.numbers[beyond[i]]
-        traction += np.multiply.outer(law + tails[i], pair.constant)
-        if i == 1:
-            traction -= load[beyond[i]]
-        traction = traction @ factors
-        total += _mean_square_of_term(k * family.half) / k**2 @ (traction / diagonal[:, None]) ** 2
-        if family.step == 2:
-            total += _mean_square_of_bending(pair, 2 / k**2 @ traction)
-    return total
+    (of_x, of_y), (a_b, c_d), constant = solution.equations, solution.amplitudes, solution.constant
+    traction_x, traction_y = (
+        _traction(equations, others, constant) @ factors
+        for equations, others in ((of_x, c_d), (of_y, a_b))
+    )
+    lacking = _mean_square_of_terms(of_x.family, traction_x)
+    lacking += _mean_square_of_terms(of_y.family, traction_y)
+    moment = 2 / of_y.family.beyond.wavenumbers[1] ** 2 @ traction_y[1]
+    return lacking + _mean_square_of_bending(of_x.family.side, of_y.family.side, moment)
+
+
+def _traction(equations: Equations, others: Array, constant: Array) -> Array:
+    """Residual of the equations beyond, with the amplitudes of the other family, (2, count, cases)."""
+    family = equations.family
+    numbers, wavenumbers, diagonal = family.beyond
+    residual = coupling(wavenumbers, equations.other) @ others
+    if equations.tail is not None:
+        law = diagonal * family.tail / numbers + equations.tail[:, family.count :]
+        residual += law[..., None] * constant[:, None]
+    return residual - equations.load[:, family.count :]
+
+
+def _mean_square_of_terms(family: Family, traction: Array) -> Array:
+    """Mean of |u|^2, (times,), of the terms beyond that would undo a traction (2, count, times)."""
+    _, k, diagonal = family.beyond
+    weights = _mean_square_of_term(k * family.half) / k**2
+    return np.einsum("ak,akt->t", weights, (traction / diagonal[..., None]) ** 2)
 
 
 def _mean_square_of_term(depth: Array) -> Array:
@@ -45,12 +55,10 @@ def _mean_square_of_term(depth: Array) -> Array:
     return 2.2 / depth * (1 + 1 / depth**2)
 
 
-def _mean_square_of_bending(pair: Pair, moment: Array) -> Array:
+def _mean_square_of_bending(width: float, length: float, moment: Array) -> Array:
     """Mean of |u|^2 when a moment bends the whole sheet in its plane.
 
     Half waves sin(delta_s y) left at x = +-W/2 have a resultant moment, 2/delta_s^2 each, to which a
     wide sheet yields with the curvature 12 M/L^3; the variance of x^2/2 is W^4/720.
     """
-    along_x, along_y = pair.families
-    length, width = 2 * along_x.half, 2 * along_y.half
     return (12 * moment / length**3) ** 2 * width**4 / 720

@@ -10,7 +10,7 @@ the sine itself, which is not a member of that basis, like s^-2.
 import numpy as np
 from numpy.typing import NDArray
 
-from linear_theory.deformation.airy.system import Family
+from linear_theory.deformation.airy.family import Family
 from linear_theory.sheet.rectangle import Sheet
 
 Array = NDArray[np.float64]
@@ -21,25 +21,32 @@ def end_slopes(orders: NDArray[np.int64]) -> Array:
     return 2 * np.pi * orders * (-1.0) ** orders
 
 
-def even_load(across: Family, orders: NDArray[np.int64]) -> Array:
+def wave_load(along_y: Family, orders: NDArray[np.int64], without_line: bool) -> Array:
+    """`Equations.load` of the C- and D-equations for unit waves, (2, 2 count, cases)."""
+    even, odd = along_y.modes.numbers
+    return np.array([even_load(even, orders), odd_load(odd, orders, without_line)])
+
+
+def even_load(numbers: Array, orders: NDArray[np.int64]) -> Array:
     """Barred right-hand side of the C-equations for unit cos(2 pi r eta), (modes, cases)."""
-    return np.asarray((across.numbers[:, None] == orders) * (-1.0) ** orders)
+    return np.asarray((numbers[:, None] == orders) * (-1.0) ** orders)
 
 
-def odd_load(across: Family, orders: NDArray[np.int64], without_line: bool) -> Array:
+def odd_load(numbers: Array, orders: NDArray[np.int64], without_line: bool) -> Array:
     """Barred right-hand side of the D-equations for unit sin(2 pi r eta), (modes, cases).
 
     b_s of appendix A.1, for the sine or for the sine without its line.
     """
     a2 = (2 * np.pi * orders) ** 2
-    b2 = (np.pi * across.numbers[:, None]) ** 2
+    b2 = (np.pi * numbers[:, None]) ** 2
     load = 4 * end_slopes(orders) / (b2 - a2)
     return np.asarray(load * a2 / b2 if without_line else load)
 
 
-def line_load(across: Family) -> Array:
-    """The same for the growth eta, (modes, 1)."""
-    return 4 / (np.pi * across.numbers[:, None]) ** 2
+def line_load(along_y: Family) -> Array:
+    """The same for the growth eta, (2, 2 count, 1)."""
+    even, odd = along_y.modes.numbers[..., None]
+    return np.array([np.zeros_like(even), 4 / (np.pi * odd) ** 2])
 
 
 def growth(sheet: Sheet, orders: NDArray[np.int64], y: Array) -> Array:
@@ -63,17 +70,15 @@ def held_displacement(
 
     Without rotation, and u_y of zero mean.
     """
-    nu, cases = sheet.poisson, orders.size
-    u = np.zeros((2 * cases, 2, *np.broadcast(x, y).shape))
+    nu, cases, points = sheet.poisson, orders.size, np.broadcast(x, y)
+    u = np.zeros((2 * cases, 2, *points.shape))
+    orders = orders.reshape(-1, *(1,) * points.ndim)
     k = 2 * np.pi * orders / sheet.length
-    angle = np.multiply.outer(k, y)
-    k = k.reshape((-1,) + (1,) * np.ndim(y))
-    between = (slice(None), *(np.newaxis,) * (u.ndim - 2 - np.ndim(y)))  # y may have fewer axes than x
-    u[:cases, 1] = ((1 + nu) * np.sin(angle) / k)[between]
-    u[cases:, 1] = (-(1 + nu) * np.cos(angle) / k)[between]
+    u[:cases, 1] = (1 + nu) * np.sin(k * y) / k
+    u[cases:, 1] = -(1 + nu) * np.cos(k * y) / k
     if without_line:
         slope = end_slopes(orders) / sheet.length
         y2, x2 = y * y - sheet.length**2 / 12, x * x - sheet.width**2 / 12
-        u[cases:, 0] = np.multiply.outer(slope, x * y)
-        u[cases:, 1] -= np.multiply.outer(slope, (nu * y2 + x2) / 2)
+        u[cases:, 0] = slope * (x * y)
+        u[cases:, 1] -= slope * ((nu * y2 + x2) / 2)
     return u

@@ -2,7 +2,8 @@
 
 import math
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
+from dataclasses import replace
 from functools import cached_property
 from typing import Any, NamedTuple
 
@@ -16,7 +17,8 @@ from linear_theory.common.threads import one_blas_thread
 from linear_theory.deformation.airy import loads, system
 from linear_theory.deformation.airy.cases import Cases
 from linear_theory.deformation.airy.error import missing_mean_square
-from linear_theory.deformation.airy.system import Family, Pair
+from linear_theory.deformation.airy.family import families
+from linear_theory.deformation.airy.system import Solution
 from linear_theory.deformation.field import LinearField, combine
 from linear_theory.sheet import hooke
 from linear_theory.sheet.rectangle import Sheet
@@ -172,9 +174,10 @@ class AirySeries(LinearField):
         start = time.perf_counter()
         self.sheet, self.wave, self.modes, self.tail = sheet, wave, modes, tail
         self._printed = printed
-        even = self._solve(1, loads.even_load)
-        odd = self._solve(-1, self._odd_load)
-        self._cases = Cases(sheet, wave.orders, tail, even, odd)
+        along_x, along_y = families(sheet, modes)
+        load = loads.wave_load(along_y, wave.orders, without_line=tail)
+        solution = system.solve((along_x, along_y), load, tail, printed)
+        self._cases = Cases(sheet, wave.orders, tail, solution)
         self.seconds = time.perf_counter() - start
 
     def _settings(self) -> Mapping[str, Any]:
@@ -183,32 +186,36 @@ class AirySeries(LinearField):
 
     def amplitudes(self, t: ArrayLike) -> AiryAmplitudes:
         """A, B, C, D at the times t in the paper's normalisation, per unit alpha."""
-        even, odd = self.wave.factors(t)
-        cases = self._cases
-        b, d = cases.odd.amplitudes
-        if self.tail:  # the paper expands the whole sine: put the stress-free line back
-            line = self._line()
-            slopes = loads.end_slopes(cases.orders)
-            b, d = b + line.amplitudes[0] * slopes, d + line.amplitudes[1] * slopes
-        a, c = cases.even.amplitudes
-        families = *cases.even.families, *cases.odd.families
-        signed = [f.signs[:, None] * p for f, p in zip(families, (a, c, b, d), strict=True)]
-        a, c, b, d = (
-            np.tensordot(p, q, 1) for p, q in zip(signed, (even, even, odd, odd), strict=True)
+        solution = self._of_whole_sines()
+        (a, b), (c, d) = (
+            family.signs[..., None] * barred
+            for family, barred in zip(solution.families, solution.amplitudes, strict=True)
         )
-        return AiryAmplitudes(a, b, c, d)
+        even, odd = self.wave.factors(t)
+        pairs = (a, even), (b, odd), (c, even), (d, odd)
+        return AiryAmplitudes(*(np.tensordot(unit, factor, 1) for unit, factor in pairs))
 
     def tail_constants(self, t: ArrayLike) -> tuple[Array, Array]:
         """K of A_m ~ (-1)^m K/m, C_r ~ -(-1)^r K/r and K' of B_m ~ (-1)^m K'/m, each (*t.shape).
 
         D_s ~ -2 (-1)^((s-1)/2) K'/s. In the paper's normalisation; 0 without tails.
         """
-        even, odd = self.wave.factors(t)
-        cases = self._cases
-        constant = cases.odd.constant
-        if self.tail:
-            constant = constant + self._line().constant * loads.end_slopes(cases.orders)
-        return np.tensordot(cases.even.constant, even, 1), np.tensordot(constant, odd, 1)
+        (k_even, k_odd), (even, odd) = self._of_whole_sines().constant, self.wave.factors(t)
+        return np.tensordot(k_even, even, 1), np.tensordot(k_odd, odd, 1)
+
+    def _of_whole_sines(self) -> Solution:
+        """For sines with their stress-free line, as the paper expands them."""
+        solution, slopes = self._cases.solution, loads.end_slopes(self._cases.orders)
+        if not self.tail:
+            return solution
+        line = system.solve(solution.families, loads.line_load(solution.families[1]), tail=True)
+        a_b, c_d = (
+            barred + unit * slopes
+            for barred, unit in zip(solution.amplitudes, line.amplitudes, strict=True)
+        )
+        return replace(
+            solution, amplitudes=(a_b, c_d), constant=solution.constant + line.constant * slopes
+        )
 
     @one_blas_thread
     def stress(self, x: ArrayLike, y: ArrayLike, t: ArrayLike) -> Array:
@@ -220,37 +227,18 @@ class AirySeries(LinearField):
     @one_blas_thread
     def error(self) -> float:
         """Estimated relative L2 error of the displacement over the sheet at the worst phase."""
-        cases = self._cases
-        even, odd = self._error_phases()
-        even_load, odd_load = (
-            load(pair.families[1].extended(), cases.orders)
-            for pair, load in ((cases.even, loads.even_load), (cases.odd, self._odd_load))
-        )
-        missing = missing_mean_square(cases.even, even_load, even)
-        missing += missing_mean_square(cases.odd, odd_load, odd)
-        mean = np.full((1, even.shape[1]), self.wave.mean)
-        size = cases.mean_squares(np.concatenate([even, odd, mean]))
+        solution, factors = self._cases.solution, self._error_phases()
+        missing = missing_mean_square(solution, factors)
+        size = self._cases.mean_squares(factors, self.wave.mean)
         return _SAFETY[self.tail] * float(np.sqrt(np.max(missing / size))) + _ROUNDOFF
 
-    def _error_phases(self) -> tuple[Array, Array]:
-        """Factors of the cosines and of the sines at phases among which the worst will be."""
+    def _error_phases(self) -> Array:
+        """Factors of cosines and sines at phases among which the worst will be, (2, K, phases)."""
         count = self.wave.harmonics.size
         if count > 1 or self.wave.mean:
-            return self.wave.factors(phases(self.wave.period, min(16 * count, 128)))
+            return np.stack(self.wave.factors(phases(self.wave.period, min(16 * count, 128))))
         # one harmonic: the error relative to u is largest where one of the two cases is alone
-        return np.array([[1.0, 0.0]]), np.array([[0.0, 1.0]])
-
-    def _solve(self, parity: int, load: Callable[[Family, NDArray[np.int64]], Array]) -> Pair:
-        families = system.families(self.sheet, self.modes, parity)
-        right = load(families[1], self.wave.orders)
-        return system.solve(families, right, self.tail, self._printed)
-
-    def _line(self) -> Pair:
-        """The stress-free growth y/L as a sum of terms."""
-        return self._solve(-1, lambda across, _: loads.line_load(across))
-
-    def _odd_load(self, across: Family, orders: NDArray[np.int64]) -> Array:
-        return loads.odd_load(across, orders, without_line=self.tail)
+        return np.array([[[1.0, 0.0]], [[0.0, 1.0]]])
 
     def _amplitudes(self, t: Array) -> Array:
         return np.concatenate([*self.wave.factors(t), np.full((1, *t.shape), self.wave.mean)])

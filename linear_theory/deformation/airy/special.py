@@ -2,16 +2,12 @@
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.special import bernoulli
 
 Array = NDArray[np.float64]
 
-_EULER_MACLAURIN_TERMS = 6
-# (1 - 2^(1-2j)) B_2j / (2j), j = 1, 2, ...: midpoint Euler-Maclaurin, one factor (2j-1)! cancelled
-_MIDPOINT_WEIGHTS = [
-    (1 - 2.0 ** (1 - 2 * j)) * bernoulli(2 * j)[-1] / (2 * j)
-    for j in range(1, _EULER_MACLAURIN_TERMS + 1)
-]
+_BERNOULLI = 1 / 6, -1 / 30, 1 / 42, -1 / 30, 5 / 66, -691 / 2730  # B_2j, j = 1, 2, ...
+# (1 - 2^(1-2j)) B_2j / (2j): midpoint Euler-Maclaurin, one factor (2j-1)! cancelled
+_MIDPOINT_WEIGHTS = [(1 - 2.0 ** (1 - 2 * j)) * b / (2 * j) for j, b in enumerate(_BERNOULLI, 1)]
 
 
 def x_over_sinh(x: Array) -> Array:
@@ -20,15 +16,22 @@ def x_over_sinh(x: Array) -> Array:
     return np.asarray(2 * x * decay / -np.expm1(-2 * x))
 
 
-def one_minus_x_over_sinh(x: Array) -> Array:
-    """1 - x/sinh x for x > 0, to full relative accuracy also for small x."""
-    small = np.minimum(x, 1.0)
-    square = small * small
+def one_plus_x_over_sinh(x: Array, sign: Array) -> Array:
+    """1 + sign x/sinh x for x > 0 and signs +-1, to full relative accuracy also where it vanishes."""
+    total = 1 + sign * x_over_sinh(x)
+    cancels = (x < 1) & (sign < 0)
+    if cancels.any():
+        total[cancels] = _one_minus_x_over_sinh(x[cancels])
+    return total
+
+
+def _one_minus_x_over_sinh(x: Array) -> Array:
+    """For 0 < x < 1."""
+    square = x * x
     series = np.ones_like(x)
     for n in (16, 14, 12, 10, 8, 6, 4):  # sinh x - x = x^3/6 (1 + x^2/20 (1 + x^2/42 (...)))
         series = 1 + square / (n * (n + 1)) * series
-    near = square / 6 * series * (small / np.sinh(small))
-    return np.where(x < 1, near, 1 - x_over_sinh(x))
+    return square / 6 * series * (x / np.sinh(x))
 
 
 def inverse_quartic_sum(b: Array, start: Array) -> Array:
@@ -45,10 +48,11 @@ def inverse_quartic_sum(b: Array, start: Array) -> Array:
     # (2 phi - sin 2 phi)/(4 b^3), b = radius sin phi: the integral from start to infinity
     total = _x_minus_sine(2 * angle) / (4 * (radius * np.sin(angle)) ** 3)
     before, now = inverse * inverse, 4 * cosine * inverse * inverse
-    for j, weight in enumerate(_MIDPOINT_WEIGHTS, 1):
-        total = total - weight * now
-        for n in (2 * j, 2 * j + 1):
-            before, now = now, 2 * (n + 1) / n * cosine * now - (n + 2) / n * inverse * before
+    total = total - _MIDPOINT_WEIGHTS[0] * now
+    for n in range(2, 2 * len(_MIDPOINT_WEIGHTS)):  # now is C_n^(2)/radius^(n + 4)
+        before, now = now, 2 * (n + 1) / n * cosine * now - (n + 2) / n * inverse * before
+        if n % 2:
+            total = total - _MIDPOINT_WEIGHTS[n // 2] * now
     return total
 
 

@@ -8,6 +8,8 @@ both pairs (A, C: growth even in y; B, D: odd) read, for every wave number k of 
     [1 + tau 2kH/sinh 2kH] a_k + sum_q (4/H') k^2 q tanh^tau'(q H') / (k^2 + q^2)^2 b_q = rhs_k,
 
 primes belonging to the other family; tau = +1 where the hyperbolic function is even (cosh), else -1.
+Both pairs are solved at once, on a first axis of 2: even and odd, as in `family`.
+
 The printed system has the factor of the A- and B-equations wrong (E11, E12 in the project's list of
 corrections): `printed=True` keeps it.
 
@@ -17,187 +19,142 @@ tails is accurate to about O(M^-4).
 """
 
 from dataclasses import dataclass, replace
-from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from linear_theory.deformation.airy.special import (
-    inverse_quartic_sum,
-    one_minus_x_over_sinh,
-    x_over_sinh,
-)
-from linear_theory.sheet.rectangle import Sheet
+from linear_theory.deformation.airy.family import Family
+from linear_theory.deformation.airy.special import inverse_quartic_sum
 
 Array = NDArray[np.float64]
 
 
-@dataclass(frozen=True)
-class Family:
-    """One family of terms of eq. 15.
+class Equations(NamedTuple):
+    """The equations of one family, those of the terms kept and then those of the terms beyond.
 
-    count: number of terms kept; first: wave number of number 1; step: 1 for numbers 1, 2, 3, ...,
-    2 for 1, 3, 5, ...; half: half the length H of the sheet in the hyperbolic direction;
-    parity: +1 for cosh, -1 for sinh; tail: beyond `count`, barred amplitudes are tail * K/number.
+    other: the family that is coupled to it; load: barred right-hand sides, (2, 2 count, cases); tail:
+    what the other family's tail adds with K = 1, (2, 2 count), None where tails are cut off; printed:
+    whether the coupling is the printed one.
     """
 
-    count: int
-    first: float
-    step: int
-    half: float
-    parity: int
-    tail: float
+    family: Family
+    other: Family
+    load: Array
+    tail: Array | None
+    printed: bool = False
 
-    @cached_property
-    def numbers(self) -> Array:
-        """m, r or s, (count,)."""
-        return np.arange(1.0, self.step * self.count + 1, self.step)
-
-    @cached_property
-    def wavenumbers(self) -> Array:
-        """alpha_m, gamma_r or delta_s, (count,), 1/length."""
-        return np.asarray(self.first * self.numbers)
-
-    @cached_property
-    def signs(self) -> Array:
-        """Barred amplitudes are these times the printed ones, (count,)."""
-        start = 1.0 if self.step == 2 else -1.0
-        return np.asarray(start * (-1.0) ** np.arange(self.count), float)
-
-    @cached_property
-    def diagonal(self) -> Array:
-        """1 + tau 2kH/sinh(2kH), (count,)."""
-        x = 2 * self.half * self.wavenumbers
-        return 1 + x_over_sinh(x) if self.parity > 0 else one_minus_x_over_sinh(x)
-
-    @cached_property
-    def slope(self) -> Array:
-        """tanh^tau(kH), (count,)."""
-        t = np.tanh(self.half * self.wavenumbers)
-        return t if self.parity > 0 else 1 / t
-
-    def extended(self) -> "Family":
-        """The same family with twice as many terms."""
-        return Family(2 * self.count, self.first, self.step, self.half, self.parity, self.tail)
+    def rows(self) -> Array:
+        """Coefficients of the other family's amplitudes, of the terms kept, (2, count, other count)."""
+        if self.printed:
+            return printed_coupling(self.family, self.other)
+        return coupling(self.family.kept.wavenumbers, self.other)
 
 
 @dataclass(frozen=True)
-class Pair:
-    """Two coupled families and their barred amplitudes: (A, C) or (B, D).
+class Solution:
+    """The barred amplitudes of both families.
 
-    amplitudes: of the family along x, then of the one along y, each (count, cases);
-    constant: K, (cases,); 0 where tails are cut off.
+    equations: those of the terms along x, then of those along y; amplitudes: (2, count, cases) each;
+    constant: K, (2, cases); 0 where tails are cut off.
     """
 
-    families: tuple[Family, Family]
+    equations: tuple[Equations, Equations]
     amplitudes: tuple[Array, Array]
     constant: Array
 
-    def without_tail(self) -> "Pair":
+    @property
+    def families(self) -> tuple[Family, Family]:
+        """Along x, along y."""
+        along_x, along_y = self.equations
+        return along_x.family, along_y.family
+
+    def without_tail(self) -> "Solution":
         """The same amplitudes, cut off."""
         return replace(self, constant=np.zeros_like(self.constant))
 
 
-def families(sheet: Sheet, modes: tuple[int, int], parity: int) -> tuple[Family, Family]:
-    """The families A and C (parity +1, growth even in y) or B and D (parity -1)."""
-    across = Family(modes[0], 2 * np.pi / sheet.width, 1, sheet.length / 2, parity, 1.0)
-    if parity > 0:
-        return across, Family(modes[1], 2 * np.pi / sheet.length, 1, sheet.width / 2, 1, -1.0)
-    return across, Family(modes[1], np.pi / sheet.length, 2, sheet.width / 2, 1, -2.0)
-
-
 def coupling(wavenumbers: Array, other: Family) -> Array:
-    """Coefficients of the other family's amplitudes in the equations of `wavenumbers`."""
-    k2 = (wavenumbers * wavenumbers)[:, None]
-    q = other.wavenumbers
-    total = k2 + q * q
-    return k2 / (total * total) * (4 / other.half * q * other.slope)
+    """Coefficients of the other family's amplitudes at wave numbers (2, n), (2, n, count)."""
+    k2 = (wavenumbers * wavenumbers)[..., None]
+    q = other.kept.wavenumbers
+    result = k2 + (q * q)[:, None]
+    result *= result  # in place: of all arrays these are the largest
+    np.divide(k2, result, out=result)
+    result *= (4 / other.half * q * other.slope)[:, None]
+    return result
 
 
 def printed_coupling(family: Family, other: Family) -> Array:
     """The A- and B-equations as printed: 8/L and tanh(alpha_m L/4) in place of 8/W, tanh(q W/2)."""
-    k, q = family.wavenumbers[:, None], other.wavenumbers
+    k, q = family.kept.wavenumbers[..., None], other.kept.wavenumbers[:, None]
     return 4 / family.half * k * k * q * np.tanh(k * other.half) / (k * k + q * q) ** 2
 
 
-def tail_couplings(rows: list[tuple[Array, Family]]) -> list[Array]:
-    """What the tail with K = 1 of a family adds to the equations of wave numbers of the other one.
+def tail_couplings(families: tuple[Family, Family]) -> tuple[Array, Array]:
+    """What a tail with K = 1 adds to the equations of the other family, `Equations.tail` of both.
 
-    rows: pairs of those wave numbers and the family with the tail. Valid where exp(-2kH) is negligible
-    beyond its last term, as it is in a balanced truncation.
+    Valid where exp(-2kH) is negligible beyond the last term of the tail's family, as it is in a
+    balanced truncation. All sums are made in one call: a few take as long as one.
     """
-    spacings = [other.first * other.step for _, other in rows]
-    starts = [other.count + (0.5 if other.step == 1 else 0.0) for _, other in rows]
-    b = [k / spacing for (k, _), spacing in zip(rows, spacings, strict=True)]
-    start = np.repeat(starts, [k.size for k in b])
-    sums = np.split(inverse_quartic_sum(np.concatenate(b), start), np.cumsum([k.size for k in b])[:-1])
-    return [
-        4 / other.half * other.first * other.tail / spacing**4 * (k * k) * total
-        for (k, other), spacing, total in zip(rows, spacings, sums, strict=True)
-    ]
+    others = families[1], families[0]
+    rows = [family.modes.wavenumbers for family in families]
+    count = rows[0].shape[1]
+    b = np.concatenate([k / other.spacing for k, other in zip(rows, others, strict=True)], axis=1)
+    start = np.empty_like(b)  # in spacings, the first number of the tail is at start + 1/2
+    start[:, :count], start[:, count:] = (other.count + 1 / other.step - 0.5 for other in others)
+    sums = inverse_quartic_sum(b, start)
+    first, second = (
+        4 / other.half * other.first * other.tail / other.spacing**4 * (k * k) * total
+        for k, other, total in zip(rows, others, (sums[:, :count], sums[:, count:]), strict=True)
+    )
+    return first, second
 
 
-def solve(families: tuple[Family, Family], load: Array, tail: bool, printed: bool = False) -> Pair:
-    """Solve the truncated system of a pair.
+def solve(families: tuple[Family, Family], load: Array, tail: bool, printed: bool = False) -> Solution:
+    """Solve the truncated systems.
 
-    load: barred right-hand sides of the C- or D-equations, (count of that family, cases); those of
-    the A- and B-equations are 0. tail: carry K as an unknown. printed: keep the printed A- and
-    B-equations. The larger family is eliminated, its own block being diagonal.
+    load: of the C- and D-equations, as in `Equations`; that of the A- and B-equations is 0. tail: carry
+    K as an unknown. printed: keep the printed A- and B-equations. The larger family is eliminated, its
+    own block being diagonal.
     """
     first, second = families
-    rows = [coupling(first.wavenumbers, second), coupling(second.wavenumbers, first)]
-    if printed:
-        rows[0] = printed_coupling(first, second)
-    tails: list[Array] | list[None] = [None, None]
-    if tail:
-        tails = tail_couplings([(first.wavenumbers, second), (second.wavenumbers, first)])
-    loads = [np.zeros((first.count, load.shape[1])), load]
-    out, kept = (0, 1) if first.count >= second.count else (1, 0)
-    found = _eliminate(
-        families[out],
-        families[kept],
-        rows[out],
-        rows[kept],
-        loads[out],
-        loads[kept],
-        tails[out],
-        tails[kept],
-    )
-    return Pair(families, (found[out], found[kept]), found[2])
+    tails = tail_couplings(families) if tail else (None, None)
+    no_load = np.zeros((2, 2 * first.count, load.shape[2]))
+    along_x = Equations(first, second, no_load, tails[0], printed)
+    along_y = Equations(second, first, load, tails[1])
+    if first.count >= second.count:
+        a, c, constant = _eliminate(along_x, along_y)
+    else:
+        c, a, constant = _eliminate(along_y, along_x)
+    return Solution((along_x, along_y), (a, c), constant)
 
 
-def _eliminate(
-    out: Family,
-    kept: Family,
-    out_rows: Array,
-    kept_rows: Array,
-    out_load: Array,
-    kept_load: Array,
-    out_tail: Array | None,
-    kept_tail: Array | None,
-) -> tuple[Array, Array, Array]:
-    """Amplitudes of `out` and `kept`, and K: the Schur complement of the block of `out`."""
-    n = kept.count
-    size = n if out_tail is None else n + 1
-    scaled = np.empty((out.count, size))
-    scaled[:, :n] = out_rows
-    if out_tail is not None:
-        scaled[:, n] = out_tail
-    scaled /= out.diagonal[:, None]
-    free = out_load / out.diagonal[:, None]
-    matrix = np.empty((size, size))
-    right = np.empty((size, free.shape[1]))
-    np.matmul(kept_rows, -scaled, out=matrix[:n])
-    matrix[np.arange(n), np.arange(n)] += kept.diagonal
-    right[:n] = kept_load - kept_rows @ free
-    if kept_tail is not None:
-        matrix[:n, n] += kept_tail
+def _eliminate(out: Equations, left: Equations) -> tuple[Array, Array, Array]:
+    """Amplitudes of `out` and `left`, and K: the Schur complement of the block of `out`."""
+    m, n, cases = out.family.count, left.family.count, left.load.shape[2]
+    size = n if out.tail is None else n + 1
+    scaled = np.empty((2, m, size))
+    scaled[..., :n] = out.rows()
+    if out.tail is not None:
+        scaled[..., n] = out.tail[:, :m]
+    scaled /= out.family.kept.diagonal[..., None]
+    free = out.load[:, :m] / out.family.kept.diagonal[..., None]
+    left_rows, diagonal = left.rows(), np.arange(n)
+    matrix, right = np.empty((2, size, size)), np.empty((2, size, cases))
+    np.matmul(left_rows, scaled, out=matrix[:, :n])
+    np.negative(matrix[:, :n], out=matrix[:, :n])
+    matrix[:, diagonal, diagonal] += left.family.kept.diagonal
+    right[:, :n] = left.load[:, :n] - left_rows @ free
+    if left.tail is not None:
+        matrix[:, :n, n] += left.tail[:, :n]
         # K is the mean of what the last amplitudes of the two families say: the leading
         # deviations from the tail law are of opposite sign and cancel
-        matrix[n] = -out.numbers[-1] / out.tail * scaled[-1]
-        matrix[n, n - 1] += kept.numbers[-1] / kept.tail
-        matrix[n, n] -= 2
-        right[n] = -out.numbers[-1] / out.tail * free[-1]
+        of_out, of_left = (e.family.kept.numbers[:, -1:] / e.family.tail for e in (out, left))
+        matrix[:, n] = -of_out * scaled[:, -1]
+        matrix[:, n, n - 1 : n] += of_left
+        matrix[:, n, n] -= 2
+        right[:, n] = -of_out * free[:, -1]
     solution = np.linalg.solve(matrix, right)
-    constant = np.zeros(free.shape[1]) if kept_tail is None else solution[n]
-    return np.asarray(free - scaled @ solution), np.asarray(solution[:n]), np.asarray(constant)
+    constant = np.zeros((2, cases)) if left.tail is None else solution[:, n]
+    return free - scaled @ solution, np.asarray(solution[:, :n]), np.asarray(constant)

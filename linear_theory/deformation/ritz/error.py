@@ -1,4 +1,4 @@
-"""Which degree a Legendre-Ritz solution needs, and what one lacks, from its last coefficients."""
+"""Degree and truncation error of a Legendre-Ritz solution, from its last coefficients."""
 
 import math
 
@@ -11,19 +11,19 @@ from linear_theory.sheet.rectangle import Sheet
 Array = NDArray[np.float64]
 Pair = tuple[int, int]
 
-SLOWEST = 5.0  # the coefficients of a corner fall at least like degree**-SLOWEST, in the end
-FASTEST = 0.4  # ratio of neighbours below which an extrapolation would trust to luck
+SLOWEST = 5.0  # corner singularities: coefficients fall asymptotically like degree**-SLOWEST or faster
+FASTEST = 0.4  # smallest ratio of neighbouring coefficients used in an extrapolation
 SAFETY = 3.5  # measured on 590 fields of 60 sheets and waves: estimate/error is 1.5 or more
-FLAT = 1e-6  # a sheet whose displacement is this small for a moment has no relative error then
+FLAT = 1e-6  # relative size below which a momentarily vanishing displacement has no relative error
 ROUNDOFF = 3e-14
-GAUSS_NOISE = 8e-15  # rounding of moments by Gauss points, of the largest, per degree; met: half of it
+GAUSS_NOISE = 8e-15  # rounding of Gauss moments relative to the largest, per degree; measured: half
 
 
 def degrees(sheet: Sheet, order: int, corner: float) -> Pair:
-    """Odd degrees (across, along) with `corner` polynomials per square root of sides over layer width.
+    """Odd degrees (across, along) with `corner` polynomials per square root of side over layer width.
 
-    order: waves on the sheet. A wave takes pi polynomials; what edges and corners do reaches as far
-    as the width or the wavelength, and polynomials of degree p see (side/p**2) at an end.
+    order: waves on the sheet. A wave needs pi polynomials; edge and corner layers are as wide as the
+    smaller of width and wavelength, and polynomials of degree p resolve side/p**2 at an end.
     """
     layer = min(sheet.width, sheet.length / order)
     across = corner * math.sqrt(sheet.width / layer)
@@ -32,16 +32,16 @@ def degrees(sheet: Sheet, order: int, corner: float) -> Pair:
 
 
 def resolving_degrees(sheet: Sheet, order: int) -> Pair:
-    """Odd degrees (across, along) below which coefficients need not fall yet."""
+    """Odd degrees (across, along) below which coefficients need not decay yet."""
     return degrees(sheet, order, corner=3.0)
 
 
 def first_degrees(sheet: Sheet, order: int, rtol: float) -> Pair:
-    """Degrees that reach rtol in most cases, a little low rather than high.
+    """Degrees that reach rtol in most cases, rather a little low than high.
 
-    The factor is measured on the sheet of the seed paper. In a strip narrower than the wave, stress
-    fills but the ends, where it is of second order in width times wave number, and so are its
-    displacements on scales and areas that shrink with the width.
+    The factor is measured on the sheet of the seed paper. In a strip narrower than the wave, stress is
+    confined to the ends, where it is of second order in width times wave number; its displacements are
+    of the same order, on scales and areas that shrink with the width.
     """
     narrowness = min(1.0, 2 * math.pi * order * sheet.width / sheet.length)
     corner = 2.4 * max(1.0, narrowness**3.5 / rtol) ** (1 / 7)
@@ -51,8 +51,8 @@ def first_degrees(sheet: Sheet, order: int, rtol: float) -> Pair:
 def raised_degrees(degree: Pair, tails: tuple[float, float], aliased: float, rtol: float) -> Pair:
     """Degrees for the next attempt where the tails (across, along) are above rtol.
 
-    aliased: their part that Gauss points too few for c make, which for fronts of growth falls like
-    1/degree only.
+    aliased: the part of the tails due to too few Gauss points for c, which for growth fronts falls only
+    like 1/degree.
     """
 
     def raised(degree: int, tail: float) -> int:
@@ -70,13 +70,13 @@ def relative_tails(
     resolving: Pair,
     poisson: float,
 ) -> Array:
-    """Estimated L2 norm of what higher degrees (across, along) would add, over that of u, (2, times).
+    """Estimated relative L2 norm of the contribution of higher degrees (across, along), (2, times).
 
     coefficients: of u, (cases, 2, degree x + 1, degree y + 1), orthonormal polynomials;
-    missed: (cases, ...) each, what else is missed for want of degrees across and along the sheet: the
-    part of the integral of c that they leave out, which is what a wave that is not resolved does to u;
-    amplitudes: (cases, times). As poisson nears -1, shear is much stiffer than dilation and the energy
-    a worse judge of the displacement.
+    missed: (cases, ...) each, further errors from too low degrees across and along the sheet: the part
+    of the integral of c that they do not resolve, which is the error of u for an unresolved wave;
+    amplitudes: (cases, times). As poisson approaches -1, shear is much stiffer than dilation and the
+    energy a worse measure of the displacement error.
     """
     safety = SAFETY / math.sqrt(1 + poisson)
     tails = []
@@ -92,7 +92,7 @@ def relative_tails(
 
 
 def beyond_rounding(finer: Array, moments: Array) -> Array:
-    """Change of moments (cases, ..., degrees x, degrees y) by more points; 0 where rounding does it."""
+    """Change of moments (cases, ..., degrees x, degrees y) with more points; 0 if within rounding."""
     change = finer - moments
     largest = abs(moments).max(axis=tuple(range(1, moments.ndim)), keepdims=True)
     noise = GAUSS_NOISE * max(moments.shape[-2:])
@@ -100,7 +100,7 @@ def beyond_rounding(finer: Array, moments: Array) -> Array:
 
 
 def relative(part: Array, coefficients: Array, amplitudes: Array) -> Array:
-    """L2 norm of a part of u over that of u, (times,); both (cases, ...)."""
+    """L2 norm of a part of u relative to that of u, (times,); coefficients of both are (cases, ...)."""
     return np.asarray(mixed_norms(part, amplitudes) / _size(coefficients, amplitudes))
 
 
@@ -112,10 +112,11 @@ def _size(coefficients: Array, amplitudes: Array) -> Array:
 
 
 def _extrapolated(last: Array, before: Array, degree: int, resolving: int) -> Array:
-    """Norm of all that follows the last two degrees (two: fields of one parity skip every other).
+    """Norm of all degrees above the last two (two, since fields of one parity skip every other).
 
-    A geometric series with the ratio of the last two to the two before them, not slower than corners
-    demand; where layers are not resolved, all degrees that it takes to do so may weigh as much.
+    A geometric series with the ratio of the last two to the two before them, but not slower than the
+    corner asymptotics; where layers are not resolved, each degree up to their resolution may contribute
+    as much as the last.
     """
     if degree < resolving:
         return np.asarray(last * math.sqrt((resolving - degree) / 2 + 1))

@@ -1,11 +1,10 @@
 """Legendre-Ritz solution of the growing sheet: polynomial displacements of least elastic energy.
 
-It solves eqs 10 and 14 of the seed paper (free edges, strain c I of growth) without any Airy
-function: it is the independent second way to the same field, and the way for waves that depend
-on x.
+It solves eqs 10 and 14 of the seed paper (free edges, growth strain c I) without an Airy function: an
+independent second solution for the same field, and the only one for waves that depend on x.
 
-Corners weaken the exact solution (u ~ distance**2.74), so that the error falls with the degree p
-like p**-6.5, after an exponential fall while the wave and its edge layers are being resolved.
+The exact solution is singular at the corners (u ~ distance**2.74), so that the error decreases with the
+degree p like p**-6.5, after an exponential decrease while the wave and its edge layers are resolved.
 """
 
 import math
@@ -19,6 +18,7 @@ from numpy.typing import NDArray
 
 from linear_theory.common import validation
 from linear_theory.common.errors import NotConvergedError
+from linear_theory.common.quadrature import gauss_legendre
 from linear_theory.common.threads import one_blas_thread
 from linear_theory.deformation.field import LinearField
 from linear_theory.deformation.load_cases import Harmonics, LoadCases, Snapshots, load_cases
@@ -34,7 +34,7 @@ Array = NDArray[np.float64]
 Pair = tuple[int, int]
 
 DEFAULT_RTOL = 1e-6
-MOST_NUMBERS = 25_000_000  # in the matrix of one parity, 200 MB
+MOST_NUMBERS = 25_000_000  # entries in the matrix of one parity, 200 MB
 
 
 @one_blas_thread
@@ -44,17 +44,17 @@ def ritz_field(
     """Small-strain deformation of a rectangular sheet by any wave c(x, y, t), per unit alpha.
 
     degree: of the polynomials, one number or (across, along), >= 3, rounded up to odd;
-    rtol: choose the degrees so that the estimated relative L2 error of the displacement at the worst
-    phase is below it (1e-6 where neither is given).
+    rtol: tolerance for the estimated relative L2 error of the displacement at the worst phase, by which
+    the degrees are chosen (1e-6 if neither is given).
 
-    Raises ValueError for bad input, for both at once and for a degree that does not fit in memory,
-    and NotConvergedError, with the best field, where rtol needs such a degree.
+    Raises ValueError for bad input, for both arguments together and for a degree that needs more memory
+    than is available; raises NotConvergedError, with the best field, if rtol requires such a degree.
 
     >>> import numpy as np
     >>> from linear_theory import FieldWave, Sheet, ritz_field
     >>> oblique = FieldWave(lambda x, y, t: np.sin(2 * np.pi * (x + y - t)), period=1.0)
     >>> field = ritz_field(Sheet(), oblique, rtol=1e-4)
-    >>> print(field.error <= 1e-4, field.mirrored)  # it crawls to the side, too
+    >>> print(field.error <= 1e-4, field.mirrored)  # not mirror symmetric: it also moves sideways
     True False
     """
     sheet, wave = arguments.sheet(sheet), arguments.wave(wave)
@@ -63,7 +63,7 @@ def ritz_field(
         rtol = DEFAULT_RTOL if rtol is None else validation.tolerance(rtol)
         return _with_enough_degrees(driven.fine, rtol)
     if rtol is not None:
-        raise ValueError(f"degree = {degree}, rtol = {rtol}: must be one of the two, not both")
+        raise ValueError(f"degree = {degree}, rtol = {rtol}: must not both be given")
     return RitzField(driven.fine, RitzSolver(sheet, _checked_degree(degree)))
 
 
@@ -73,7 +73,9 @@ def _checked_degree(degree: int | Pair) -> Pair:
         raise ValueError(f"degree = {validation.shown(degree)}: must be one integer or (across, along)")
     across, along = (ritz_error.odd(validation.integer("degree", d, 3)) for d in pair)
     if matrix_size((across, along)) > MOST_NUMBERS:
-        raise ValueError(f"degree = {degree}: must make a matrix of <= {MOST_NUMBERS} numbers")
+        raise ValueError(
+            f"degree = {degree}: must be smaller, its matrix has more than {MOST_NUMBERS} entries"
+        )
     return across, along
 
 
@@ -83,7 +85,9 @@ def _with_enough_degrees(drive: Drive, rtol: float) -> "RitzField":
     degree = ritz_error.first_degrees(drive.sheet, shortest_order(drive), rtol)
     while True:
         if matrix_size(degree) > MOST_NUMBERS:
-            raise NotConvergedError(f"rtol = {rtol:g}: would need degrees {degree} or more", best)
+            raise NotConvergedError(
+                f"rtol = {rtol:g}: requires degrees {degree} or more, too many for the memory", best
+            )
         best = RitzField(drive, RitzSolver(drive.sheet, degree))
         if best.error <= rtol:
             best.seconds = time.perf_counter() - start
@@ -92,12 +96,12 @@ def _with_enough_degrees(drive: Drive, rtol: float) -> "RitzField":
 
 
 def shortest_order(drive: Drive) -> int:
-    """Waves on the sheet at most; 1 where nothing is known, more shows in the error estimate."""
+    """Largest number of waves on the sheet; 1 if unknown, shorter ones show in the error estimate."""
     return 1 if drive.series is None else int(drive.series.orders[-1])
 
 
 class RitzField(LinearField):
-    """Deformation of a sheet by polynomials of least energy; made by `ritz_field`.
+    """Deformation of a sheet by polynomials of least energy; returned by `ritz_field`.
 
     The basis functions are the solutions for the wave's load cases. degree: highest degrees
     (across, along).
@@ -130,20 +134,20 @@ class RitzField(LinearField):
 
     @property
     def aliased(self) -> float:
-        """The part of `error` that more Gauss points for c would take away: more degrees bring them."""
+        """The part of `error` due to too few Gauss points for c; higher degrees have more of them."""
         samples = self._cases.samples()
         return float(ritz_error.relative(self._aliased, self._polynomials, samples).max(initial=0.0))
 
     @property
     def tails(self) -> tuple[float, float]:
-        """The parts of `error` that higher degrees across and along the sheet would take away."""
+        """The parts of `error` due to too low degrees across and along the sheet."""
         across, along = self._tails.max(axis=1)
         return float(across), float(along)
 
     @cached_property
     def _tails(self) -> Array:
         across, along = self.degree
-        aliased = self._aliased / math.sqrt(2)  # half of the square each: all degrees bring points
+        aliased = self._aliased / math.sqrt(2)  # half of the square each: both degrees add points
         missed = (
             _side_by_side(self._growth[:, across + 1 :] * (self.sheet.width / 2 / across), aliased),
             _side_by_side(self._growth[:, :, along + 1 :] * (self.sheet.length / 2 / along), aliased),
@@ -155,10 +159,10 @@ class RitzField(LinearField):
 
     @cached_property
     def _aliased(self) -> Array:
-        """What too few Gauss points for c do to u, (cases, ...): its change by more of them, twice.
+        """Error of u from too few Gauss points for c, (cases, ...): twice the change with more points.
 
-        None for harmonics, whose moments are exact. Met for fronts, ridges and spikes of growth, along,
-        across and oblique: 1.5 to 3.2 times the error that they make.
+        0 for harmonics, whose moments are exact. Measured for fronts, ridges and spikes of growth,
+        along, across and oblique: 1.5 to 3.2 times the true error.
         """
         if not isinstance(self._cases, Snapshots):
             return np.zeros((len(self._growth), 0))
@@ -170,15 +174,15 @@ class RitzField(LinearField):
         return np.concatenate([twice, np.zeros_like(twice)])  # rates do not enter the displacement
 
     def _moments(self) -> Array:
-        """Integrals of the growths against p_i(x) p_j(y), (cases, i, j); some beyond `degree`."""
+        """Integrals of the growth fields times p_i(x) p_j(y), (cases, i, j); some beyond `degree`."""
         if isinstance(self._cases, Harmonics):
             return self._moments_of_harmonics(self._cases)
         across, along = (degree + degree // 4 + 12 for degree in self.degree)
         return self._moments_by((across, along), self._cases.growths)  # exact for c of degree 3/2 p
 
     def _moments_by(self, counts: Pair, growths: Callable[[Array, Array], Array]) -> Array:
-        """Those of any growths by so many Gauss points, (growths, *counts)."""
-        (x, weights_x), (y, weights_y) = (legendre.gauss(count) for count in counts)
+        """Moments of any growth fields with `counts` Gauss points, (growths, *counts)."""
+        (x, weights_x), (y, weights_y) = (gauss_legendre(count) for count in counts)
         across = legendre.orthonormal(counts[0], x) * weights_x[:, None]
         along = legendre.orthonormal(counts[1], y) * weights_y[:, None]
         growth = growths(x[:, None] * self.sheet.width / 2, y * self.sheet.length / 2)
@@ -238,5 +242,5 @@ class RitzField(LinearField):
 
 
 def _side_by_side(one: Array, other: Array) -> Array:
-    """Both, of the same cases, as one vector each, (cases, numbers)."""
+    """Two arrays of the same cases, flattened and concatenated, (cases, numbers)."""
     return np.concatenate([part.reshape(len(one), -1) for part in (one, other)], axis=1)

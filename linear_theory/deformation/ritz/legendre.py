@@ -15,7 +15,6 @@ from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.special import spherical_jn
 
 Array = NDArray[np.float64]
 Diagonals = dict[int, Array]
@@ -103,17 +102,12 @@ def wave_moments(count: int, orders: NDArray[np.int64]) -> tuple[Array, Array]:
     From the expansion of a plane wave in spherical Bessel functions: exact for every degree and
     order, where a quadrature would have to follow both.
     """
+    from scipy.special import spherical_jn  # here: scipy takes long to import
+
     d = np.arange(count)
     bessel = spherical_jn(d, np.pi * orders[:, None])
     size = np.sqrt(4 * d + 2) * np.where(d // 2 % 2, -1.0, 1.0)
     return size * bessel * (d % 2 == 0), size * bessel * (d % 2)
-
-
-@lru_cache(maxsize=16)
-def gauss(points: int) -> tuple[Array, Array]:
-    """Nodes and weights of the Gauss-Legendre rule on [-1, 1]."""
-    nodes, weights = np.polynomial.legendre.leggauss(points)
-    return _frozen(nodes), _frozen(weights)
 
 
 def orthonormal(count: int, at: Array) -> Array:

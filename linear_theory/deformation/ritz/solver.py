@@ -12,7 +12,6 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import cho_solve_banded, cholesky_banded
 
 from linear_theory.common.shown import Shown
 from linear_theory.deformation.ritz import legendre
@@ -36,6 +35,8 @@ class _Block:
     """The energy of the displacements that a load of one parity in x and in y makes."""
 
     def __init__(self, sheet: Sheet, counts: Pair, parity: Pair) -> None:
+        from scipy.linalg import cholesky_banded  # here: scipy takes long to import
+
         self.counts, self.parity = counts, parity
         self.across_fast = counts[0] < counts[1]
         band = 2 * min(counts) + 3
@@ -75,6 +76,8 @@ class _Block:
 
     def solve(self, load: Array) -> Array:
         """Coefficients for loads, both (cases, 2, *counts)."""
+        from scipy.linalg import cho_solve_banded
+
         order = (0, 3, 2, 1) if self.across_fast else (0, 2, 3, 1)
         right = load.transpose(order)
         solution = cho_solve_banded(

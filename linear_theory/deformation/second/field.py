@@ -5,7 +5,7 @@ g I and the elasticity C of plane stress, the energy of stretching (eq. 1a) is
 
     1/2 int w (E - (g - 1) I/2) : C : (E - (g - 1) I/2) dA,    w = g^-1 or g^-2,
 
-w = g^-2 from the inverse rest metric in C, times g where energy is counted per grown area. With
+w = g^-2 from the inverse rest metric in C, times g if the energy density is per grown area. With
 (g - 1)/2 = alpha c + alpha^2 k c^2 + ... and w = 1 + alpha m c + ..., equilibrium at order alpha is the
 linear theory, int s_1 : grad(v) = 0 with s_1 = C : (e(u_1) - c I), and at order alpha^2
 
@@ -13,13 +13,13 @@ linear theory, int s_1 : grad(v) = 0 with s_1 = C : (e(u_1) - c I), and at order
     P = C : (k c^2 I - grad(u_1)^T grad(u_1)/2) - m c s_1 - grad(u_1) s_1.
 
 u_2 solves the linear problem with another source, quadratic in u_1 and c: a wave with harmonics 1 ... K
-in time makes one with 0 ... 2K, each of which is solved for apart. For a wave of any shape u_2 and its
-rate are solved for at the times that are asked for.
+in time gives a source with harmonics 0 ... 2K, each solved separately. For a general wave u_2 and its
+rate are solved for at the requested times.
 
-At second order it matters in which frame a shape is seen. Here as at first order it is the frame of
-the body: its origin is the centre of mass of the undeformed area, its axes turn with the mean F of the
-deformation gradient over that area, such that F_yx = F_xy. The conditions being linear, u_1 and u_2
-both have zero mean and zero mean of (du_y/dx - du_x/dy)/2.
+At second order the choice of frame matters. As at first order, the frame is that of the body: its
+origin is the centre of mass of the undeformed area, its axes rotate such that the mean deformation
+gradient F over that area has F_yx = F_xy. These conditions are linear: u_1 and u_2 both have zero mean
+and zero mean of (du_y/dx - du_x/dy)/2.
 """
 
 import math
@@ -51,27 +51,29 @@ from linear_theory.wave.sampled import drive
 Array = NDArray[np.float64]
 
 UNIT = Growth(1.0)
-"""The growth law that the paper prints."""
+"""Unit growth coupling with the growth law of the paper."""
 
 
 def second_order_field(
     sheet: Sheet, wave: Wave, growth: Growth = UNIT, rtol: float = 1e-4
 ) -> "SecondOrderField":
-    """Deformation to second order, with polynomials of degrees chosen for rtol.
+    """Deformation to second order in alpha, with polynomial degrees chosen for rtol.
 
-    rtol: bounds the estimated relative L2 errors of u_1 and u_2 over the sheet at their worst phases.
-    growth: its law and energy area count, see the module's head; alpha does not.
-    Raises ValueError for bad input, and NotConvergedError, with the best field, where rtol needs a
-    degree that does not fit in memory.
+    rtol: bound of the estimated relative L2 errors of u_1 and u_2 over the sheet at the worst phases.
+    growth: its law and energy area are used (see the module docstring), its alpha is not.
+    Raises ValueError for bad input, and NotConvergedError, with the best field, if rtol requires a
+    degree that needs more memory than is available.
     """
     start, rtol = time.perf_counter(), validation.tolerance(rtol)
     driven = drive(wave, sheet).fine
-    # u_2 has waves half as long
+    # the waves of u_2 are half as long
     degree = ritz_error.first_degrees(sheet, 2 * shortest_order(driven), rtol)
     best = None
     while True:
         if matrix_size(degree) > MOST_NUMBERS:
-            raise NotConvergedError(f"rtol = {rtol:g}: would need degrees {degree} or more", best)
+            raise NotConvergedError(
+                f"rtol = {rtol:g}: requires degrees {degree} or more, too many for the memory", best
+            )
         best = SecondOrderField(RitzField(driven, RitzSolver(sheet, degree)), growth)
         tails = np.maximum(best.first.tails, best.second_tails)
         if np.hypot(*tails) <= rtol:
@@ -82,9 +84,9 @@ def second_order_field(
 
 
 class SecondOrderField(LinearField):
-    """u_1 as a linear field, and u_2, the same elastic problem with the source of the module's head.
+    """u_1 as a linear field, and u_2 from the same elastic problem with the source given above.
 
-    What a LinearField offers is of first order, per unit alpha, in the frame of the body. first: u_1.
+    The methods of LinearField give u_1, per unit alpha, in the frame of the body. first: u_1.
     """
 
     def __init__(self, first: RitzField, growth: Growth = UNIT) -> None:
@@ -112,14 +114,14 @@ class SecondOrderField(LinearField):
 
     @property
     def second_error(self) -> float:
-        """Estimated relative L2 error of u_2, of its part that depends on time, likewise."""
+        """Estimated relative L2 error of the time-dependent part of u_2 at the worst phase."""
         return float(np.hypot(*self.second_tails)) + ritz_error.ROUNDOFF
 
     @cached_property
     def second_tails(self) -> tuple[float, float]:
-        """The parts of `second_error` that higher degrees across and along would take away."""
+        """The parts of `second_error` due to too low degrees across and along the sheet."""
         resolving = ritz_error.resolving_degrees(self.sheet, 2 * shortest_order(self.drive))
-        aliased = self._aliased / math.sqrt(2)  # half of the square each: all degrees bring points
+        aliased = self._aliased / math.sqrt(2)  # half of the square each: both degrees add points
         tails = ritz_error.relative_tails(
             self._polynomials,
             (aliased, aliased),
@@ -131,7 +133,7 @@ class SecondOrderField(LinearField):
 
     @property
     def second_aliased(self) -> float:
-        """The part of `second_error` that more Gauss points for the source would take away."""
+        """The part of `second_error` due to too few Gauss points for the source."""
         rates = self._times.rates(self._times.phases)
         return float(ritz_error.relative(self._aliased, self._polynomials, rates).max(initial=0.0))
 
@@ -147,13 +149,13 @@ class SecondOrderField(LinearField):
         return combine(field._times.factors(t), field._seconds_at(x, y))
 
     def second_velocity(self, x: ArrayLike, y: ArrayLike, t: ArrayLike) -> Array:
-        """du_2/dt as seen in the frame of the body, (2, ...), length per time."""
+        """du_2/dt in the frame of the body, (2, ...), length per time."""
         x, y, t = self._checked(x, y, t)
         field = self._for_times(t)
         return combine(field._times.rates(t), field._seconds_at(x, y))
 
     def motion(self, times: ArrayLike, grid: CellGrid, order: int) -> Motion:
-        """As `LinearField.motion`, with `second` du_2/dt and, if the sheet may turn, u_1."""
+        """As `LinearField.motion`, with du_2/dt as `second` and, if the sheet may turn, u_1."""
         t = validation.real_array("times", times)
         field = self._for_times(t)
         first = super(SecondOrderField, field).motion(t, grid, order)
@@ -174,15 +176,15 @@ class SecondOrderField(LinearField):
         return SecondOrderField(self.first._for_times(t), self.growth)
 
     def _solve(self, moments: Array) -> Array:
-        """u_2 that a source makes, (basis, 2, degree x + 1, degree y + 1)."""
+        """u_2 for the moments of a source, (basis, 2, degree x + 1, degree y + 1)."""
         return self.first.solver.solve_stress(moments, self.mirrored)
 
     @cached_property
     def _aliased(self) -> Array:
-        """What too few Gauss points for the source do to u_2: its change by more of them, twice.
+        """Error of u_2 from too few Gauss points for the source: twice the change with more points.
 
-        None for waves of few harmonics, which the points resolve. Met for fronts and ridges of growth:
-        1.1 to 2.7 times the error that they make, where that is smaller than u_2.
+        0 for waves of few harmonics, which the points resolve. Measured for fronts and ridges of
+        growth: 1.1 to 2.7 times the true error, where that is smaller than u_2.
         """
         if not isinstance(self._times, AtTimes):
             return np.zeros((len(self._solution), 0))
@@ -196,7 +198,7 @@ class SecondOrderField(LinearField):
         return legendre.values(legendre.values(self._solution, 2), 3)
 
     def _seconds_at(self, x: Array, y: Array) -> Array:
-        """u_2 of each factor of time, (basis, 2, *broadcast(x, y).shape)."""
+        """Basis functions of u_2 at points, (basis, 2, *broadcast(x, y).shape)."""
         local = 2 * x / self.sheet.width, 2 * y / self.sheet.length
         return legendre.evaluate(self._polynomials, *local)
 

@@ -1,9 +1,9 @@
-"""What drives the displacement u_2 of second order: a stress P quadratic in u_1 and c.
+"""The source of the second-order displacement u_2: a stress P quadratic in u_1 and c.
 
     P(z) = C : (k c^2 I - grad(u_1)^T grad(u_1)/2) - m c s_1 - grad(u_1) s_1,    z = (grad(u_1), c),
 
-with s_1 = C : (e(u_1) - c I), k by the growth law and m by the area measure: see `second_field`.
-P being quadratic, its rate is a central difference of any step h, without error:
+with s_1 = C : (e(u_1) - c I), k from the growth law and m from the area measure: see `second_field`.
+As P is quadratic, a central difference with any step h gives its rate exactly:
 
     dP/dt = [P(z + h dz/dt) - P(z - h dz/dt)]/(2 h).
 """
@@ -14,6 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from linear_theory.common.quadrature import gauss_legendre
 from linear_theory.deformation.ritz import legendre
 from linear_theory.sheet import hooke
 from linear_theory.sheet.rectangle import Sheet
@@ -22,15 +23,15 @@ from linear_theory.wave.protocol import Drive
 Array = NDArray[np.float64]
 
 EXTRA_POINTS = 6
-"""Gauss points beyond those that polynomials need: c^2 and c s_1 are sines of y."""
+"""Gauss points beyond those for polynomials, since c^2 and c s_1 are sines in y."""
 
 
 @dataclass(frozen=True, eq=False)
 class Source:
-    """P of a sheet under a wave, from the gradients of u_1.
+    """The stress P of a sheet under a wave, from the gradients of u_1.
 
     gradients: (cases, k, j, degree x + 1, degree y + 1), du_k/dx_j of the load cases in orthonormal
-    Legendre polynomials; square, weight: k and m; finer: with half as many points again.
+    Legendre polynomials; square, weight: k and m; finer: whether to use 1.5 times as many points.
     """
 
     drive: Drive
@@ -54,9 +55,9 @@ class Source:
         return grid.moments(np.stack(stresses))
 
     def moment_rates(self, times: Array, amplitudes: Array, rates: Array) -> Array:
-        """Their time derivatives; rates: of the amplitudes."""
+        """Time derivatives of `moments`; rates: of the amplitudes."""
         grid = self._grid()
-        step = self.drive.period / (2 * np.pi)  # makes both terms of z + h dz/dt of one size
+        step = self.drive.period / (2 * np.pi)  # makes both terms of z + h dz/dt of equal size
         growths = grid.growth(self.drive.value, times)
         changes = step * grid.growth(self.drive.rate, times)
         slopes = grid.values(self.gradients)
@@ -72,7 +73,7 @@ class Source:
         return grid.moments((ahead - behind) / (2 * step))
 
     def _stress(self, slope: Array, growth: Array) -> Array:
-        """P_kj from du_k/dx_j (2, 2, ...) and c (...)."""
+        """The stress P_kj for gradients du_k/dx_j (2, 2, ...) and growth c (...)."""
         poisson = self.drive.sheet.poisson
         strain = np.stack([slope[0, 0], slope[1, 1], (slope[0, 1] + slope[1, 0]) / 2])
         stress = _matrix(hooke.stress(strain, growth, poisson))
@@ -93,7 +94,7 @@ class _GaussGrid:
     def __init__(self, sheet: Sheet, degree: tuple[int, int], more: float) -> None:
         self.sheet = sheet
         counts = [int(more * (3 * d // 2 + 2 + EXTRA_POINTS)) for d in degree]
-        (self.x, self._weight_x), (self.y, self._weight_y) = (legendre.gauss(n) for n in counts)
+        (self.x, self._weight_x), (self.y, self._weight_y) = (gauss_legendre(n) for n in counts)
         self._across, self._along = (
             legendre.orthonormal(d + 1, at) for d, at in zip(degree, (self.x, self.y), strict=True)
         )
@@ -104,16 +105,16 @@ class _GaussGrid:
         return function(x, y, times[:, None, None])
 
     def values(self, coefficients: Array) -> Array:
-        """Of polynomials (..., degree x + 1, degree y + 1) at the points."""
+        """Values of polynomials (..., degree x + 1, degree y + 1) at the points."""
         return np.asarray(self._across @ coefficients @ self._along.T)
 
     def moments(self, values: Array) -> Array:
-        """Integrals of values at the points against p_i(x) p_j(y)."""
+        """Integrals of values at the points times p_i(x) p_j(y)."""
         across, along = self._across * self._weight_x[:, None], self._along * self._weight_y[:, None]
         return np.asarray(across.T @ values @ along)
 
 
 def _matrix(tensor: Array) -> Array:
-    """(2, 2, ...) from (xx, yy, xy)."""
+    """The matrix (2, 2, ...) of a symmetric tensor (xx, yy, xy)."""
     xx, yy, xy = tensor
     return np.stack([np.stack([xx, xy]), np.stack([xy, yy])])

@@ -1,7 +1,7 @@
-"""How the displacement u_2 of second order depends on time: a sum of factors of time times fields.
+"""The time dependence of the second-order displacement u_2: a sum of functions of time times fields.
 
 A wave c(y, t) has few harmonics, and u_2 has twice as many (`Series`); for any other wave the fields
-are u_2 and du_2/dt themselves at the times that are asked for (`AtTimes`).
+are u_2 and du_2/dt themselves at the requested times (`AtTimes`).
 """
 
 from typing import Protocol
@@ -20,7 +20,7 @@ SAMPLES = 16
 
 
 class FirstOrder(Protocol):
-    """What is asked of u_1: the amplitudes of its load cases at times."""
+    """The part of u_1 needed here: the amplitudes of its load cases at given times."""
 
     def _amplitudes(self, t: Array) -> Array: ...
 
@@ -28,14 +28,14 @@ class FirstOrder(Protocol):
 
 
 class SecondTimes(Protocol):
-    """Factors of time, and the sources that go with them."""
+    """Functions of time, and the sources that belong to them."""
 
     @property
     def phases(self) -> Array:
         """Times that cover a period, (phases,)."""
 
     def factors(self, t: Array) -> Array:
-        """Of u_2, (basis, *t.shape)."""
+        """Amplitudes of the basis of u_2, (basis, *t.shape)."""
 
     def rates(self, t: Array) -> Array:
         """Time derivatives of `factors`."""
@@ -44,16 +44,16 @@ class SecondTimes(Protocol):
         """Whether the basis spans the motion at times t."""
 
     def moments(self, source: Source, first: FirstOrder) -> Array:
-        """Moments of the source of each basis function, as in `RitzSolver.solve_stress`."""
+        """Moments of the source of each basis function, as for `RitzSolver.solve_stress`."""
 
 
 def second_times(cases: LoadCases) -> SecondTimes:
-    """Those that suit the load cases of first order."""
+    """The time dependence that matches the load cases of first order."""
     return Series(cases.series) if isinstance(cases, Harmonics) else AtTimes(cases)
 
 
 class Series:
-    """1, cosines of all harmonics of u_2, and sines; even ones only if c(t + T/2) = -c(t)."""
+    """1, cosines and sines of the harmonics of u_2; even harmonics only if c(t + T/2) = -c(t)."""
 
     def __init__(self, wave: TravellingWave) -> None:
         step = 2 if wave.is_half_period_antisymmetric else 1
@@ -63,7 +63,7 @@ class Series:
 
     @property
     def phases(self) -> Array:
-        """SAMPLES for the highest harmonic."""
+        """Equidistant phases, SAMPLES per period of the highest harmonic."""
         return np.linspace(0, self.period, SAMPLES * self.highest, endpoint=False)
 
     def factors(self, t: Array) -> Array:
@@ -84,7 +84,7 @@ class Series:
         return True
 
     def moments(self, source: Source, first: FirstOrder) -> Array:
-        """From 4K + 1 phases, which tell harmonics up to 2K apart."""
+        """Moments from 4K + 1 phases, which resolve harmonics up to 2K."""
         times = np.linspace(0, self.period, 2 * self.highest + 1, endpoint=False)
         samples = source.moments(times, first._amplitudes(times))
         spectrum = np.fft.rfft(samples, axis=0) / len(samples)
@@ -93,7 +93,7 @@ class Series:
 
 
 class AtTimes:
-    """u_2 at each of some times, then du_2/dt at each; every factor is 0 or 1."""
+    """u_2 at given times, then du_2/dt at these times; every factor is 0 or 1."""
 
     def __init__(self, cases: Snapshots) -> None:
         self.cases = cases
@@ -112,11 +112,11 @@ class AtTimes:
         return self.cases.rates(t)
 
     def serve(self, t: Array) -> bool:
-        """Whether t are these times."""
+        """Whether t are the given times."""
         return np.array_equal(np.unique(t), self.cases.times)
 
     def moments(self, source: Source, first: FirstOrder) -> Array:
-        """Of P, then of dP/dt."""
+        """Moments of P, then of dP/dt."""
         t = self.cases.times
         amplitudes, rates = first._amplitudes(t), first._amplitude_rates(t)
         return np.concatenate(

@@ -1,0 +1,181 @@
+"""A crawling sheet (field, growth coupling, contact) and the resolution of its friction balance."""
+
+import math
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linear_theory.balance.balance import Balance, RigidMotion
+from linear_theory.balance.load_check import check_load
+from linear_theory.common.progress import track
+from linear_theory.deformation.field import LinearField
+from linear_theory.friction.contact import Contact
+from linear_theory.friction.load import Load
+from linear_theory.motion.motion import CellGrid, Motion
+from linear_theory.motion.rigid import RigidNorm
+from linear_theory.wave.protocol import Drive
+
+Array = NDArray[np.float64]
+
+MOST_TIMES = 4096
+MOST_WORK = 8_000_000
+"""Limits of the number of times and of the work at all times together (see `Crawl.work`), some tens of
+seconds."""
+
+BATCH = 10_000
+"""Points per batch; halving of cells makes ten times as many, which fit in the cache."""
+
+
+class Known(NamedTuple):
+    """The motion at given ascending times."""
+
+    times: Array
+    motion: RigidMotion
+
+    def between(self, times: Array) -> RigidMotion:
+        """The motion at other times by linear interpolation of q."""
+        leading, remainder = (
+            np.stack([np.interp(times, self.times, column) for column in q.T], axis=1)
+            for q in (self.motion.leading, self.motion.remainder)
+        )
+        return RigidMotion(leading, remainder, np.zeros(times.size), 0.0)
+
+
+@dataclass(frozen=True)
+class Resolution:
+    """Cells per wave, Gauss points per cell and direction, halvings, tolerance of q."""
+
+    density: float
+    order: int
+    halvings: int
+    tolerance: float
+
+    def finer(self) -> "Resolution":
+        """The next finer resolution, for error estimates and for refinement."""
+        return Resolution(1.5 * self.density, self.order + 1, self.halvings + 6, 0.1 * self.tolerance)
+
+
+def first_resolution(rtol: float) -> Resolution:
+    """Four cells per wave, halved until the cell at a stagnation point has an area of about rtol^1.6.
+
+    Near such a point the integrand of the remainder behaves like 1/distance, so that the error falls
+    like the square root of the area of the last cell.
+    """
+    digits = -math.log10(rtol)
+    order = min(max(math.ceil(2.5 + 0.8 * digits), 5), 14)
+    return Resolution(4.0, order, max(math.ceil(5.3 * digits - 7), 2), 0.02 * rtol)
+
+
+@dataclass(frozen=True)
+class Crawl:
+    """A crawling sheet (field, growth coupling, contact) and the resolution of its balance."""
+
+    field: LinearField
+    alpha: float
+    contact: Contact
+    resolution: Resolution
+
+    @property
+    def drive(self) -> Drive:
+        """The wave on the sheet."""
+        return self.field.drive
+
+    @property
+    def starts_at_second_order(self) -> bool:
+        """Whether c(t + T/2) = -c(t), so that the leading q_0 has exactly no mean."""
+        return self.drive.changes_sign and self.contact.friction.even
+
+    @property
+    def mirrored(self) -> bool:
+        """Whether motion and friction are mirror symmetric in x."""
+        return self.field.mirrored and self.contact.friction.even
+
+    @property
+    def counts_leading(self) -> bool:
+        """Whether q_0 is part of the counted motion."""
+        return not self.starts_at_second_order
+
+    def balance(self, times: Array, known: Known | None = None) -> RigidMotion:
+        """Rigid motion at the given times, in batches; known: the motion at other times, as a guess."""
+        size = max(BATCH // self._motion(times[:1]).area.size, 1)
+        batches = []
+        for i in track("friction balance over the period", range(0, times.size, size)):
+            some = times[i : i + size]
+            batches.append(self._balance(some).solve(known and known.between(some)))
+        leading, remainder, rest, fastest = zip(*batches, strict=True)
+        return RigidMotion(
+            np.concatenate(leading), np.concatenate(remainder), np.concatenate(rest), max(fastest)
+        )
+
+    @property
+    def reversal_time(self) -> float | None:
+        """t_0 with V(t_0 - t) = V(t), where the wave and the sheet have that symmetry."""
+        return self.drive.reversal_time if self.mirrored else None
+
+    @cached_property
+    def work(self) -> int:
+        """Work per time: points of the balance plus unknowns of the deformation solved for."""
+        return int(self._motion(np.zeros(1)).area.size) + self.field.numbers
+
+    def affords(self, times: Array) -> bool:
+        """Whether the balance at these times is within the work limit."""
+        return self.work * times.size <= MOST_WORK
+
+    def reaches(self, count: float) -> bool:
+        """Whether a number of times is within the work limit."""
+        return count <= min(MOST_TIMES, MOST_WORK / self.work)
+
+    @property
+    def speed_per_rate(self) -> float:
+        """Largest counted V for dc/dt of root mean square 1."""
+        return self.drive.speed_per_rate(self.alpha, self.counts_leading)
+
+    @property
+    def norm(self) -> RigidNorm:
+        """The norm of motions and of their errors."""
+        return RigidNorm(self.field.gyration, self.mirrored)
+
+    def counted(self, motion: RigidMotion) -> Array:
+        """V_x, V_y, Omega at each time, without terms whose mean vanishes by symmetry, (3, times)."""
+        second = self.alpha**2 * motion.remainder.T
+        return self.alpha * motion.leading.T + second if self.counts_leading else second
+
+    def quadrature_errors(self, times: Array, motion: RigidMotion) -> tuple[Array, Array]:
+        """Largest change of the counted motion (3,) and of q_0, q_1 (2, 3) on finer cells.
+
+        From one Newton step at three times; 0 for a q_0 without a mean.
+        """
+        some = np.unique((np.array([0.07, 0.41, 0.77]) * times.size).astype(int))
+        finer = replace(self, resolution=self.resolution.finer())
+        step = finer._balance(times[some]).correction(motion.leading[some], motion.remainder[some])
+        orders = abs(np.stack([step.leading, step.remainder])).max(1)
+        if self.starts_at_second_order:
+            orders[0] = 0.0
+        return abs(self.counted(step)).max(1), orders
+
+    def field_error(self, motion: RigidMotion) -> float:
+        """Error of V_x, V_y and g Omega each (see `RigidNorm`) due to the error of the deformation.
+
+        The missing short waves alternate in sign and nearly cancel in the balance: the factors measured
+        for widths from 0.1 L to 2 L are at most 0.05 (sines) and 0.004 (pulses), against 0.2 and 0.02
+        used here.
+        """
+        speed = self.field.error * abs(self.alpha) * motion.fastest
+        by_load = 0.0 if self.contact.load is Load.MATERIAL else 0.4 * abs(self.alpha)
+        return speed * (by_load + (0.0 if self.starts_at_second_order else 0.02))
+
+    def _motion(self, times: Array) -> Motion:
+        field, r = self.field, self.resolution
+        across, along = self.drive.short_waves
+        grid = CellGrid.graded(field.sheet, along, r.density, self.mirrored, across)
+        return field.motion(times, grid, r.order)
+
+    def _balance(self, times: Array) -> Balance:
+        motion, r = self._motion(times), self.resolution
+        rate = self.contact.load.rate(motion.dilation, motion.growth)
+        check_load(motion, rate, self.alpha)
+        law = self.contact.friction.scaled(abs(self.alpha))
+        return Balance(motion, rate, self.alpha, law, r.halvings, r.tolerance)

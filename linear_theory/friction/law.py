@@ -1,0 +1,148 @@
+"""What a law of friction is: a convex potential of the velocity against the ground.
+
+The force on a point that slides with velocity v is -mu N times the gradient of the potential, N its
+normal load. All is written over velocity vectors, so that a law may depend on direction: line, theory
+and shell ask for nothing else. The coefficient mu cancels in the balance of a sheet that friction does
+not deform.
+"""
+
+import math
+from abc import ABC, abstractmethod
+from collections.abc import Mapping
+from functools import cached_property
+from typing import Any, ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linear_theory.common.pairs import pairs_among
+from linear_theory.common.shown import Shown, Value
+
+Array = NDArray[np.float64]
+
+ALL = slice(None)
+
+
+class FrictionLaw(Value, ABC):
+    """Potential, force and tangent of the velocity v, per unit of mu N: Coulomb, Tanh, Viscous, or a
+    class of one's own.
+
+    v: (components, ...), length per time; 1 component on a line (y), 2 in the plane (x, y), 3 in space,
+    along the ground. Directions are those of x and y, which a sheet is taken not to turn away from by
+    much. At rest potential and force are 0, and the tangent of a law that has a width is finite. A new
+    law is a frozen dataclass that inherits from this class, or from `Isotropic`. name: by which it is
+    called. Raises ValueError for a slip speed that is not positive.
+
+    >>> import numpy as np
+    >>> from linear_theory import Coulomb, FrictionLaw, Tanh, Viscous
+    >>> v = np.array([[0.3], [0.4]])  # one velocity in the plane
+    >>> for law in (Coulomb(), Tanh(slip_speed=0.5), Viscous()):
+    ...     print(f"{law.words}: force {law.force(v).ravel().round(3)}", isinstance(law, FrictionLaw))
+    dry friction: force [0.6 0.8] True
+    friction tanh(v/0.5): force [0.457 0.609] True
+    viscous friction: force [0.3 0.4] True
+    >>> print(Coulomb().tangent(v).ravel().round(2))  # xx, xy, yy: nothing along v, 1/|v| across
+    [ 1.28 -0.96  0.72]
+    """
+
+    name: ClassVar[str]
+
+    def __str__(self) -> str:
+        return self.name
+
+    @property
+    def even(self) -> bool:
+        """Whether the potential is the same for all of (+-v_x, +-v_y).
+
+        Then mirrored motions have mirrored forces and opposite ones opposite forces. Of a law that does
+        not say so no symmetry is assumed.
+        """
+        return False
+
+    @property
+    @abstractmethod
+    def width(self) -> float:
+        """Least speed over which the force changes sign: 0 for dry friction, infinite for viscous."""
+
+    @property
+    def regularised(self) -> bool:
+        """Whether it stands for dry friction and has a width all the same."""
+        return 0 < self.width < math.inf
+
+    @property
+    def limited(self) -> bool:
+        """Whether the force is at most mu N at any speed, as for all laws but the viscous one."""
+        return self.width < math.inf
+
+    @property
+    def words(self) -> str:
+        """What kind of friction it is, for people."""
+        return f"{self.name} friction"
+
+    @property
+    def formula(self) -> str:
+        """As a formula, for people."""
+        return self.name
+
+    def slip_ratio(self, fastest: float) -> float:
+        """`width` over the largest speed (see `CrawlSpeed`); Coulomb friction is dry at rest, too."""
+        if self.width == 0:
+            return 0.0
+        return self.width / fastest if fastest > 0 else math.inf
+
+    @abstractmethod
+    def potential(self, v: Array) -> Array:
+        """Dissipation potential, (...), length per time."""
+
+    @abstractmethod
+    def force(self, v: Array) -> Array:
+        """Its gradient, (components, ...): what the ground takes the point back with."""
+
+    @abstractmethod
+    def tangent(self, v: Array) -> Array:
+        """Its second derivative, time per length, (pairs, ...): component pairs c <= d (`PAIRS`)."""
+
+    @abstractmethod
+    def force_difference(self, v: Array, change: Array, step: float) -> Array:
+        """[force(v + step change) - force(v)]/step without cancellation, (components, ...)."""
+
+    @abstractmethod
+    def scaled(self, factor: float) -> "FrictionLaw":
+        """The law for velocities divided by `factor`: its force at v/factor is this one's at v."""
+
+    @abstractmethod
+    def speed_at(self, share: float) -> float:
+        """Speed along y at which the force is that share of mu N, in (0, 1) for a law with a limit."""
+
+    def at(self, v: Array, kept: slice = ALL) -> "Response":
+        """The law at given velocities; kept: the components of forces that are asked for."""
+        return Response(self, v, kept)
+
+
+class Response(Shown):
+    """A law at velocities v (components, ...): forces of the kept components, tangents among these.
+
+    Each quantity is evaluated once, when it is first asked for. Laws that share work between force,
+    tangent and difference have a response of their own.
+    """
+
+    def __init__(self, law: FrictionLaw, v: Array, kept: slice = ALL) -> None:
+        self.law, self.v, self.kept = law, v, kept
+
+    def _contents(self) -> Mapping[str, Any]:
+        return {"law": self.law, "v": self.v}
+
+    @cached_property
+    def force(self) -> Array:
+        """See FrictionLaw."""
+        return self.law.force(self.v)[self.kept]
+
+    @cached_property
+    def tangent(self) -> Array:
+        """See FrictionLaw."""
+        return self.law.tangent(self.v)[pairs_among(len(self.v), self.kept)]
+
+    def moved(self, change: Array, step: float) -> "tuple[Response, Array]":
+        """The law at v + step change, and the difference of the forces over the step."""
+        after = self.law.at(self.v + step * change, self.kept)
+        return after, self.law.force_difference(self.v, change, step)[self.kept]
