@@ -2,6 +2,8 @@
 
 from importlib.metadata import version
 
+from fem_check.files.gallery import names, title
+
 PULSE = (
     'sheetcrawl speed --length "40 mm" --width "15 mm" --thickness "0.8 mm" --period "8 s" '
     '--growth "12 %" --pulse 0.2'
@@ -31,11 +33,20 @@ MORE = (
     ("A film", f"{SPEED} --movie crawl.gif"),
 )
 
+FILES = (
+    ("Your own scene: a file to start from, with comments", "sheetcrawl new hydrogel"),
+    ("What would be simulated, how, and at what cost", "sheetcrawl check hydrogel.toml"),
+    ("Its answer", "sheetcrawl speed hydrogel.toml"),
+    ("For your editor, which then knows the keys", "sheetcrawl schema > scene.schema.json"),
+)
+"""In this order, each with what those before it have written."""
+
 BEYOND = (
     ("the same answer in Python", "fem_check.predict(Sheet(), SineWave(), alpha=0.1)"),
-    ("bending, thickness, weight, ground", "Scene(..., effects=[Bending(...), Ground(...), ...])"),
-    ("friction that deforms the sheet, inertia", "fem_check.simulate(scene)"),
-    ("outlines and holes, at small strain", "fem_check.plane_stress_field(Outline(...), wave)"),
+    ("a scene file, read and written", "Scene.from_toml(path), scene.to_toml(path)"),
+    ("effects of your own", "Scene(..., effects=[Bending(...), Ground(...), ...])"),
+    ("the motion in time, step by step", "fem_check.simulate(scene)"),
+    ("outlines at small strain", "fem_check.plane_stress_field(Outline(...), wave)"),
     ("waves c(x, y, t), turning, paths", "FieldWave(...), rigid_path(...)"),
 )
 """Tasks beyond the command, and their calls in Python."""
@@ -45,9 +56,30 @@ SPEED_HELP = f"""How fast the sheet crawls, how accurate that is, and what it co
 Quantities may have units, as in "40 mm", "8 s", "12 %"; plain numbers are in units of the sheet.
 
   {FIRST[0]}
+  {FILES[2][1]}
+"""
+
+NEW_HELP = f"""Write a scene file with comments, to be made your own. It never overwrites a file.
+
+  {FILES[0][1]}
+"""
+
+CHECK_HELP = f"""Say what a scene file would simulate, how and at what cost, or all its mistakes.
+
+  {FILES[1][1]}
+"""
+
+SCHEMA_HELP = f"""Print the JSON Schema of scene files, by which editors know tables, keys and ranges.
+
+  {FILES[3][1]}
 """
 
 EXAMPLES_HELP = "More examples, and the Python calls for tasks beyond this command."
+
+
+def listed() -> list[str]:
+    """The scenes of the gallery, each with what it is."""
+    return [f"  {name:<{max(map(len, names()))}}  {title(name)}" for name in names()]
 
 
 def welcome() -> str:
@@ -63,6 +95,8 @@ Examples to paste
 Other commands
 
   sheetcrawl speed --help         all options: sheet, wave, growth, friction, tolerance, output
+  sheetcrawl new --list           scene files with comments: bending, ground, outlines, weight, terrain
+  sheetcrawl check scene.toml     what a scene file says, by which level it is answered, at what cost
   sheetcrawl examples             more examples, pictures and films; what to do in Python
   sheetcrawl --install-completion shell completion of commands and options
   sheetcrawl --version
@@ -72,7 +106,8 @@ In Python: from fem_check import predict; help(predict)"""
 
 def examples() -> str:
     """Commands by purpose, and the Python calls for everything else."""
-    lines = [f"{title}\n  {command}\n" for title, command in MORE]
+    lines = [f"{title}\n  {command}\n" for title, command in (*MORE, *FILES)]
+    lines += ["Scene files to start from, for sheetcrawl new", *listed(), ""]
     width = max(len(title) for title, _ in BEYOND)
     lines.append("Beyond the command, in Python (help(name) shows an example of each)")
     lines += [f"  {title:<{width}}  {call}" for title, call in BEYOND]

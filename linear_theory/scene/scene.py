@@ -8,6 +8,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from importlib import import_module
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -34,6 +35,9 @@ Array = NDArray[np.float64]
 
 ELEMENTS = "fem_check.mesh.elements"
 """The module for meshes, imported by name if a scene specifies cells, a mesh or an element."""
+
+FILES = "fem_check.files"
+"""The package that knows scene files, likewise."""
 
 GROWTH = {
     "alpha": "alpha",
@@ -292,6 +296,32 @@ class Scene(Shown):
         arguments, contact = arguments_of(data, given)
         scene = cls(**{**arguments, **given})
         return scene if contact is None or scene.contact == contact else scene.but(contact=contact)
+
+    @classmethod
+    def from_toml(cls, path: str | Path) -> "Scene":
+        """The scene of a scene file: see `sheetcrawl new`, which writes examples with comments.
+
+        Raises ValueError that lists all that is wrong in the file, each with its line, table and key.
+        """
+        scene: Scene = import_module(FILES).read(path).scene
+        return scene
+
+    def to_toml(self, path: str | Path) -> Path:
+        """Write a scene file that holds the same scene, in units of the sheet, and return its path.
+
+        Raises ValueError for a scene with functions in it, which no text holds, and OSError where the
+        file cannot be written.
+
+        >>> import tempfile
+        >>> from linear_theory import Scene, Sheet, SineWave
+        >>> scene = Scene(Sheet(width=0.3), SineWave(), alpha=0.25)
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     path = scene.to_toml(f"{folder}/strip.toml")
+        ...     print(Scene.from_toml(path) == scene)
+        True
+        """
+        written: Path = import_module(FILES).write(self, path)
+        return written
 
     def _title(self) -> str:
         effects = ", ".join(type(effect).__name__ for effect in self.effects)

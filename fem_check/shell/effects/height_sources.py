@@ -1,8 +1,8 @@
-"""Three sources of the derivatives of the ground's height: differences, given functions, sympy."""
+"""Sources of the derivatives of the ground's height: differences, given functions, sympy."""
 
 import sys
 from collections.abc import Callable
-from typing import Any, Protocol
+from typing import Any, Protocol, runtime_checkable
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,8 +19,9 @@ _PROBES = 7
 """Number of points for a trial call of a function, different from 1 and from the number of ENTRIES."""
 
 
+@runtime_checkable
 class Source(Protocol):
-    """A height; x, y and its values are (points,)."""
+    """A height; x, y and its values are (points,). An object that is one is used as it is."""
 
     def values(self, x: Array, y: Array) -> Array:
         """f, (points,)."""
@@ -107,8 +108,10 @@ def is_expression(value: object) -> bool:
     return sympy is not None and isinstance(value, sympy.Basic)
 
 
-def source(function: Function, step: float | None) -> Source:
+def source(function: Any, step: float | None) -> Source:
     """The source for a function, by the shape that it returns. Raises ValueError for other shapes."""
+    if isinstance(function, Source):
+        return function
     origin = np.zeros(_PROBES)
     try:
         with np.errstate(all="ignore"):

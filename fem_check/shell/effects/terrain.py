@@ -50,8 +50,9 @@ class Terrain(Value):
 
     height: a function of arrays x, y (points,) that returns z, an array of their shape or one number;
     or one that returns the rows f, f_x, f_y, f_xx, f_yy, f_xy, (6, points); or a sympy expression in
-    symbols named x and y. Derivatives of a function are differences with a step of STEP lengths of the
-    sheet, those of an expression are exact; given ones are compared with differences.
+    symbols named x and y; or a `HeightMap`. Derivatives of a function are differences with a step of
+    STEP lengths of the sheet, those of an expression and of a map are exact; given ones are compared
+    with differences.
     name: identifies a function in a snapshot where its code cannot, as in `FieldWave`.
     length: of the sheet, for the differences; supplied by a Scene.
 
@@ -122,6 +123,10 @@ class Terrain(Value):
         x, y = self._places(sheet)
         found = self(x, y)
         _refuse(~np.isfinite(found).all(axis=0), x, y, "it is not finite")
+        if getattr(
+            self._source, "exact", False
+        ):  # no differences needed, which take seconds of splines
+            return
         reference = checked_jets(self.values, x, y, STEP * sheet.length)
         if isinstance(self._source, Plain):
             kinks = reference.error[1:3].max(axis=0) > KINK
