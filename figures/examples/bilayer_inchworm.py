@@ -30,7 +30,7 @@ for name, speed in (("stretches", flat), (f"bends, curvature {curvature:.1f}/L a
     print(f"{name}: V = {speed.mean:.5f} ± {speed.error:.5f} L/T, {sign} the wave")
 
 
-# %% V(t) of both: bending lifts the middle, and the sheet walks on the points that stay down
+# %% V(t) of both: where the sheet presses harder on the ground it rubs more
 def draw() -> Figure:
     """Velocity over a period."""
     figure = style.figure()

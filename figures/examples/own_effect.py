@@ -21,21 +21,19 @@ from linear_theory.common.shown import Value
 class Fibres(Value, Effect):
     """Threads along x of stiffness k, force per length."""
 
-    stiffness: float
+    k: float
     entries = (1,)  # it reads x_1, of x, x_1, x_2, x_11, x_22, x_12
     stored_as = "elastic"  # in the balance of power
 
     def energy(self, state: PointState) -> Array:
-        return self.stiffness / 8 * state.measure * self._excess(state) ** 2
+        return self.k / 8 * state.measure * self._excess(state) ** 2
 
     def gradient(self, state: PointState) -> Array:
-        return (self.stiffness / 2 * state.measure * self._excess(state) * state.tangent(1))[None]
+        return (self.k / 2 * state.measure * self._excess(state) * state.tangent(1))[None]
 
     def hessian(self, state: PointState) -> Array:
         x1, one = state.tangent(1), identity(state.components)
-        return (self.stiffness * state.measure * (self._excess(state) / 2 * one + outer(x1, x1)))[
-            None, None
-        ]
+        return (self.k * state.measure * (self._excess(state) / 2 * one + outer(x1, x1)))[None, None]
 
     def _excess(self, state: PointState) -> Array:
         return dot(state.tangent(1), state.tangent(1)) - 1
