@@ -10,27 +10,26 @@ import math
 import numpy as np
 from matplotlib.figure import Figure
 
+from fem_check import predict
 from figures.common import style
-from linear_theory import FieldWave, Sheet, crawl_speed, rigid_path
+from linear_theory import FieldWave, Sheet, rigid_path
 
 sheet, alpha = Sheet(length=1.0, width=0.5), 0.2
-wave = FieldWave(
-    lambda x, y, t: (1 + x / sheet.width) * np.sin(2 * np.pi * (y - t)), period=1.0, name="unequal"
-)
+wave = FieldWave(lambda x, y, t: (1 + x / sheet.width) * np.sin(2 * np.pi * (y - t)), period=1.0)
 
-# %% Velocity along, across and about the centre of mass, to second order in alpha
-speed = crawl_speed(sheet, wave, alpha, order=2, rtol=1e-2)
+# %% Velocity along, across and about the centre of mass of the nonlinear sheet
+found = predict(sheet, wave, alpha, rtol=1e-2)
 
 # %% The motion of one period, repeated
-path = rigid_path(speed, periods=100)
+path = rigid_path(found.speed, periods=100)
 turn, error = np.degrees([path.turn, path.turn_error])
-print(f"turns by {turn:.2f} ± {error:.2f} degrees a period, a circle in {360 / turn:.0f} periods")
-print(f"radius {path.radius:.2f} ± {path.radius_error:.2f} L, speed {path.speed:.4f} L/T")
+print(f"turns by {turn:.3f} ± {error:.3f} degrees a period, a circle in {360 / turn:.0f} periods")
+print(f"radius {path.radius:.3f} ± {path.radius_error:.3f} L, speed {path.speed:.4f} L/T")
 
 
 # %% The path, with the sheet every ten periods
 def draw() -> Figure:
-    """Path of the centre of mass and axes of the sheet on it."""
+    """Path of the centre of mass, and the axis of the sheet on it."""
     figure = style.figure()
     axes = figure.subplots()
     axes.plot(*path.position)
