@@ -8,7 +8,7 @@ import pdoc.render
 
 from docs.site.contents import API, ROOT
 
-TEMPLATES = Path(__file__).parent / "api"
+TEMPLATES = Path(__file__).parent / "templates"
 
 
 def modules() -> list[str]:

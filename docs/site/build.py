@@ -19,7 +19,7 @@ from docs.site.contents import ROOT, Page, pages
 from figures.common.command import parser
 from figures.common.output import tracked
 
-HERE = Path(__file__).parent
+TEMPLATES = Path(__file__).parent / "templates"
 
 PICTURES = "pictures"
 """Folder of the site for the pictures of the pages."""
@@ -30,18 +30,20 @@ def build(folder: Path, reference: bool = True, only: Sequence[str] = ()) -> Non
     everything = pages()
     shown = [page for page in everything if not _left_out(page, only)]
     folder.mkdir(parents=True, exist_ok=True)
-    style = (HERE / "style.css").read_text() + str(markup.CODE.get_style_defs(".code"))
+    style = (TEMPLATES / "style.css").read_text() + str(markup.CODE.get_style_defs(".code"))
     (folder / "style.css").write_text(style)
     if reference:
         api.write(folder / "api")
     for page in tracked("documentation", shown):
         target = folder / page.target
         target.parent.mkdir(parents=True, exist_ok=True)
-        target.write_text(framed(page, body(page, folder), shown))
+        target.write_text(framed(page, body(page, folder, shown), shown))
 
 
-def body(page: Page, folder: Path) -> str:
+def body(page: Page, folder: Path, shown: Sequence[Page]) -> str:
     """The HTML of a page without its frame; its pictures are copied or drawn."""
+    if page.source.stem == "__init__":
+        return examples.overview([other.source for other in shown if _is_script(other)])
     if page.source.suffix == ".py":
         return examples.rendered(page.source, (folder / page.target).parent)
     link = partial(_link, page, folder)
@@ -52,7 +54,7 @@ def framed(page: Page, content: str, shown: Sequence[Page]) -> str:
     """The whole page: the frame with the navigation, and the content."""
     title = "sheetcrawl" if page.target == "index.html" else f"{page.title} · sheetcrawl"
     names = {"title": title, "up": page.up, "navigation": navigation(page, shown), "content": content}
-    text = (HERE / "frame.html").read_text()
+    text = (TEMPLATES / "frame.html").read_text()
     for name, value in names.items():
         text = text.replace(f"{{{{{name}}}}}", value)
     return text
@@ -84,7 +86,11 @@ def main(arguments: Sequence[str] | None = None) -> None:
 
 
 def _left_out(page: Page, only: Sequence[str]) -> bool:
-    return bool(only) and page.section == "Examples" and page.source.stem not in only
+    return bool(only) and _is_script(page) and page.source.stem not in only
+
+
+def _is_script(page: Page) -> bool:
+    return page.source.suffix == ".py" and page.source.stem != "__init__"
 
 
 def _link(page: Page, folder: Path, link: str) -> str:
@@ -93,6 +99,8 @@ def _link(page: Page, folder: Path, link: str) -> str:
     if "://" in link or not path:
         return link
     source = (page.source.parent / path).resolve()
+    if source.is_dir():
+        source /= "__init__.py"
     for other in pages():
         if source == other.source:
             return page.up + other.target + (f"#{anchor}" if anchor else "")

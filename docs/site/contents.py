@@ -68,6 +68,9 @@ def pages() -> list[Page]:
         for name, title in HOWTO.items()
     ]
     examples = [
+        Page("Examples", "All examples", EXAMPLES / "__init__.py", "examples/index.html"),
+    ]
+    examples += [
         Page("Examples", name.replace("_", " ").capitalize(), path, f"examples/{name}.html")
         for name, path in scripts().items()
     ]

@@ -5,6 +5,7 @@ import contextlib
 import io
 import re
 import runpy
+from collections.abc import Sequence
 from pathlib import Path
 
 from docs.site.markup import code, html_of
@@ -24,6 +25,16 @@ def rendered(path: Path, pictures: Path) -> str:
         f'<h2 id="figure">What it draws</h2><img src="{picture.name}" alt="{_text(question)}">'
         f"<p>Run it with <code>python -m figures.examples.{path.stem}</code>.</p>"
     )
+
+
+def overview(scripts: Sequence[Path]) -> str:
+    """The body of the page of all examples: their questions and pictures."""
+    cells = []
+    for path in scripts:
+        question, _, _ = parts(path.read_text())
+        picture = f'<img src="{path.stem}.png" alt="">'
+        cells.append(f'<a href="{path.stem}.html">{picture}{_inline(question)}</a>')
+    return f'<h1>Examples</h1><div class="gallery">{"".join(cells)}</div>'
 
 
 def parts(source: str) -> tuple[str, str, list[tuple[str, str]]]:

@@ -1,7 +1,9 @@
 """Whether every link of the site leads somewhere, and no page asks for anything from outside."""
 
-from html.parser import HTMLParser
+import re
+from html import unescape
 from pathlib import Path
+from typing import NamedTuple
 from urllib.parse import unquote, urlsplit
 
 OUTSIDE = ("http", "https", "mailto", "data")
@@ -10,27 +12,30 @@ FETCHED = {("script", "src"), ("img", "src"), ("link", "href"), ("iframe", "src"
 """What a browser asks for by itself."""
 
 
-class _Reader(HTMLParser):
-    """Links and anchors of one page."""
+SCRIPT = re.compile(r"(<script\b[^>]*>).*?</script>", re.DOTALL)
+"""Whose inside holds templates of links."""
 
-    def __init__(self, text: str) -> None:
-        super().__init__()
-        self.links: list[tuple[str, str, str]] = []
-        self.anchors: set[str] = set()
-        self.feed(text)
+LINK = re.compile(r"<([a-z]+)\b[^>]*?\b(href|src)=\"([^\"]*)\"")
 
-    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
-        """Collect."""
-        for name, value in attrs:
-            if name in ("id", "name") and value:
-                self.anchors.add(value)
-            if name in ("href", "src") and value is not None:
-                self.links.append((tag, name, value))
+ANCHOR = re.compile(r"<[^>]*?\b(?:id|name)=\"([^\"]+)\"")
+
+
+class _Page(NamedTuple):
+    """Links of one page, (tag, attribute, link), and its anchors."""
+
+    links: list[tuple[str, str, str]]
+    anchors: set[str]
+
+
+def _read(path: Path) -> _Page:
+    text = SCRIPT.sub(r"\1", path.read_text())
+    links = [(tag, name, unescape(link)) for tag, name, link in LINK.findall(text)]
+    return _Page(links, set(ANCHOR.findall(text)))
 
 
 def broken(site: Path) -> list[str]:
     """Links of its pages that lead nowhere, or that are fetched from outside: "page: link"."""
-    pages = {path.resolve(): _Reader(path.read_text()) for path in sorted(site.rglob("*.html"))}
+    pages = {path.resolve(): _read(path) for path in sorted(site.rglob("*.html"))}
     return [
         f"{path.relative_to(site.resolve())}: {link}"
         for path, page in pages.items()
@@ -39,7 +44,7 @@ def broken(site: Path) -> list[str]:
     ]
 
 
-def _leads(path: Path, tag: str, name: str, link: str, pages: dict[Path, _Reader]) -> bool:
+def _leads(path: Path, tag: str, name: str, link: str, pages: dict[Path, _Page]) -> bool:
     parts = urlsplit(link)
     if parts.scheme or parts.netloc:
         return parts.scheme == "data" or (parts.scheme in OUTSIDE and (tag, name) not in FETCHED)

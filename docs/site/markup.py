@@ -18,6 +18,9 @@ Link = Callable[[str], str]
 
 CODE = HtmlFormatter(cssclass="code")
 
+SHORT = 30
+"""Characters of code in the text below which it is kept on one line."""
+
 LANGUAGES = {"python", "bash", "toml", "bibtex"}
 
 
@@ -34,6 +37,8 @@ def html_of(text: str, link: Link, api: Link) -> str:
         for child in token.children or ():
             _relink(child, link)
             if child.type == "code_inline":
+                if len(child.content) < SHORT:
+                    child.attrSet("class", "short")
                 _to_api(child, api)
     return str(markdown.renderer.render(tokens, markdown.options, {}))
 
