@@ -75,7 +75,8 @@ def _own(module: Any, name: str) -> bool:
     """Whether the module documents it: one of its public names, or defined there."""
     value = module
     for part in name.split("."):
-        value = getattr(value, part, None)
+        fields = getattr(value, "__dataclass_fields__", {})  # those without default are no attributes
+        value = getattr(value, part, fields.get(part))
     listed = getattr(module, "__all__", None)
     return value is not None and bool(listed or getattr(value, "__module__", "") == module.__name__)
 
