@@ -37,6 +37,7 @@ from linear_theory.speed.result import CrawlSpeed, Estimate
 from linear_theory.speed.second_order import SecondOrder, second_order
 from linear_theory.speed.si import Scale, speed_si
 from linear_theory.wave.given import FieldWave
+from linear_theory.wave.measured import SampledWave
 from linear_theory.wave.pulse import pulse_wave
 from linear_theory.wave.travelling import SineWave, TravellingWave
 
@@ -60,6 +61,7 @@ __all__ = [
     "Metric",
     "NotConvergedError",
     "RitzField",
+    "SampledWave",
     "Scale",
     "Scene",
     "SecondOrder",

@@ -70,6 +70,12 @@ def turning():
     return linear_theory.crawl_speed(SHEET, wave, alpha=0.25, rtol=5e-2)
 
 
+def measured():
+    y, t = np.linspace(-0.5, 0.5, 12), np.arange(10) / 10
+    c = np.sin(2 * np.pi * (y[:, None] - t)) + 0.1 * np.cos(40 * y[:, None] * t)
+    return linear_theory.SampledWave(y, t, c, period=1.0)
+
+
 @cache
 def field(kind):
     if kind == "AirySeries":
@@ -121,6 +127,7 @@ MADE = {
     "Exp": linear_theory.Exp,
     "FieldWave": lambda: linear_theory.FieldWave(lambda x, y, t: np.sin(y - t), 1.0, name="a & <b>"),
     "FieldDrive": lambda: linear_theory.FieldWave(lopsided, period=1.0).on(SHEET),
+    "FitUncertainty": lambda: measured().uncertainty,
     "Flat": Flat,
     "Friction": lambda: fem_check.Friction(0.7, 0.01),
     "FrictionField": lambda: linear_theory.friction_field(field("AirySeries"), 0.1, [0.1, 0.2], 0, 0.1),
@@ -140,6 +147,8 @@ MADE = {
     ),
     "Path": lambda: linear_theory.rigid_path(turning(), periods=20),
     "PlaneStressField": lambda: field("PlaneStressField"),
+    "PolynomialDrive": lambda: measured().on(SHEET),
+    "PolynomialWave": lambda: measured().smooth,
     "Poses": lambda: trajectory().path,
     "Potential": potential,
     "Prediction": lambda: fem_check.predict(SHEET, SINE, alpha=0.05, rtol=0.1),
@@ -149,6 +158,7 @@ MADE = {
     "RestState": lambda: ShellModel(planar()).rest(0.2),
     "RigidSpeed": lambda: turning().turning,
     "RitzField": lambda: field("RitzField"),
+    "SampledWave": measured,
     "Scale": lambda: linear_theory.Scale(0.04, 8.0),
     "Scene": full_scene,
     "Scene on a mesh": lambda: planar(mesh=fem_check.Outline.trapezoid(0.5, 0.5, 1.0).mesh(0.3)),

@@ -107,7 +107,9 @@ def _missed(found: "Prediction") -> str:
 def _accuracy(found: "Prediction", units: Units) -> str:
     """Relative error, with its numerical and model parts."""
     speed = found.speed
-    numbers = f"numerical {rounded_up(units.of_speed(speed.error))}"
+    numbers = f"numerical {rounded_up(units.of_speed(speed.error - speed.wave_error))}"
+    if speed.wave_error:
+        numbers += f", noise of the measured wave {rounded_up(units.of_speed(speed.wave_error))}"
     model = f"model {_model(found, units)}"
     if found.mean == 0 and _error(found) == 0:
         return f"exact: nothing moves ({numbers}, {model})"

@@ -27,7 +27,7 @@ def wave_words(drive: Drive) -> str:
     """Number and form of the waves on the sheet."""
     wave = drive.series
     if wave is None:
-        return "a wave c(x, y, t)"
+        return str(getattr(drive.wave, "words", "a wave c(x, y, t)"))
     if not wave.moves:
         return "growth constant in time"
     count = abs(wave.count)

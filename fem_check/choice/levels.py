@@ -13,6 +13,7 @@ is known where it was measured (`linear_theory.speed.model_error`).
 import math
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 
 from fem_check.mesh.elements import default_cells
 from fem_check.shell.cycle.speed import Cycle
@@ -24,6 +25,7 @@ from linear_theory.scene.scene import Scene
 from linear_theory.speed.crawl import drawn_deformation, theory_speed
 from linear_theory.speed.model_error import model_error
 from linear_theory.speed.result import CrawlSpeed
+from linear_theory.speed.wave_error import with_wave_error
 
 MESHES = (1, 2, 4)
 """Refinement factors of the default cells tried for the nonlinear sheet, coarse to fine."""
@@ -57,6 +59,10 @@ def second_order(scene: Scene, tolerance: Tolerance) -> CrawlSpeed:
 
 def cycle(scene: Scene, tolerance: Tolerance) -> CrawlSpeed:
     """The target, on finer and finer meshes until the tolerance is met or they no longer help."""
+    return with_wave_error(scene, tolerance, partial(_numbers_of_cycle, scene))
+
+
+def _numbers_of_cycle(scene: Scene, tolerance: Tolerance) -> CrawlSpeed:
     seconds, before = 0.0, math.inf
     for factor in MESHES:
         fine = finer(scene, factor)

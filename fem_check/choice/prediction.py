@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 from fem_check.answer.block import block
 from fem_check.choice.levels import LEVELS, TARGET_EFFECTS, distance
-from fem_check.shell.abilities import left_out, require
+from fem_check.shell.abilities import left_out
 from linear_theory.common import validation
 from linear_theory.common.drawable import Drawable
 from linear_theory.common.errors import (
@@ -23,7 +23,7 @@ from linear_theory.common.threads import one_blas_thread
 from linear_theory.common.tolerance import Tolerance
 from linear_theory.friction.law import FrictionLaw
 from linear_theory.friction.load import Load
-from linear_theory.friction.regime import warn_if_viscous
+from linear_theory.friction.regime import Regime, warn_if_viscous
 from linear_theory.growth.growth import Reference
 from linear_theory.growth.laws import GrowthLaw
 from linear_theory.scene.level import THEORY
@@ -81,6 +81,16 @@ class Prediction(Drawable, Shown):
         """Numerical plus model error, absolute."""
         return total_error(self.speed)
 
+    @property
+    def model_error(self) -> float:
+        """Distance of the level to the target, absolute."""
+        return self.speed.model_error
+
+    @property
+    def regime(self) -> Regime:
+        """See `CrawlSpeed.regime`."""
+        return self.speed.regime
+
     def __str__(self) -> str:
         return block(self)
 
@@ -88,7 +98,10 @@ class Prediction(Drawable, Shown):
         return f"Prediction: {speed_in_words(self.mean, self.error, self.converged)}"
 
     def _rows(self) -> Mapping[str, Any]:
-        errors = f"{self.speed.error:.2g} numerical, {number(self.speed.model_error)} model"
+        numerical, wave = self.speed.error - self.speed.wave_error, self.speed.wave_error
+        errors = f"{numerical:.2g} numerical, {number(self.speed.model_error)} model"
+        if wave:
+            errors += f", {wave:.2g} wave"
         answer = {"level": self.level, "reason": self.reason, "error": errors}
         left_out = {"left_out": "; ".join(self.left_out)} if self.left_out else {}
         friction = {"regime": self.speed.regime, "model": self.speed.model}
@@ -149,7 +162,7 @@ def predict(
     scene = Scene.stated(
         sheet, wave, alpha, load, friction, slip_speed, growth_law=growth_law, area=area
     )
-    require(THEORY, scene)
+    THEORY.require(scene)
     tolerance = Tolerance(rtol, atol).of_speed(scene.alpha, scene.unit)
     validation.choice("method", method, METHODS)
     with watched(progress, "predict"):

@@ -165,7 +165,9 @@ def absolute_tolerance(atol: object, rtol: float, alpha: float, unit: float) -> 
 def choice(name: str, value: object, allowed: Collection[str]) -> str:
     """`value`, which must be one of the allowed names."""
     if not isinstance(value, str) or value not in allowed:
-        raise ValueError(f"{name} = {shown(value)}: must be one of {', '.join(map(repr, allowed))}")
+        raise ValueError(
+            f"{name} = {shown(value)}: must be one of {', '.join(repr(str(a)) for a in allowed)}"
+        )
     return value
 
 

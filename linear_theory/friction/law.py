@@ -70,6 +70,11 @@ class FrictionLaw(Value, ABC):
         return 0 < self.width < math.inf
 
     @property
+    def limited(self) -> bool:
+        """Whether the force is at most mu N at any speed, as for all laws but the viscous one."""
+        return self.width < math.inf
+
+    @property
     def words(self) -> str:
         """What kind of friction it is, for people."""
         return f"{self.name} friction"

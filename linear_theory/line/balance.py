@@ -3,6 +3,7 @@
 import time
 
 import numpy as np
+from numpy.typing import NDArray
 
 from linear_theory.common import validation
 from linear_theory.common.threads import one_blas_thread
@@ -15,16 +16,22 @@ from linear_theory.friction.regime import warn_if_viscous
 from linear_theory.growth.laws import GrowthLaw
 from linear_theory.line.piece import Piece
 from linear_theory.line.result import LineMotion
-from linear_theory.line.samples import sampled_balance
+from linear_theory.line.samples import coarse_mean, sampled_balance
 from linear_theory.line.travelling import travelling_balance
+from linear_theory.motion.rigid import RigidNorm
 from linear_theory.scene.scene import Scene
 from linear_theory.sheet.rectangle import Sheet
 from linear_theory.speed.result import CrawlSpeed, Estimate
+from linear_theory.speed.wave_error import WaveError, equidistant_times, wave_error
 from linear_theory.speed.words import model_words
 from linear_theory.wave import arguments
 from linear_theory.wave.places import on_axis
 from linear_theory.wave.protocol import Wave
 from linear_theory.wave.sampled import drive
+from linear_theory.wave.uncertain import uncertainty_of
+
+ALONG = RigidNorm(gyration=1.0, mirrored=True)
+"""Of a body on a line: V_y alone counts."""
 
 
 def line_balance(
@@ -102,12 +109,14 @@ def line_crawl(scene: Scene, tolerance: Tolerance, body: str) -> CrawlSpeed:
         raise ValueError(f"friction = {law!r}: must be one of {names} for a body on a line")
     piece = Piece.of(scene.growth.law, scene.contact.load, body)
     tolerance = tolerance.of_speed(scene.alpha, scene.unit)
-    answer = _in_lengths(scene, piece, tolerance.scaled(length))
+    error = _wave_error(scene, piece)
+    numbers = tolerance if error is None else error.leaves(tolerance, ALONG)
+    answer = _in_lengths(scene, piece, numbers.scaled(length))
     estimate = Estimate(length * answer.mean, length * answer.error)
-    return CrawlSpeed(
+    found = CrawlSpeed(
         estimate=estimate,
         model_error=np.nan,
-        converged=estimate.error <= tolerance.allowed(estimate.value),
+        converged=estimate.error <= numbers.allowed(estimate.value),
         times=answer.times,
         velocity=length * answer.velocity,
         slip_ratio=law.slip_ratio(length * answer.fastest),
@@ -117,6 +126,23 @@ def line_crawl(scene: Scene, tolerance: Tolerance, body: str) -> CrawlSpeed:
         seconds=time.perf_counter() - start,
         model=_words(scene, body),
     )
+    return found if error is None else error.joins(found, tolerance, ALONG)
+
+
+def _wave_error(scene: Scene, piece: Piece) -> WaveError | None:
+    """What the error of the wave does to the speed; None for a wave that is exact."""
+    uncertainty, length = uncertainty_of(scene.wave), scene.sheet.length
+    if uncertainty is None or scene.alpha == 0:
+        return None
+    scene.drive.check()
+    law, shares = scene.contact.friction.scaled(length), equidistant_times(scene) / scene.period
+
+    def mean(wave: Wave) -> NDArray[np.float64]:
+        on_line = drive(wave, scene.sheet, on_axis(length))
+        found = coarse_mean(on_line, scene.alpha, law, piece, shares * on_line.period)
+        return np.array([0.0, length * found, 0.0])
+
+    return wave_error(uncertainty, scene.wave, mean)
 
 
 def _checked_length(length: float | None, wave: Wave) -> float:
@@ -143,5 +169,5 @@ def _in_lengths(scene: Scene, piece: Piece, tolerance: Tolerance) -> LineMotion:
 def _words(scene: Scene, body: str) -> str:
     shape = {"line": "body on a line", "strip": "narrow strip that grows both ways"}[body]
     stretch = f"stretch {scene.growth.law.words}"
-    remarks = stretch, "quasi-static", "shape not affected by friction"
+    remarks = stretch, "quasi-static", "shape not deformed by friction"
     return model_words(shape, None, scene.contact, *remarks)

@@ -10,12 +10,13 @@ from linear_theory.friction.laws import FRICTION_LAWS
 from linear_theory.growth.growth import Growth
 from linear_theory.growth.laws import GROWTH_LAWS
 from linear_theory.sheet.rectangle import Sheet
+from linear_theory.wave.measured import SampledWave
 from linear_theory.wave.travelling import SineWave, TravellingWave
 
 KINDS: dict[str, type] = {
     kind.__name__: kind
     for kind in (
-        *(Sheet, SineWave, TravellingWave, Growth, Contact),
+        *(Sheet, SineWave, TravellingWave, SampledWave, Growth, Contact),
         *(type(law) for law in GROWTH_LAWS.values()),
         *FRICTION_LAWS.values(),
     )

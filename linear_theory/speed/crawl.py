@@ -32,6 +32,7 @@ from linear_theory.speed.model_error import LEVELS, model_error
 from linear_theory.speed.reach import judged, too_large_growth, warn_if_beyond
 from linear_theory.speed.result import CrawlSpeed, Estimate, RigidSpeed
 from linear_theory.speed.second_order import second_order_speed
+from linear_theory.speed.wave_error import with_wave_error
 from linear_theory.speed.words import model_words
 from linear_theory.wave.protocol import Wave
 
@@ -115,15 +116,18 @@ def theory_speed(
     if validation.integer("order", order) not in ORDERS:
         raise ValueError(f"order = {order}: must be one of {', '.join(map(str, ORDERS))}")
     validation.choice("method", method, METHODS if order == 1 else ("auto", "ritz"))
-    if order == 2:
-        found, method = second_order_speed(scene, tolerance), "ritz"
-    else:
-        field = _field(scene, tolerance.rtol, method)
-        found = _field_speed(field, scene.alpha, scene.contact, tolerance)
+    method = method if order == 1 else "ritz"
+    solve = partial(second_order_speed, scene) if order == 2 else partial(_first, scene, method)
+    found = with_wave_error(scene, tolerance, solve)
     # Computed again for drawing, so that a speed does not keep a solution and its tables in memory.
     deformation = drawn_deformation(scene, method)
     distance = model_error(LEVELS[order], scene)
     return replace(found, model_error=distance, deformation=deformation)
+
+
+def _first(scene: Scene, method: str, tolerance: Tolerance) -> CrawlSpeed:
+    field = _field(scene, tolerance.rtol, method)
+    return _field_speed(field, scene.alpha, scene.contact, tolerance)
 
 
 def drawn_deformation(scene: Scene, method: str = "ritz") -> LinearDeformation:

@@ -73,6 +73,7 @@ class CrawlSpeed(Drawable, Tabular):
     seconds: time for set-up and solution; model: assumptions, in words.
     beyond_reach: why a theory of small growth is not valid at this alpha (see `reach`), in words; empty
     if it is. Such results are never converged.
+    wave_error: the part of error due to a measured wave (see `wave_error`), 0 for an exact one.
     deformation: the deformation of the sheet, for pictures (see `drawn.Deformation`); None if there
     is no shape. It is not part of the value and is not copied or pickled.
 
@@ -97,6 +98,7 @@ class CrawlSpeed(Drawable, Tabular):
     sticks: bool = False
     turning: RigidSpeed | None = None
     beyond_reach: str = ""
+    wave_error: float = 0.0
     deformation: "Deformation | None" = field(default=None, repr=False, compare=False)
 
     def __getstate__(self) -> dict[str, Any]:
@@ -174,6 +176,8 @@ class CrawlSpeed(Drawable, Tabular):
         ratio = "" if np.isnan(self.slip_ratio) else f", slip ratio {self.slip_ratio:.3g}"
         first = {"model_error": self.model_error, "regime": f"{self.regime}{ratio}"}
         rest = {name: v for name, v in self._contents().items() if name not in TOLD and _is_there(v)}
+        if not self.wave_error:
+            del rest["wave_error"]
         return {**first, **rest}
 
     def _columns(self) -> Sequence[Column]:

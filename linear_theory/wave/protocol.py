@@ -40,7 +40,8 @@ class Wave(Protocol):
 
     A wave with further information also has `on(sheet, places=None)`, which returns its `Drive` on a
     body. sheet: the rectangle around the body; places: x and y (n,) of points distributed over a body
-    that is not the whole rectangle, at which the wave is sampled.
+    that is not the whole rectangle, at which the wave is sampled. One that is not known exactly has
+    `uncertainty`, which the errors of speeds include (see `uncertain`).
     """
 
     @property

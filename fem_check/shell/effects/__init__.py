@@ -1,4 +1,4 @@
-"""What acts on a sheet, one file per effect; a scene names those that it calls for."""
+"""The effects on a sheet, one file each; a scene names those that act."""
 
 from fem_check.shell.effects.effect import Effect
 from fem_check.shell.effects.friction import Friction

@@ -15,13 +15,13 @@ CELLS = {3: "triangle", 4: "quad"}
 
 
 def write_paraview(trajectory: Trajectory, path: str | Path, refine: int = 2) -> None:
-    """The undeformed mesh, and at every kept time the displacement and the growth c at its vertices.
+    """Write the undeformed mesh, with displacement and growth c at its vertices at every kept time.
 
-    path: of the .xdmf file; one file holds it all. refine: how often elements are halved for the
-    picture, because a few elements of high degree carry more than their corners show. In ParaView:
-    Warp By Vector.
+    path: of the .xdmf file, which holds all data. refine: number of refinements of the elements for the
+    picture, because the corners of a few elements of high degree do not show their shape. In ParaView
+    use the filter Warp By Vector.
 
-    Raises ValueError for a trajectory that is none and a refine that is no integer >= 0, and
+    Raises ValueError for anything but a trajectory and for a refine that is not an integer >= 0, and
     ModuleNotFoundError, with what to install, without meshio.
 
     >>> import os, tempfile

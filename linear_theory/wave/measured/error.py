@@ -1,0 +1,66 @@
+"""How far the wave of a fit may be from the true one, as waves that fit the samples as well."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import solve_triangular
+
+from linear_theory.common.shown import Shown
+from linear_theory.wave.measured.fit import Fit
+from linear_theory.wave.measured.polynomial import PolynomialWave
+
+Array = NDArray[np.float64]
+
+SEED = 20240607
+
+
+@dataclass(frozen=True, eq=False)
+class FitUncertainty(Shown):
+    """Of a fitted wave: the covariance of its coefficients and the error of its period.
+
+    wave: as fitted. larger: a fit with some of the functions that were dropped, whose coefficients are
+    as uncertain as those that were kept: what is dropped is below the noise, not known to be 0. noise:
+    of one sample; count: of the samples; size: root mean square of c; period_error: standard error.
+    """
+
+    wave: PolynomialWave
+    larger: Fit
+    noise: float
+    count: int
+    size: float
+    period_error: float
+
+    def _rows(self) -> Mapping[str, Any]:
+        functions = {"basis": self.wave.basis, "larger": self.larger.basis}
+        return {"share": self.share, "noise": self.noise, "samples": self.count, **functions}
+
+    @property
+    def share(self) -> float:
+        """Root mean square of the error of c over that of c, at the samples."""
+        fit = self.noise * np.sqrt(self.larger.basis.size / self.count) / self.size
+        return float(np.hypot(fit, self.period_error / self.wave.period))
+
+    def waves(self, count: int, scale: float = 1.0) -> list[PolynomialWave]:
+        """The fitted wave with coefficients and period moved by their errors, times `scale`."""
+        shifts = self._shifts(count)
+        return [self._moved(scale * shift[:-1], scale * shift[-1]) for shift in shifts]
+
+    def _shifts(self, count: int) -> Array:
+        """Errors of the coefficients and, last, of the period, (count, size + 1)."""
+        size = self.larger.basis.size
+        normal = np.random.default_rng(SEED).standard_normal((count, size + 1))
+        coefficients = self.noise * solve_triangular(self.larger.factor, normal[:, :-1].T)
+        return np.concatenate([coefficients.T, self.period_error * normal[:, -1:]], axis=1)
+
+    def _moved(self, shift: Array, later: float) -> PolynomialWave:
+        basis = self.larger.basis.lasting(self.wave.period * np.exp(later / self.wave.period))
+        coefficients = self._embedded + shift.reshape(basis.shape)
+        return PolynomialWave(basis, coefficients, self.wave.margins)
+
+    @cached_property
+    def _embedded(self) -> Array:
+        return self.wave.basis.embed(self.wave.coefficients, self.larger.basis)
