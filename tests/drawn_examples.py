@@ -1,4 +1,4 @@
-"""Settings of property tests: the same examples in every run, with no limit of time for busy machines."""
+"""Settings of property tests: the same examples in every run, however busy the machine."""
 
 from collections.abc import Callable
 
