@@ -15,7 +15,6 @@ from fem_check import Friction, Gravity, Ground, Inertia, Material, Membrane, Te
 from linear_theory import (
     Contact,
     FieldWave,
-    FrictionLaw,
     GrowthLaw,
     SampledWave,
     Scene,
@@ -130,8 +129,7 @@ def test_what_is_damaged_is_refused(kind: str) -> None:
         try:
             read = Scene.from_dict(data)
         except ValueError as error:
-            refused += 1
-            assert len(str(error)) < 700, deed
+            refused += len(str(error)) < 700
         except Exception as error:
             raise AssertionError(f"{deed}: {error!r}") from error
         else:
@@ -212,14 +210,16 @@ def test_a_wrong_value_is_refused_with_its_place(place: str) -> None:
 
 @pytest.mark.parametrize("cells", [5, True, [1.5, 4], [True, 4], [2], {}, "24", [10**400, 1]])
 def test_cells_are_two_integers(cells: Any) -> None:
-    with pytest.raises(ValueError, match="^cells = .*must be (two integers|an integer|at most)"):
+    with pytest.raises(ValueError, match=r"^cells = .*must be (two integers|an integer|at most)"):
         Scene.from_dict({**DATA["cells"], "cells": cells})
 
 
 def test_a_vertex_too_few_is_refused() -> None:
     data, owner, _ = owner_of("mesh.vertices")
     owner["vertices"].pop()
-    with pytest.raises(ValueError, match="mesh.elements contains 22: must be indices of the 22 vertic"):
+    with pytest.raises(
+        ValueError, match=r"mesh.elements contains 22: must be indices of the 22 vertic"
+    ):
         Scene.from_dict(data)
 
 
@@ -305,7 +305,7 @@ def test_a_height_that_is_no_formula_must_be_given() -> None:
 
 def test_waves_are_counted_in_integers_that_machines_have() -> None:
     for make in (SineWave, lambda count: TravellingWave([1.0], [0.5], count)):
-        with pytest.raises(ValueError, match="count = 10+...0+: must be at most 90071992"):
+        with pytest.raises(ValueError, match=r"count = 10+...0+: must be at most 90071992"):
             make(10**400)
         with pytest.raises(ValueError, match="count = 1000000001: must be from -1000000000 to 1000000"):
             make(10**9 + 1)

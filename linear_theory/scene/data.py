@@ -1,6 +1,6 @@
-"""Parts of a scene from plain data, as written by `to_dict` and no other: nothing is filled in or ignored.
+"""Parts of a scene from plain data, as written by `to_dict` and no other.
 
-Every part is written again after it is read. Data that come back different are refused, whatever a
+Nothing is filled in or ignored: every part is written again after it is read. Data that come back different are refused, whatever a
 class would make of them: a left-out key with a default, True for 1, a name for an object.
 """
 
@@ -34,7 +34,7 @@ KINDS: dict[str, type] = {
 EFFECTS = "fem_check.shell.effects"
 """Module of the effects, imported by name if a scene has any."""
 
-COMPUTED = {SampledWave: 1e-6}
+COMPUTED: dict[type, float] = {SampledWave: 1e-6}
 """Relative difference allowed to numbers that a class computes anew when it is read. Their last digits
 depend on the machine."""
 
@@ -156,7 +156,7 @@ def _agree(one: Any, other: Any, rtol: float) -> bool:
     if isinstance(one, int | float) and isinstance(other, int | float):
         return one == other
     if isinstance(one, str) and isinstance(other, str):
-        return str(one) == str(other) or bool(rtol) and _rounded(one) == _rounded(other)
+        return str(one) == str(other) or (rtol > 0 and _rounded(one) == _rounded(other))
     return one is None and other is None
 
 

@@ -43,9 +43,7 @@ def scene_of(make: "Callable[..., Scene]", data: Data, given: Data) -> "Scene":
     resolution = {name: data[name] for name in RESOLUTION if name not in given}
     if any(value is not None for value in resolution.values()):
         found |= import_module(MESHES).from_data(resolution)
-    with np.errstate(
-        all="ignore"
-    ):  # numbers near the largest and smallest are refused for other reasons
+    with np.errstate(all="ignore"):  # by numbers near the largest
         scene = make(**{**found, **given})
     if resolution and scene.elements is not None:
         written = plain(scene.elements.contents())

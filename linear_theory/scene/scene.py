@@ -259,8 +259,8 @@ class Scene(Shown):
         """The scene written by `to_dict`, also from JSON; given: arguments that replace its own.
 
         Raises ValueError for data that differ in anything from what `to_dict` writes, and for functions
-        (waves, ground) and classes of one's own, which data cannot hold: pass the part that has them, as
-        wave=wave. Effects that are passed say what the load and the friction are.
+        (waves, ground) and classes of one's own, which data cannot hold: pass the part that has them,
+        as wave=wave. Effects that are passed say what the load and the friction are.
 
         >>> import json
         >>> from linear_theory import Scene, Sheet, SineWave
