@@ -106,7 +106,7 @@ def test_an_inverted_start_is_refused() -> None:
     d = minimiser.supports.discretisation
     mirrored = d.zeros().reshape(-1, 2)
     mirrored[:, 0] = -2 * d.locations[0]
-    with pytest.raises(ConvergenceError, match="inside out"):
+    with pytest.raises(ConvergenceError, match="initial state is inverted"):
         minimiser.minimise(problem(1.0), mirrored.ravel())
 
 

@@ -130,7 +130,7 @@ def poisson(value: object) -> float:
 
 
 def integer(name: str, value: object, minimum: int | None = None) -> int:
-    """`value` as an integer, at least `minimum`, exact as a float; 2.0 is refused, np.int64(2) is not."""
+    """`value` as an integer, at least `minimum` and exact as a float; 2.0 is refused, numpy's are not."""
     try:
         if isinstance(value, bool):
             raise TypeError
@@ -179,8 +179,9 @@ def absolute_tolerance(atol: object, rtol: float, alpha: float, unit: float) -> 
 def choice(name: str, value: object, allowed: Collection[str]) -> str:
     """`value`, which must be one of the allowed names."""
     if not isinstance(value, str) or value not in allowed:
-        names = ", ".join(repr(str(name)) for name in allowed)
-        raise ValueError(f"{name} = {shown(value)}: must be one of {names}")
+        raise ValueError(
+            f"{name} = {shown(value)}: must be one of {', '.join(repr(str(a)) for a in allowed)}"
+        )
     return value
 
 

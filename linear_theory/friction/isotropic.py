@@ -19,8 +19,8 @@ TINY = 1e-150
 class Isotropic(FrictionLaw):
     """A law that is given by functions of the speed r = |v| >= 0.
 
-    The force is f(r) v/r; its tangent is f'(r) along v and f(r)/r across. A law of one's own is a frozen
-    dataclass with `energy`, `size`, `slope` and `rise`, functions of arrays r, and the `width`,
+    The force is f(r) v/r; its tangent is f'(r) along v and f(r)/r across. A law of one's own is a
+    frozen dataclass with `energy`, `size`, `slope` and `rise`, functions of arrays r, and the `width`,
     `scaled` and `speed_at` of a `FrictionLaw`. Where a scene takes it in they are compared with each
     other, and a ValueError names one that is wrong.
 

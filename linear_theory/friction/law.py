@@ -32,9 +32,9 @@ class FrictionLaw(Value, ABC):
     along the ground. Directions are those of x and y, which a sheet is taken not to turn away from by
     much. At rest potential and force are 0, and the tangent of a law that has a width is finite. A new
     law is a frozen dataclass that inherits from this class, or from `Isotropic`. name: by which it is
-    called. Where a scene takes it in its methods are compared with each other (see `trial`), so that none
-    is wrong unnoticed: ValueError names the method and its numbers. Raises ValueError for a slip speed
-    that is not positive.
+    called. Where a scene takes it in, its methods are compared with each other (see `trial`), so that
+    none is wrong unnoticed: a ValueError names the method and its numbers. Raises ValueError for a slip
+    speed that is not positive.
 
     >>> import numpy as np
     >>> from linear_theory import Coulomb, FrictionLaw, Tanh, Viscous
@@ -71,6 +71,11 @@ class FrictionLaw(Value, ABC):
     def regularised(self) -> bool:
         """Whether it stands for dry friction and has a width all the same."""
         return 0 < self.width < math.inf
+
+    @property
+    def limited(self) -> bool:
+        """Whether the force is at most mu N at any speed, as for all laws but the viscous one."""
+        return self.width < math.inf
 
     @property
     def words(self) -> str:

@@ -14,6 +14,17 @@ from linear_theory.friction.trial import check_law
 
 Array = NDArray[np.float64]
 
+EXTREME = 1e100
+"""Bound of speed scales and of their inverses, so that tangents and their squares can be computed."""
+
+
+def _scale(name: str, value: float) -> float:
+    """A speed scale within EXTREME."""
+    speed = validation.positive(name, value)
+    if not 1 / EXTREME <= speed <= EXTREME:
+        raise ValueError(f"{name} = {speed:g}: must be from {1 / EXTREME:g} to {EXTREME:g}")
+    return speed
+
 
 @dataclass(frozen=True)
 class Coulomb(Isotropic):
@@ -54,15 +65,15 @@ class Coulomb(Isotropic):
 class Tanh(Isotropic):
     """Regularised dry friction, f = tanh(r/slip_speed) (eq. 3).
 
-    slip_speed: length per time, > 0, else ValueError. Small against the speeds it is dry friction,
-    large against them viscous.
+    slip_speed: length per time, from 1e-100 to 1e100, else ValueError. Small against the speeds it is
+    dry friction, large against them viscous.
     """
 
     slip_speed: float
     name: ClassVar[str] = "tanh"
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "slip_speed", validation.positive("slip_speed", self.slip_speed))
+        object.__setattr__(self, "slip_speed", _scale("slip_speed", self.slip_speed))
 
     @property
     def width(self) -> float:
@@ -125,8 +136,8 @@ class Tanh(Isotropic):
 class Viscous(Isotropic):
     """f = r/speed.
 
-    speed: at which the force is mu N, length per time, > 0, else ValueError. On level ground, for a
-    sheet that friction does not deform, it does not count.
+    speed: at which the force is mu N, length per time, from 1e-100 to 1e100, else ValueError. On level
+    ground, for a sheet that friction does not deform, it does not count.
     """
 
     speed: float = 1.0
@@ -134,7 +145,7 @@ class Viscous(Isotropic):
     width: ClassVar[float] = math.inf
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "speed", validation.positive("speed", self.speed))
+        object.__setattr__(self, "speed", _scale("speed", self.speed))
 
     def speed_at(self, share: float) -> float:
         """See FrictionLaw."""
@@ -192,7 +203,7 @@ def friction_law(
     if name == Tanh.name:
         if slip_speed is None:
             raise ValueError(f"slip_speed = None: must be > 0 for {argument} = 'tanh'")
-        return Tanh(validation.positive("slip_speed", slip_speed))
+        return Tanh(slip_speed)  # type: ignore[arg-type]  # checked there
     if slip_speed is not None:
         raise ValueError(f"slip_speed = {slip_speed!r}: only {argument} = 'tanh' has one")
     return Coulomb() if name == Coulomb.name else Viscous()

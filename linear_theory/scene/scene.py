@@ -21,7 +21,7 @@ from linear_theory.friction.laws import friction_law
 from linear_theory.friction.load import Load
 from linear_theory.growth.growth import Growth
 from linear_theory.identity import content_key
-from linear_theory.scene.effects import checked_effects, contact_of
+from linear_theory.scene.effects import checked_effects, contact_of, in_order
 from linear_theory.sheet.rectangle import Sheet
 from linear_theory.wave import arguments
 from linear_theory.wave.phases import phases
@@ -109,7 +109,7 @@ class Scene(Shown):
             sheet=sheet,
             wave=wave,
             growth=_grown(growth, dict(zip(GROWTH.values(), said, strict=True))),
-            effects=tuple(effect.under(sheet) for effect in checked_effects(effects)),
+            effects=tuple(effect.under(sheet) for effect in in_order(checked_effects(effects))),
             _said=None if contact is None else validation.instance("contact", contact, Contact),
         )
         self._set(contact=contact_of(self.effects, self.components, self._said))
@@ -128,7 +128,10 @@ class Scene(Shown):
         >>> print(scene.but(alpha=0.1).growth.law)
         linear
         """
-        known = {"sheet": self.sheet, "wave": self.wave, "growth": self.growth, "contact": self._said}
+        known = {"sheet": self.sheet, "wave": self.wave, "contact": self._said}
+        if "growth" not in changes:
+            said = {name: getattr(self.growth, part) for name, part in GROWTH.items()}
+            known |= {name: changes.get(name, value) for name, value in said.items()}
         return Scene(**{**known, "effects": self.effects, **self._resolution(), **changes})
 
     def resting(
@@ -136,7 +139,8 @@ class Scene(Shown):
     ) -> "Scene":
         """The scene with the given load and friction, names or objects; None keeps its own.
 
-        Raises ValueError for unknown names, and if an effect of the scene says otherwise.
+        Raises ValueError for unknown names, and if an effect or the contact of the scene contradicts
+        them.
         """
         if load is None and friction is None and slip_speed is None:
             return self
@@ -145,6 +149,10 @@ class Scene(Shown):
         law = own.friction
         if friction is not None or slip_speed is not None:
             law = friction_law("tanh" if friction is None else friction, slip_speed)
+        if self._said is not None:
+            _check_agrees("load", asked, own.load)
+            _check_agrees("friction", law, own.friction)
+            return self
         return self.but(contact=Contact(asked, law))
 
     @property
@@ -166,6 +174,11 @@ class Scene(Shown):
     def unit(self) -> float:
         """Unit of speeds, length of the sheet per period."""
         return self.sheet.length / self.period
+
+    @property
+    def states_contact(self) -> bool:
+        """Whether its contact was given, not taken from effects or defaults."""
+        return self._said is not None
 
     @property
     def planar(self) -> bool:
@@ -239,7 +252,9 @@ class Scene(Shown):
         """The scene of a call: made from sheet, wave and alpha, or a complete scene.
 
         growth: growth_law and area; load, friction: names or objects, None for the defaults or those of
-        the scene. Raises ValueError as Scene does, and for a wave or alpha in addition to a scene.
+        the scene; a scene that states neither contact nor such effects takes those given. Raises
+        ValueError as Scene does, for a wave or alpha in addition to a scene, and for arguments that
+        contradict it.
         """
         if not isinstance(sheet, Scene):
             contact = Contact.named(load, friction, slip_speed)
@@ -251,8 +266,12 @@ class Scene(Shown):
                 raise ValueError(
                     f"{name} = {validation.shown(value)}: must be None if a scene is given"
                 )
-        named = {name: value for name, value in growth.items() if value is not None}
-        return (sheet.but(**named) if named else sheet).resting(load, friction, slip_speed)
+        for name, value in growth.items():
+            if value is not None:
+                own = getattr(sheet.growth, GROWTH[name])
+                asked = getattr(replace(sheet.growth, **{GROWTH[name]: value}), GROWTH[name])
+                _check_agrees(name, asked, own)
+        return sheet.resting(load, friction, slip_speed)
 
     @classmethod
     def from_dict(cls, data: Mapping[str, Any], **given: Any) -> "Scene":
@@ -325,7 +344,24 @@ def _grown(growth: Growth | None, said: dict[str, Any]) -> Growth:
     """The growth given as an object, or made from the separate arguments."""
     changes = {name: value for name, value in said.items() if value is not None}
     if growth is not None:
-        return replace(validation.instance("growth", growth, Growth), **changes)
+        validation.instance("growth", growth, Growth)
+        twice = [name for name, part in GROWTH.items() if part in changes]
+        if twice:
+            value = validation.shown(said[GROWTH[twice[0]]])
+            raise ValueError(f"{twice[0]} = {value}: must be None if growth is given")
+        return growth
     if "alpha" not in changes:
         raise ValueError("alpha = None: must be given, or growth = Growth(alpha, ...)")
     return Growth(**changes)
+
+
+def _check_agrees(name: str, given: object, own: object) -> None:
+    """Raise ValueError for an argument that contradicts the scene beside which it is given."""
+    if given != own:
+        raise ValueError(
+            f"{name} = {_quoted(given)}: must be None or that of the scene, {_quoted(own)}"
+        )
+
+
+def _quoted(value: object) -> str:
+    return repr(str(value)) if isinstance(value, str) else validation.shown(value)

@@ -9,14 +9,19 @@ from linear_theory.scene.scene import Scene
 def held_contact(scene: Scene) -> Contact:
     """The contact of a scene. Raises ValueError for a slope on which the sheet accelerates downhill."""
     contact = scene.contact
-    if abs(contact.slope) >= 1:
-        incline = sum(effect.incline for effect in scene.effects)
-        mu = math.tan(incline) / contact.slope if incline else 1.0
+    if abs(contact.slope) < 1 or not contact.friction.limited:
+        return contact
+    incline = sum(effect.incline for effect in scene.effects)
+    if not incline:
         raise ValueError(
-            f"incline = {incline or math.atan(contact.slope):g}: friction cannot hold the sheet, "
-            f"must be within +-{math.atan(mu):.4g} (its tangent below mu = {mu:g})"
+            f"slope = {contact.slope:g}: friction cannot hold the sheet, must be between -1 and 1 for "
+            f"{contact.friction.words}"
         )
-    return contact
+    mu = math.tan(incline) / contact.slope
+    raise ValueError(
+        f"incline = {incline:g}: friction cannot hold the sheet, must be within +-{math.atan(mu):.4g} "
+        f"(its tangent below mu = {mu:g})"
+    )
 
 
 def creep(contact: Contact) -> float:

@@ -16,7 +16,7 @@ import numpy as np
 import skfem
 from numpy.typing import NDArray
 
-from fem_check.shell.abilities import CYCLE, require
+from fem_check.shell.abilities import CYCLE
 from fem_check.shell.cycle.balance import CycleBalance, PairedPeriod
 from fem_check.shell.cycle.contact import creep, held_contact
 from fem_check.shell.cycle.deformation import CycleDeformation
@@ -31,6 +31,8 @@ from linear_theory.common.shown import Shown
 from linear_theory.common.threads import one_blas_thread
 from linear_theory.common.tolerance import Tolerance
 from linear_theory.friction.contact import Contact
+from linear_theory.friction.law import FrictionLaw
+from linear_theory.friction.load import Load
 from linear_theory.friction.regime import warn_if_viscous
 from linear_theory.scene.scene import Scene
 from linear_theory.speed.result import CrawlSpeed, Estimate, RigidSpeed
@@ -51,8 +53,8 @@ The difference to a mesh r times coarser is at least r**2 - 1 times the error.""
 
 def cycle_speed(
     scene: Scene,
-    load: str | None = None,
-    friction: str | None = None,
+    load: Load | str | None = None,
+    friction: FrictionLaw | str | None = None,
     slip_speed: float | None = None,
     rtol: float = 1e-3,
     atol: float | None = None,
@@ -112,7 +114,7 @@ class Cycle(Shown):
     """
 
     def __init__(self, scene: Scene) -> None:
-        require(CYCLE, scene)
+        CYCLE.require(scene)
         self.scene = scene
         self._shapes = KeptShapes(ShellModel(scene))
 

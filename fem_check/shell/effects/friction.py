@@ -68,7 +68,10 @@ class Friction(Value, Effect):
     stored_as: ClassVar[None] = None
 
     def __init__(
-        self, coefficient: float, slip_speed: float | None = None, law: FrictionLaw | None = None
+        self,
+        coefficient: float,
+        slip_speed: float | None = None,
+        law: FrictionLaw | str | None = None,
     ) -> None:
         object.__setattr__(self, "coefficient", validation.positive("coefficient", coefficient))
         object.__setattr__(self, "law", _law(slip_speed, law))
@@ -145,7 +148,7 @@ class Friction(Value, Effect):
             )
 
 
-def _law(slip_speed: float | None, law: FrictionLaw | None) -> FrictionLaw:
+def _law(slip_speed: float | None, law: FrictionLaw | str | None) -> FrictionLaw:
     """That of the arguments of Friction. Raises ValueError unless they give one with a width."""
     found = friction_law(Tanh.name if law is None else law, slip_speed, "law")
     if found.width == 0:

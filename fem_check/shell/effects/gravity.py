@@ -1,6 +1,6 @@
 """Weight."""
 
-from dataclasses import InitVar, dataclass
+from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
@@ -18,13 +18,20 @@ from linear_theory.scene.scene import Scene
 Array = NDArray[np.float64]
 
 
+def weighed(load: Load | str | None, area: Load | str | None) -> Load:
+    """The load of an effect, GROWN by default; area: former name of the argument."""
+    if load is not None and area is not None:
+        raise ValueError(f"area = {validation.shown(area)}: must be None if load is given")
+    return Load.named(next((said for said in (load, area) if said is not None), Load.GROWN))
+
+
 def check_area(load: Load, step: Step | None) -> None:
     """Raise ValueError for a load per current area without a step that holds this area fixed."""
     if load is Load.CURRENT and (step is None or step.area is None):
         raise ValueError("load = 'current': must come with a step that holds the current area")
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, init=False)
 class Gravity(Value, Effect):
     """The force -weight e_z per area, on level ground or on an incline.
 
@@ -36,16 +43,22 @@ class Gravity(Value, Effect):
     """
 
     weight: float
-    load: Load = Load.GROWN
-    incline: float = 0.0
-    area: InitVar[Load | str | None] = None
+    load: Load
+    incline: float
     entries: ClassVar[Entries] = (0,)
 
-    def __post_init__(self, area: Load | str | None) -> None:
-        validation.positive("weight", self.weight)
-        object.__setattr__(self, "load", Load.named(self.load if area is None else area))
-        if abs(validation.real("incline", self.incline)) >= np.pi / 2:
-            raise ValueError(f"incline = {self.incline:g}: must be in (-pi/2, pi/2)")
+    def __init__(
+        self,
+        weight: float,
+        load: Load | str | None = None,
+        incline: float = 0.0,
+        area: Load | str | None = None,
+    ) -> None:
+        object.__setattr__(self, "weight", validation.positive("weight", weight))
+        object.__setattr__(self, "load", weighed(load, area))
+        if abs(validation.real("incline", incline)) >= np.pi / 2:
+            raise ValueError(f"incline = {incline:g}: must be in (-pi/2, pi/2)")
+        object.__setattr__(self, "incline", float(incline))
 
     @property
     def reads_rest(self) -> bool:  # type: ignore[override]

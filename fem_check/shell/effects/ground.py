@@ -1,13 +1,13 @@
 """The ground: a repulsion proportional to the square of the penetration, and contact damping."""
 
-from dataclasses import InitVar, dataclass, replace
+from dataclasses import dataclass, replace
 from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from fem_check.shell.effects.effect import Effect
-from fem_check.shell.effects.gravity import Gravity, check_area
+from fem_check.shell.effects.gravity import Gravity, check_area, weighed
 from fem_check.shell.effects.terrain import Terrain
 from fem_check.shell.kinematics.point_state import PointState
 from fem_check.shell.kinematics.rates import Step
@@ -24,7 +24,7 @@ Array = NDArray[np.float64]
 FORMS = ("clipped", "printed")
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, init=False)
 class Ground(Value, Effect):
     """Pressure k g^2 - beta v on the gap g = z - f(x, y) where g <= 0 (eq. 2), as a potential.
 
@@ -39,23 +39,31 @@ class Ground(Value, Effect):
     """
 
     stiffness: float
-    damping: float = 0.0
-    load: Load = Load.GROWN
-    height: Any = None
-    form: str = "clipped"
-    area: InitVar[Load | str | None] = None
+    damping: float
+    load: Load
+    height: Terrain | None
+    form: str
     entries: ClassVar[Entries] = (0,)
     needs_space: ClassVar[bool] = True
     stored_as: ClassVar[str] = "ground"
 
-    def __post_init__(self, area: Load | str | None) -> None:
-        validation.positive("stiffness", self.stiffness)
-        if validation.real("damping", self.damping) < 0:
-            raise ValueError(f"damping = {self.damping:g}: must be >= 0")
-        object.__setattr__(self, "load", Load.named(self.load if area is None else area))
-        validation.choice("form", self.form, FORMS)
-        if self.height is not None and not isinstance(self.height, Terrain):
-            object.__setattr__(self, "height", Terrain(self.height))
+    def __init__(
+        self,
+        stiffness: float,
+        damping: float = 0.0,
+        load: Load | str | None = None,
+        height: Any = None,
+        form: str = "clipped",
+        area: Load | str | None = None,
+    ) -> None:
+        if validation.real("damping", damping) < 0:
+            raise ValueError(f"damping = {damping:g}: must be >= 0")
+        flat = height is None or isinstance(height, Terrain)
+        object.__setattr__(self, "stiffness", validation.positive("stiffness", stiffness))
+        object.__setattr__(self, "damping", float(damping))
+        object.__setattr__(self, "load", weighed(load, area))
+        object.__setattr__(self, "height", height if flat else Terrain(height))
+        object.__setattr__(self, "form", validation.choice("form", form, FORMS))
 
     def under(self, sheet: Sheet) -> "Ground":
         """The ground for a sheet: its terrain has the length of the sheet and is checked around it."""

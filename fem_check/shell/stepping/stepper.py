@@ -12,7 +12,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from fem_check.shell.abilities import STEPPED, require
+from fem_check.shell.abilities import STEPPED
 from fem_check.shell.effects.effect import Effect
 from fem_check.shell.kinematics.point_state import PointState
 from fem_check.shell.kinematics.rates import Affine, Step
@@ -78,7 +78,7 @@ class Stepper:
     """
 
     def __init__(self, model: ShellModel, ramp: float, shortest: float) -> None:
-        require(STEPPED, model.scene)
+        STEPPED.require(model.scene)
         self.model, self.ramp = model, ramp
         self.region = model.discretisation.interior
         self.minimiser = self._minimiser(shortest)
