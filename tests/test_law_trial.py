@@ -206,7 +206,7 @@ def test_a_law_wrong_in_space_is_refused_there() -> None:
         force=lambda self, v: Soft.force(self, v) * np.array([1, 1, 0.0])[: len(v), None, None]
     )
     assert Friction(0.3, law=flat).law is flat
-    with pytest.raises(ValueError, match="^law = .*as differences of the potential give it"):
+    with pytest.raises(ValueError, match=r"^law = .*as differences of the potential give it"):
         Scene(Sheet(), SineWave(), 0.1, effects=(*SPACE[:3], Ground(0.5), Friction(0.3, law=flat)))
 
 

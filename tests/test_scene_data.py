@@ -145,13 +145,13 @@ LEFT_OUT = {
     "wave.period": "wave: a SineWave must have period",
     "contact.friction": "contact: a Contact must have friction",
     "sheet.length": "sheet: a Sheet must have length",
-    "effects.1.incline": r"effects\[1\]: a Gravity must have incline",
+    "effects.2.incline": r"effects\[2\]: a Gravity must have incline",
 }
 ADDED = {
     "sheets": (1, "sheets: a Scene has no such key, the nearest is 'sheet'"),
     "mesh.kind": (1, "mesh = .*: must have vertices, elements and the type 'MeshShown', and no other"),
     "wave.perod": (1.0, "wave.perod: a SineWave has no such key, the nearest is 'period'"),
-    "effects.2.slip_speed": (1.0, r"effects\[2\].slip_speed: a Friction has no such key"),
+    "effects.1.slip_speed": (1.0, r"effects\[1\].slip_speed: a Friction has no such key"),
 }
 REPLACED = {
     "effects": ({}, "effects = {}: must be a list"),
@@ -298,7 +298,8 @@ def test_a_height_that_is_no_formula_must_be_given() -> None:
         Scene.from_dict(scene.to_dict())
     assert Scene.from_dict(scene.to_dict(), effects=effects) == scene
     data = copy.deepcopy(DATA["ground"])
-    data["effects"][3]["height"]["height"] = "__import__('os').getcwd()"
+    ground = next(effect for effect in data["effects"] if effect["type"] == "Ground")
+    ground["height"]["height"] = "__import__('os').getcwd()"
     with pytest.raises(ValueError, match="is not understood"):
         Scene.from_dict(data)
 

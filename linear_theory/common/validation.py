@@ -130,7 +130,7 @@ def poisson(value: object) -> float:
 
 
 def integer(name: str, value: object, minimum: int | None = None) -> int:
-    """`value` as an integer, at least `minimum` and exact as a float; 2.0 is refused, numpy's are not."""
+    """`value` as an integer, at least `minimum`, exact as a float; 2.0 is refused, numpy's are not."""
     try:
         if isinstance(value, bool):
             raise TypeError

@@ -27,8 +27,8 @@ STEPS = 1e-3, 5e-4
 """Of central differences, in speeds."""
 
 AGREES, RIGHT = 1e-4, 1e-3
-"""Difference of quotients of several steps up to which they are compared (elsewhere the law has a kink),
-and of a derivative from them up to which it is right, relative to the force."""
+"""Difference of quotients of several steps up to which they are compared (elsewhere the law has a
+kink), and of a derivative from them up to which it is right, relative to the force."""
 
 EXACT = 1e-8
 """Relative difference of numbers that should be the same but for rounding."""
@@ -194,8 +194,8 @@ def _is_convex(trial: Trial) -> None:
     worst = np.unravel_index((lowest * speed / trial.size.max()).argmin(), lowest.shape)
     if lowest[worst] * speed[worst] < -RIGHT * trial.size.max():
         raise Fault(
-            f"tangent has the eigenvalue {lowest[worst]:.6g} at v = {_vector(trial.v, worst)}: must have "
-            "none < 0, the potential of a law being convex"
+            f"tangent has the eigenvalue {lowest[worst]:.6g} at v = {_vector(trial.v, worst)}: must "
+            "have none < 0, the potential of a law being convex"
         )
 
 
@@ -252,8 +252,8 @@ def _has_that_width(trial: Trial) -> None:
     far, near = (np.sqrt((trial.asked("force", v * s) ** 2).sum(0)).max() for s in (1.0, 1e-3))
     if near > far / 2:
         raise Fault(
-            f"width = {trial.width:g}: must be the least speed over which the force changes sign, but at "
-            f"a thousandth of it the force is still {near / far:.3g} times as large"
+            f"width = {trial.width:g}: must be the least speed over which the force changes sign, but "
+            f"at a thousandth of it the force is still {near / far:.3g} times as large"
         )
 
 
@@ -273,8 +273,8 @@ def _has_speeds(trial: Trial) -> None:
     found = float(trial.asked("force", v)[y, 0, 0])
     if abs(found - SHARE) > RIGHT * SHARE:
         raise Fault(
-            f"speed_at({SHARE}) = {speed:.6g}: must be the speed along y at which the force is {SHARE}, "
-            f"but it is {found:.6g} there"
+            f"speed_at({SHARE}) = {speed:.6g}: must be the speed along y at which the force is "
+            f"{SHARE}, but it is {found:.6g} there"
         )
 
 

@@ -1,7 +1,8 @@
 """Parts of a scene from plain data, as written by `to_dict` and no other.
 
-Nothing is filled in or ignored: every part is written again after it is read. Data that come back different are refused, whatever a
-class would make of them: a left-out key with a default, True for 1, a name for an object.
+Nothing is filled in or ignored: every part is written again after it is read. Data that come back
+different are refused, whatever a class would make of them: a left-out key with a default, True for 1, a
+name for an object.
 """
 
 import difflib
