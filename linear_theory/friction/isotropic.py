@@ -22,12 +22,12 @@ class Isotropic(FrictionLaw):
     The force is f(r) v/r; its tangent is f'(r) along v and f(r)/r across. A law of one's own is a
     frozen dataclass with `energy`, `size`, `slope` and `rise`, functions of arrays r, and the `width`,
     `scaled` and `speed_at` of a `FrictionLaw`. Where a scene takes it in they are compared with each
-    other, and a ValueError names one that is wrong.
+    other. Raises ValueError there, naming the one that is wrong and its numbers.
 
-    >>> from dataclasses import dataclass
+    >>> import dataclasses
     >>> import numpy as np
     >>> from linear_theory import Contact, Isotropic
-    >>> @dataclass(frozen=True)
+    >>> @dataclasses.dataclass(frozen=True)
     ... class Soft(Isotropic):  # f = r/(r^2 + w^2)^(1/2)
     ...     width: float = 0.1
     ...     name = "soft"
