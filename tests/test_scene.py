@@ -148,7 +148,7 @@ def test_functions_are_known_by_content_or_name() -> None:
     nameless = FieldWave(iter([1]).__next__, 1.0)
     with pytest.raises(Unidentifiable, match=r"wave"):
         Scene(Sheet(), nameless, 0.1).key()
-    with pytest.raises(ValueError, match=r"wave = .*pass it: Scene.from_dict\(data, wave=...\)"):
+    with pytest.raises(ValueError, match=r"wave: a FieldWave .*Scene.from_dict\(data, wave=wave\)"):
         Scene.from_dict(same[0].to_dict())
     assert Scene.from_dict(same[0].to_dict(), wave=wave(1.0)) == same[0]
 
@@ -166,8 +166,11 @@ def test_uneven_ground_is_given_again() -> None:
     ("data", "words"),
     [
         ({}, "data = {}: must be what Scene.to_dict"),
-        ({"type": "Scene"}, "a scene must have sheet, wave, growth, effects"),
-        (SCENES["plain"].to_dict() | {"sheet": {"type": "Sheet", "size": 1}}, "must be its arguments"),
+        ({"type": "Scene"}, "a Scene must have sheet, wave, growth, contact, effects, cells"),
+        (
+            SCENES["plain"].to_dict() | {"sheet": {"type": "Sheet", "size": 1}},
+            "sheet.size: a Sheet has no such key",
+        ),
         (SCENES["plain"].to_dict() | {"sheet": {"type": "os"}}, "a os cannot be restored"),
         (SCENES["plain"].to_dict() | {"element": "os.system(1)"}, "must be a scikit-fem element"),
         (SCENES["plain"].to_dict() | {"cells": [0, 1]}, "cells = 0: must be >= 1"),

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from linear_theory.common import validation
 from linear_theory.friction.isotropic import Isotropic, IsotropicResponse
 from linear_theory.friction.law import FrictionLaw
+from linear_theory.friction.trial import check_law
 
 Array = NDArray[np.float64]
 
@@ -171,18 +172,28 @@ class Viscous(Isotropic):
 FRICTION_LAWS: dict[str, type[FrictionLaw]] = {law.name: law for law in (Coulomb, Tanh, Viscous)}
 
 
+def checked_law(law: FrictionLaw, components: int, argument: str = "friction") -> FrictionLaw:
+    """The law, once its methods are tried for velocities of so many components; those here need not be.
+
+    Raises ValueError as `trial.check_law` does.
+    """
+    if type(law) not in FRICTION_LAWS.values():
+        check_law(law, components, argument)
+    return law
+
+
 def friction_law(
     friction: object = "coulomb", slip_speed: object = None, argument: str = "friction"
 ) -> FrictionLaw:
     """A law, or that of a name: "coulomb", "tanh" with its slip_speed, or "viscous".
 
-    argument: its name, for messages. Raises ValueError for anything else, and for a slip_speed that is
-    missing or of no use.
+    argument: its name, for messages. Raises ValueError for anything else, for a slip_speed that is
+    missing or of no use, and for a law of one's own whose methods contradict each other in the plane.
     """
     if isinstance(friction, FrictionLaw):
         if slip_speed is not None:
             raise ValueError(f"slip_speed = {slip_speed!r}: must be None beside {friction!r}")
-        return friction
+        return checked_law(friction, 2, argument)
     name = validation.choice(argument, friction, FRICTION_LAWS)
     if name == Tanh.name:
         if slip_speed is None:

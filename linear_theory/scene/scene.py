@@ -282,8 +282,9 @@ class Scene(Shown):
     def from_dict(cls, data: Mapping[str, Any], **given: Any) -> "Scene":
         """The scene written by `to_dict`, also from JSON; given: arguments that replace its own.
 
-        Raises ValueError for data that are not those of a scene, and for waves and ground given by
-        functions, which cannot be stored as text: pass them, as wave=... or effects=...
+        Raises ValueError for data that differ in anything from what `to_dict` writes, and for functions
+        (waves, ground) and classes of one's own, which data cannot hold: pass the part that has them,
+        as wave=wave. Effects that are passed say what the load and the friction are.
 
         >>> import json
         >>> from linear_theory import Scene, Sheet, SineWave
@@ -291,11 +292,9 @@ class Scene(Shown):
         >>> print(Scene.from_dict(json.loads(json.dumps(scene.to_dict()))) == scene)
         True
         """
-        from linear_theory.scene.reading import arguments_of  # here: it imports this class
+        from linear_theory.scene.reading import scene_of  # here: it makes scenes
 
-        arguments, contact = arguments_of(data, given)
-        scene = cls(**{**arguments, **given})
-        return scene if contact is None or scene.contact == contact else scene.but(contact=contact)
+        return scene_of(cls, data, given)
 
     @classmethod
     def from_toml(cls, path: str | Path) -> "Scene":
