@@ -12,10 +12,10 @@ from PIL import Image
 
 from fem_check import Ground, Outline, Terrain
 from fem_check.files import SceneFileError
-from fem_check.files.parts.expression import parsed as formula
-from fem_check.files.parts.expression import text_of
 from fem_check.files.reading import parsed
 from fem_check.files.writing import toml_of
+from fem_check.shell.effects.formula import parsed as formula
+from fem_check.shell.effects.formula import text_of
 from fem_check.shell.effects.height_map import HeightMap
 from linear_theory import SampledWave, Scene, Sheet, SineWave
 from linear_theory.identity import content_key

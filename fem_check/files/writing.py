@@ -5,11 +5,11 @@ from pathlib import Path
 from typing import Any
 
 from fem_check.files.parts.effects import LAWS
-from fem_check.files.parts.expression import text_of as formula_of
 from fem_check.files.parts.scene_file import RunSettings
 from fem_check.files.reading import parsed
 from fem_check.files.toml import text_of
 from fem_check.output.files import replacing
+from fem_check.shell.effects.formula import text_of as formula_of
 from fem_check.shell.effects.friction import Friction
 from fem_check.shell.effects.gravity import Gravity
 from fem_check.shell.effects.ground import Ground

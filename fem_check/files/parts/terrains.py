@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fem_check.files.bodies import TerrainTable
-from fem_check.files.parts.expression import parsed
 from fem_check.files.system import System
+from fem_check.shell.effects.formula import parsed
 from fem_check.shell.effects.height_map import HeightMap
 from fem_check.shell.effects.terrain import AROUND, Terrain
 from linear_theory.sheet.rectangle import Sheet
