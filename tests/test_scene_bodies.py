@@ -93,15 +93,12 @@ def test_the_size_of_triangles_is_that_of_the_file() -> None:
     assert scene_of(text.replace('young = "1 MPa"\n', "")) == expected
 
 
-@pytest.mark.parametrize("suffix", [".vtk", ".msh", ".xdmf"])
+@pytest.mark.parametrize("suffix", [".vtk", ".msh"])
 def test_a_mesh_of_another_program(suffix: str, tmp_path: Path) -> None:
     mesh = Outline.trapezoid(10.0, 20.0, 40.0).mesh(8.0)
     points = np.vstack([mesh.p, 0 * mesh.p[:1]]).T
     points = np.vstack([points, [[99.0, 99.0, 0.0]]])  # a point without a cell, as Gmsh leaves them
-    try:
-        meshio.write_points_cells(tmp_path / f"a{suffix}", points, [("triangle", mesh.t.T)])
-    except (ImportError, ModuleNotFoundError):
-        pytest.skip(f"meshio cannot write {suffix} here")
+    meshio.write_points_cells(tmp_path / f"a{suffix}", points, [("triangle", mesh.t.T)])
     scene = scene_of(f'{IN_MM}[outline]\nmesh = "a{suffix}"\nunit = "mm"', tmp_path)
     assert area(scene.mesh) == pytest.approx(area(mesh), rel=1e-12)
     assert scene.mesh.t.shape == mesh.t.shape
