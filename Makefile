@@ -3,7 +3,7 @@
 #   make figures   all figures and the film of the README (options: OUT=folder RTOL=1e-6): a minute
 #   make test      lint, types, tests: six minutes
 #   make paper     the write-up as a PDF, paper/out/sheetcrawl.pdf, with its figures
-#   make docs      the API reference from the docstrings, build/docs
+#   make docs      the documentation as one site, build/docs/index.html: a minute
 #   make cost      error against time of every level, the price of each effect: four minutes
 #   make bench-threads  times beside a busy core against one BLAS thread
 #   make bench-shell  time and memory of the sheet that bends
@@ -80,10 +80,9 @@ tables: $(STAMP)
 paper: figures
 	$(RUN) -m paper.build
 
-# The public names, the effects and the material that scenes are made of.
+# Pages, examples as they run, and the API; fails where a link leads nowhere.
 docs: $(STAMP)
-	$(RUN) -m pdoc --docformat markdown -o build/docs linear_theory \
-	    fem_check fem_check.output fem_check.shell.effects fem_check.shell.material
+	$(RUN) -m docs.site
 
 # setuptools comes with the lock and build isolation is off: pip fetches nothing that is not pinned.
 $(STAMP): requirements.lock pyproject.toml

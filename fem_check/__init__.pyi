@@ -1,4 +1,7 @@
-"""What `import fem_check` offers: read by `lazy_loader` as it runs, and by type checkers."""
+"""Finite elements that check the linear theory: plane stress, and a nonlinear shell for any alpha.
+
+Read by `lazy_loader` as it runs, and by type checkers.
+"""
 
 from .choice.prediction import Prediction, predict
 from .mesh.outline import Outline

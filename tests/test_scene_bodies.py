@@ -93,7 +93,7 @@ def test_the_size_of_triangles_is_that_of_the_file() -> None:
     assert scene_of(text.replace('young = "1 MPa"\n', "")) == expected
 
 
-@pytest.mark.parametrize("suffix", [".vtk", ".msh"])
+@pytest.mark.parametrize("suffix", [".vtk", ".msh", ".vtu"])
 def test_a_mesh_of_another_program(suffix: str, tmp_path: Path) -> None:
     mesh = Outline.trapezoid(10.0, 20.0, 40.0).mesh(8.0)
     points = np.vstack([mesh.p, 0 * mesh.p[:1]]).T

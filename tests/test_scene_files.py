@@ -10,7 +10,7 @@ import pint
 import pytest
 import skfem
 import sympy
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from fem_check import (
@@ -47,6 +47,7 @@ from linear_theory import (
     Viscous,
     pulse_wave,
 )
+from tests.drawn_examples import examples
 
 HERE = Path("scene.toml")
 UNITS = pint.UnitRegistry(cache_folder=None)
@@ -155,7 +156,7 @@ def scenes(draw: Any) -> Scene:
     )
 
 
-@settings(max_examples=60, deadline=None)
+@examples(60)
 @given(scenes())
 def test_random_scenes_are_the_same_again(scene: Scene) -> None:
     text = toml_of(scene)
@@ -322,6 +323,7 @@ def test_the_order_of_tables_has_no_meaning() -> None:
     assert scene_of("\n".join(tables)) == scene_of("\n".join(tables[::-1]))
 
 
+@examples(100)
 @given(st.dictionaries(st.sampled_from("abc"), st.text() | st.floats(allow_nan=False) | st.integers()))
 def test_toml_is_what_python_reads(entries: dict[str, Any]) -> None:
     tables = {"one": entries, "two": {"in": entries, "list": [list(entries.values())]}}

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from fem_check import Gravity
@@ -13,6 +13,7 @@ from fem_check.files import SceneFileError, gallery, read
 from fem_check.files.mistakes import line_of
 from fem_check.files.reading import parsed
 from linear_theory import Scene
+from tests.drawn_examples import examples
 
 HERE = Path("scene.toml")
 
@@ -267,7 +268,7 @@ def test_a_file_that_was_cut_off_is_a_scene_or_refused(name: str) -> None:
             parsed(text[: int(end)] + "\n[run]\nrtol = 5\n", HERE)
 
 
-@settings(max_examples=150, deadline=None)
+@examples(150)
 @given(st.sampled_from(["hydrogel", "viscous", "paper"]), st.data())
 def test_a_damaged_file_is_a_scene_or_refused(name: str, data: Any) -> None:
     text = gallery.text(name)

@@ -105,7 +105,7 @@ CASES: dict[str, tuple[str, Callable[[], object]]] = {
     "thickness": ("thickness = 0: must be > 0", lambda: Material(0.0, 0.5)),
     "young": ("young = -1: must be > 0", lambda: Material(0.1, 0.5, -1.0)),
     "poisson": ("poisson = 0.6", lambda: Material(0.1, 0.6)),
-    "law": ("growth_law = 'cubic'", lambda: Growth(0.1, "cubic")),
+    "law": ("law = 'cubic'", lambda: Growth(0.1, "cubic")),
     "growth not finite": (
         "growth contains nan",
         lambda: grown_state(PLATE.interior, np.nan, Growth(0.1)),

@@ -26,6 +26,7 @@ from fem_check.shell.stepping.run import Progress
 from linear_theory.common.shown import LINES, WIDTH, Shown, in_words, number, with_error
 from linear_theory.friction.law import Response
 from linear_theory.growth.bilayer import Couplings
+from tests.drawn_examples import examples
 
 PACKAGES = (linear_theory, fem_check)
 
@@ -342,6 +343,7 @@ def test_number_with_its_error(value, error, words):
     assert with_error(value, error).replace("E", "e") == words
 
 
+@examples(100)
 @given(st.floats(-1e9, 1e9), st.floats(1e-12, 1e9))
 def test_number_with_its_error_says_what_it_is(value, error):
     first, second = (Decimal(part) for part in with_error(value, error).split(" ± "))

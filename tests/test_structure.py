@@ -29,12 +29,13 @@ LAYERS = (
     "fem_check",
     "figures",
     "paper",
+    "docs",
 )
 """Each imports from itself and from those before it; the first that fits a module is its layer."""
 
 
 def modules() -> Iterator[tuple[str, ast.Module]]:
-    for top in ("linear_theory", "fem_check", "figures", "paper"):
+    for top in ("linear_theory", "fem_check", "figures", "paper", "docs"):
         for path in sorted((ROOT / top).rglob("*.py")):
             name = ".".join(path.relative_to(ROOT).with_suffix("").parts).removesuffix(".__init__")
             yield name, ast.parse(path.read_text())
@@ -67,7 +68,7 @@ def imported(tree: ast.Module) -> Iterator[str]:
             yield from (name if name in MODULES else node.module for name in whole)
 
 
-TOPS = {"linear_theory", "fem_check", "figures", "paper"}
+TOPS = {"linear_theory", "fem_check", "figures", "paper", "docs"}
 
 
 @pytest.mark.parametrize("name", MODULES)

@@ -67,7 +67,15 @@ class Growth(Value):
         """g at growth c, same shape. Raises ValueError where lengths would vanish."""
         c = validation.real_array("growth", growth)
         self.law.check(self.alpha, c)
-        return np.asarray(self.law.metric(self.alpha * c))
+        with np.errstate(over="ignore"):
+            found = np.asarray(self.law.metric(self.alpha * c))
+            overflow = not np.isfinite(found**2).all()
+        if overflow:
+            worst = self.alpha * c.flat[found.argmax()]
+            raise ValueError(
+                f"alpha = {self.alpha:g}: alpha c = {worst:g} stretches by more than a number can hold"
+            )
+        return found
 
     @property
     def energy_weight(self) -> float:

@@ -111,12 +111,6 @@ class GrowthLaw(Value, ABC):
         worst = self.misplaced(strain) if strain.size else None
         if worst is not None:
             raise self.refusal(alpha, float(strain.flat[worst]))
-        largest = strain.max(initial=0.0)
-        with np.errstate(over="ignore"):
-            if not self.metric(largest) ** 2 < inf:
-                raise ValueError(
-                    f"alpha = {alpha:g}: alpha c = {largest:g} stretches by more than a number can hold"
-                )
 
 
 @dataclass(frozen=True)

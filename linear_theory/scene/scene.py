@@ -20,7 +20,8 @@ from linear_theory.common.shown import Shown, in_words
 from linear_theory.friction.contact import Contact
 from linear_theory.friction.laws import friction_law
 from linear_theory.friction.load import Load
-from linear_theory.growth.growth import Growth
+from linear_theory.growth.growth import Growth, Reference
+from linear_theory.growth.laws import growth_law
 from linear_theory.identity import content_key
 from linear_theory.scene.effects import checked_effects, contact_of, in_order
 from linear_theory.sheet.rectangle import Sheet
@@ -281,8 +282,9 @@ class Scene(Shown):
     def from_dict(cls, data: Mapping[str, Any], **given: Any) -> "Scene":
         """The scene written by `to_dict`, also from JSON; given: arguments that replace its own.
 
-        Raises ValueError for data that are not those of a scene, and for waves and ground given by
-        functions, which cannot be stored as text: pass them, as wave=... or effects=...
+        Raises ValueError for data that differ in anything from what `to_dict` writes, and for functions
+        (waves, ground) and classes of one's own, which data cannot hold: pass the part that has them,
+        as wave=wave. Effects that are passed say what the load and the friction are.
 
         >>> import json
         >>> from linear_theory import Scene, Sheet, SineWave
@@ -290,11 +292,9 @@ class Scene(Shown):
         >>> print(Scene.from_dict(json.loads(json.dumps(scene.to_dict()))) == scene)
         True
         """
-        from linear_theory.scene.reading import arguments_of  # here: it imports this class
+        from linear_theory.scene.reading import scene_of  # here: it makes scenes
 
-        arguments, contact = arguments_of(data, given)
-        scene = cls(**{**arguments, **given})
-        return scene if contact is None or scene.contact == contact else scene.but(contact=contact)
+        return scene_of(cls, data, given)
 
     @classmethod
     def from_toml(cls, path: str | Path) -> "Scene":
@@ -383,6 +383,11 @@ def _grown(growth: Growth | None, said: dict[str, Any]) -> Growth:
         return growth
     if "alpha" not in changes:
         raise ValueError("alpha = None: must be given, or growth = Growth(alpha, ...)")
+    names = {part: name for name, part in GROWTH.items()}
+    if "law" in changes:
+        changes["law"] = growth_law(changes["law"], names["law"])
+    if "energy_area" in changes:
+        changes["energy_area"] = Reference.named(names["energy_area"], changes["energy_area"])
     return Growth(**changes)
 
 

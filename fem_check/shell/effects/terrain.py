@@ -1,5 +1,6 @@
 """Uneven ground: height as a function, with or without derivatives, or as a sympy expression."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass, fields, replace
 from functools import cached_property
 from typing import Any
@@ -7,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from fem_check.shell.effects import formula
 from fem_check.shell.effects.differences import Checked, checked_jets
 from fem_check.shell.effects.height_sources import (
     ENTRIES,
@@ -18,6 +20,7 @@ from fem_check.shell.effects.height_sources import (
 )
 from linear_theory.common import validation
 from linear_theory.common.shown import Value
+from linear_theory.scene.data import NotRestorable
 from linear_theory.sheet.rectangle import Sheet
 
 Array = NDArray[np.float64]
@@ -88,8 +91,30 @@ class Terrain(Value):
             )
 
     def identified_by(self) -> object:
-        """The content from which its key is computed."""
-        return self.height if self.name is None else self.name, self.length
+        """The content from which its key is computed; of symbols the names."""
+        content = self.height
+        if is_expression(content):
+            content = content.xreplace({s: type(s)(s.name) for s in content.free_symbols})
+        return content if self.name is None else self.name, self.length
+
+    def _contents(self) -> Mapping[str, Any]:
+        height = formula.text_of(self.height) if is_expression(self.height) else self.height
+        return {"height": height, "name": self.name, "length": self.length}
+
+    @classmethod
+    def from_data(cls, height: object, name: str | None, length: float | None) -> "Terrain":
+        """The terrain of what `to_dict` has written, of an expression: see `formula`.
+
+        Raises NotRestorable, a ValueError, for a function.
+        """
+        if not isinstance(height, str):
+            return cls(height, name, length)
+        try:
+            return cls(formula.parsed(height), name, length)
+        except ValueError as problem:
+            raise NotRestorable(
+                f"a Terrain cannot be restored from data, its height = {height!r} {problem}"
+            ) from None
 
     def under(self, sheet: Sheet) -> "Terrain":
         """The terrain with the length of a sheet, checked around it."""

@@ -7,7 +7,6 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import solve_triangular
 
 from linear_theory.common.shown import Shown
 from linear_theory.wave.measured.fit import Fit
@@ -51,6 +50,8 @@ class FitUncertainty(Shown):
 
     def _shifts(self, count: int) -> Array:
         """Errors of the coefficients and, last, of the period, (count, size + 1)."""
+        from scipy.linalg import solve_triangular  # here: scipy takes long to import
+
         size = self.larger.basis.size
         normal = np.random.default_rng(SEED).standard_normal((count, size + 1))
         coefficients = self.noise * solve_triangular(self.larger.factor, normal[:, :-1].T)

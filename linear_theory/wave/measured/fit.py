@@ -5,7 +5,6 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import solve_triangular
 
 from linear_theory.common.shown import Shown
 from linear_theory.wave.measured.basis import Basis
@@ -35,6 +34,8 @@ class Fit(Shown, _Fit):
 
 def fitted(samples: Samples, basis: Basis) -> Fit:
     """Raises ValueError where the samples do not tell the functions of the basis apart."""
+    from scipy.linalg import solve_triangular  # here: scipy takes long to import
+
     both: Array = np.zeros((0, basis.size + 1))
     for start in range(0, samples.size, BLOCK):
         some = samples.take(slice(start, start + BLOCK))

@@ -182,7 +182,8 @@ class SampledWave(Sources, Shown):
     def from_data(cls, asked: Sequence[Any], **data: Any) -> "SampledWave":
         """The wave of what `to_dict` has written; asked: period, harmonics and degree."""
         period, harmonics, degree = asked
-        samples = [data[name] for name in (*NAMES, "c") if name in data]
+        named = [name for name in (*NAMES, "c") if name in data]
+        samples = [validation.real_array(name, data[name]) for name in named]
         return cls(*samples, period=period, harmonics=harmonics, degree=degree)
 
 
