@@ -40,7 +40,7 @@ LEVEL_WORDS = {
 
 OWN = {
     "cycle": "not estimated: friction is taken as too weak to deform the sheet",
-    "stepped": "0: all that the scene names is in",
+    "stepped": "0: all that the scene names is in; the error of the mesh is not estimated",
 }
 """What the error of the model is of levels that are not compared with the nonlinear flat sheet."""
 
