@@ -93,8 +93,19 @@ def test_new_lists_what_there_is(capsys: Any) -> None:
     assert all(f"  {name} " in run(capsys, "examples")[1] for name in gallery.names())
 
 
+def test_a_scene_that_reads_a_table_comes_with_it(capsys: Any) -> None:
+    status, out, err = run(capsys, "new", "measured", "mine.toml")
+    assert (status, err) == (MET, "")
+    assert "mine.toml written (and measured.csv)" in out
+    assert sorted(os.listdir()) == ["measured.csv", "mine.toml"]
+    status, out, err = run(capsys, "new", "measured", "other.toml")
+    assert (status, out) == (BAD_ARGUMENTS, "")
+    assert "measured.csv: is there already; give another name or folder" in err
+    assert sorted(os.listdir()) == ["measured.csv", "mine.toml"]
+
+
 WAYS = {
-    **dict.fromkeys(("paper", "hydrogel", "pulse", "viscous"), "predict"),
+    **dict.fromkeys(("paper", "hydrogel", "pulse", "viscous", "measured"), "predict"),
     **dict.fromkeys(("trapezoid", "hole", "turning", "inchworm", "piezo"), "cycle"),
     "bumpy": "stepped",
 }
@@ -273,7 +284,7 @@ def test_helps_and_lists_load_no_libraries(words: list[str]) -> None:
 
 
 def test_the_way_of_a_scene() -> None:
-    scenes = {name: read(_written(name)).scene for name in gallery.names()}
+    scenes = {name: read(gallery.FOLDER / f"{name}.toml").scene for name in gallery.names()}
     assert {name: way_of(scene) for name, scene in scenes.items()} == WAYS
     assert way_of(scenes["paper"], "cycle") == "cycle"
     with pytest.raises(ValueError, match="cannot represent Bending"):

@@ -59,7 +59,7 @@ def scene_of(text: str, folder: Path = Path()) -> Scene:
 
 @pytest.mark.parametrize("name", gallery.names())
 def test_a_scene_of_the_gallery_is_written_and_read(name: str, tmp_path: Path) -> None:
-    file = parsed(gallery.text(name), HERE)
+    file = read(gallery.FOLDER / f"{name}.toml")
     path = write(file.scene, tmp_path / "again.toml", file.run)
     again = read(path)
     assert again.scene == file.scene
@@ -74,7 +74,7 @@ def test_a_scene_of_the_gallery_is_written_and_read(name: str, tmp_path: Path) -
 def test_the_gallery_has_what_was_promised() -> None:
     assert set(gallery.names()) == {
         *("paper", "hydrogel", "inchworm", "trapezoid", "hole"),
-        *("turning", "bumpy", "pulse", "piezo", "viscous"),
+        *("turning", "bumpy", "pulse", "piezo", "viscous", "measured"),
     }
     with pytest.raises(ValueError, match="'gel': is not a scene of the gallery; there are paper"):
         gallery.text("gel")

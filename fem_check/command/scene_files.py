@@ -31,21 +31,36 @@ def new(name: str | None, path: Path | None) -> int:
 
         print("\n".join(listed()))
         return MET
-    text, target = gallery.text(name), path or Path(f"{name}.toml")
-    try:
-        _write_new(text, target)
-    except FileExistsError:
-        raise ValueError(
-            f"{target}: is there already; give another name, as in {_other(name)}"
-        ) from None
-    except OSError as problem:
-        raise type(problem)(f"{target}: {problem.strerror or problem}") from None
-    print(f"{target} written; next: sheetcrawl check {target}")
+    target = path or Path(f"{name}.toml")
+    texts = {target.parent / file: text for file, text in gallery.tables(name).items()}
+    _write_all({**texts, target: gallery.text(name)}, name)
+    also = f" (and {', '.join(map(str, texts))})" if texts else ""
+    print(f"{target} written{also}; next: sheetcrawl check {target}")
     return MET
 
 
+def _write_all(texts: dict[Path, str], name: str) -> None:
+    """All files or none."""
+    written: list[Path] = []
+    try:
+        for path, text in texts.items():
+            _write_new(text, path)
+            written.append(path)
+    except BaseException as problem:
+        for done in written:
+            done.unlink()
+        if isinstance(problem, FileExistsError):
+            raise ValueError(
+                f"{path}: is there already; give another name or folder, as in {_other(name)}"
+            ) from None
+        if isinstance(problem, OSError):
+            raise type(problem)(f"{path}: {problem.strerror or problem}") from None
+        raise
+
+
 def _other(name: str) -> str:
-    return f"sheetcrawl new {name} mine.toml"
+    where = "mine" if not gallery.tables(name) else "folder/mine"
+    return f"sheetcrawl new {name} {where}.toml"
 
 
 def _write_new(text: str, path: Path) -> None:

@@ -14,7 +14,7 @@ def names() -> tuple[str, ...]:
 
     >>> from fem_check.files.gallery import names
     >>> print(len(names()), *names()[:3])
-    10 paper bumpy hole
+    11 paper bumpy hole
     """
     found = sorted(Path(file.name).stem for file in FOLDER.iterdir() if file.name.endswith(".toml"))
     return FIRST, *(name for name in found if name != FIRST)
@@ -25,6 +25,17 @@ def text(name: str) -> str:
     if name not in names():
         raise ValueError(f"{name!r}: is not a scene of the gallery; there are {', '.join(names())}")
     return (FOLDER / f"{name}.toml").read_text(encoding="utf-8")
+
+
+def tables(name: str) -> dict[str, str]:
+    """Files that it reads, from the same folder: their names and texts.
+
+    >>> from fem_check.files.gallery import tables
+    >>> print(*tables("measured"))
+    measured.csv
+    """
+    kept = (file for file in FOLDER.iterdir() if Path(file.name).stem == name)
+    return {f.name: f.read_text(encoding="utf-8") for f in kept if not f.name.endswith(".toml")}
 
 
 def title(name: str) -> str:
