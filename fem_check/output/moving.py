@@ -5,7 +5,7 @@ of the ground, in which the centre of a speed starts where that of the undeforme
 """
 
 from collections.abc import Iterator
-from typing import NamedTuple, Protocol
+from typing import NamedTuple, Protocol, runtime_checkable
 
 import numpy as np
 from numpy.typing import NDArray
@@ -37,6 +37,7 @@ class Course(NamedTuple):
     shown: tuple[float, float]
 
 
+@runtime_checkable
 class Moving(Protocol):
     """What `panels` and `movies` read."""
 
