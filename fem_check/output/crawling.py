@@ -6,7 +6,8 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from fem_check.output.moving import Course, Frame, direction, turned
+from fem_check.answer.wave_words import direction
+from fem_check.output.moving import Course, Frame, turned
 from linear_theory.speed.drawn import Deformation
 from linear_theory.speed.path import Poses, rigid_path
 from linear_theory.speed.result import CrawlSpeed

@@ -105,11 +105,6 @@ class Frames(Protocol):
     def __iter__(self) -> Iterator[Frame]: ...
 
 
-def direction(wave: object) -> int:
-    """Which way a wave runs along y, 0 where only its function would know."""
-    return int(np.sign(getattr(wave, "count", 0)))
-
-
 def turned(place: Array, heading: float) -> Array:
     """Places (2 or 3, n) turned anticlockwise about the vertical."""
     cosine, sine = np.cos(heading), np.sin(heading)

@@ -6,8 +6,9 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from fem_check.answer.wave_words import direction
 from fem_check.mesh import location as triangles
-from fem_check.output.moving import Course, Frame, direction, turned
+from fem_check.output.moving import Course, Frame, turned
 from fem_check.shell.effects.gravity import Gravity
 from fem_check.shell.effects.ground import Ground
 from fem_check.shell.kinematics.point_state import PointState

@@ -1,8 +1,7 @@
 """What `fem_check.runs` offers: read by `lazy_loader` as it runs, and by type checkers."""
 
 from .finished import Finished, finished
-from .folder import FolderError
 from .recording import Recording, recorded
 from .running import run
 
-__all__ = ["Finished", "FolderError", "Recording", "finished", "recorded", "run"]
+__all__ = ["Finished", "Recording", "finished", "recorded", "run"]

@@ -25,21 +25,21 @@ PLACES = ("frame", "axis", "point")
 
 COLUMNS = (
     ("frame", "times", "times of the recorded shapes", TIME, ("frame",)),
-    ("place", "place", "position of a point of the sheet in space", LENGTH, PLACES),
-    ("wave", "wave", "the wave c at the points", NUMBER, ("frame", "point")),
-    ("growth", "growth", "growth alpha c at the points", NUMBER, ("frame", "point")),
+    ("sheet_place", "place", "position of a point of the sheet in space", LENGTH, PLACES),
+    ("sheet_wave", "wave", "the wave c at the points", NUMBER, ("frame", "point")),
+    ("sheet_growth", "growth", "growth alpha c at the points", NUMBER, ("frame", "point")),
     ("body_centre", "centre", "centre of mass", LENGTH, ("frame", "plane")),
     ("body_heading", "heading", "heading of the sheet, anticlockwise", RADIANS, ("frame",)),
     ("point_place", "points", "the points in the undeformed sheet", LENGTH, ("plane", "point")),
     ("middle", "middle", "centre of mass of the undeformed sheet", LENGTH, ("plane",)),
     ("triangle", "triangles", "points at the corners of triangles", NUMBER, ("cell", "corner")),
     ("arrow_place", "tails", "points with known friction", LENGTH, ("plane", "arrow")),
-    ("friction", "arrows", "friction over mu weight", NUMBER, ("frame", "plane", "arrow")),
+    ("sheet_friction", "arrows", "friction over mu weight", NUMBER, ("frame", "plane", "arrow")),
     ("floor", "floor", "y and height of the ground at x = 0", LENGTH, ("floor_axis", "floor_place")),
 )
 """Names in the file and in a Recording, long names, units and dimensions."""
 
-FLOATS = {"place", "wave", "growth", "friction"}
+FLOATS = {"sheet_place", "sheet_wave", "sheet_growth", "sheet_friction"}
 """Large arrays, kept in single precision: a millionth of the sheet is enough to draw."""
 
 

@@ -123,9 +123,8 @@ class Recording(Drawable, Shown):
         """See Moving."""
         return RecordedFrames(self, points, np.arange(periods * samples + 1) / samples)
 
-    def _frame(self, weights: "_Weights", points: Array, phase: float) -> Frame:
-        lap, inside = self._lap(phase)
-        row = inside * PHASES
+    def _frame(self, weights: "Weights", points: Array, phase: float) -> Frame:
+        row = self._lap(phase)[1] * PHASES
         place = weights(_between(self.place, row))
         growth = weights(_between(self.growth, row))
         centres, headings = self._poses(np.array([phase]))
@@ -174,13 +173,16 @@ class Recording(Drawable, Shown):
             headings.append(heading + lap * self._turn)
         return np.array(centres).T, np.array(headings)
 
-    def _weights(self, points: Array) -> "_Weights":
-        if points is self.points:
-            return _Weights(np.arange(points.shape[1])[None], np.ones((1, points.shape[1])))
+    def inside(self, points: Array) -> "tuple[NDArray[np.bool_], Weights]":
+        """Which of some points (2, k) of the plane are in the undeformed sheet, and their weights."""
         finder, corners = self._finder
         found, local = finder(*points)
-        corners = corners[:, found]
-        return _Weights(corners, np.stack([1 - local.sum(0), *local]))
+        return found >= 0, Weights(corners[:, found], np.stack([1 - local.sum(0), *local]))
+
+    def _weights(self, points: Array) -> "Weights":
+        if points is self.points:
+            return Weights(np.arange(points.shape[1])[None], np.ones((1, points.shape[1])))
+        return self.inside(points)[1]
 
     @cached_property
     def _finder(self) -> tuple[TriangleFinder, Integers]:
@@ -207,7 +209,7 @@ class RecordedFrames:
         return self._recording._frame(self._weights, self._points, phase)
 
 
-class _Weights:
+class Weights:
     """Values at points from those at vertices: corners and weights (1 or 3, points)."""
 
     def __init__(self, corners: Integers, weights: Array) -> None:
