@@ -105,4 +105,5 @@ def _profile(recording: Recording, middle: list[float], size: float) -> list[Any
     if not np.ptp(height):
         return []
     near = np.abs(y - middle[1]) <= size / 2
-    return np.stack([y[near], height[near]], axis=1).round(6).tolist()  # type: ignore[no-any-return]
+    pairs: list[Any] = np.stack([y[near], height[near]], axis=1).round(6).tolist()
+    return pairs

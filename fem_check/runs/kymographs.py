@@ -1,4 +1,4 @@
-"""Kymographs of a recorded motion, as in fig. 2 of the paper: the middle line of the sheet over time."""
+"""Kymographs of a recorded motion, as in fig. 2 of the paper: its middle line over time."""
 
 from typing import Any, NamedTuple
 
@@ -71,13 +71,13 @@ def kymographs(recording: Recording, units: Units | None = None) -> NDArray[Any]
 
     units = units or Units.of_sheet(recording.length, recording.period)
     line, factor = middle_line(recording), units.length_factor
-    panels = [("wave $c$", line.wave, GROWTH_MAP)]
+    panels: list[tuple[str, Array, Any]] = [("wave $c$", line.wave, GROWTH_MAP)]
     panels.append((f"displacement along $y$ ({units.length})", line.along * factor, DISPLACEMENT_MAP))
     if line.height is not None:
         panels.append((f"height ({units.length})", line.height * factor, DISPLACEMENT_MAP))
     with styled():
         size = DOUBLE_CM / CM_PER_INCH, HEIGHT_CM / CM_PER_INCH
-        fig, axes = plt.subplots(
+        _, axes = plt.subplots(
             1, len(panels), figsize=size, sharey=True, squeeze=False, layout="constrained"
         )
         for ax, (title, values, colours) in zip(axes[0], panels, strict=True):

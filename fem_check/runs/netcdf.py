@@ -103,8 +103,8 @@ def _recording(dataset: Any) -> Recording:
     course = Course(
         np.array(dataset["course_time"].values),
         np.array(dataset["course_velocity"].values),
-        tuple(float(t) for t in known["counted"]),
-        tuple(float(t) for t in known["shown"]),
+        _interval(known["counted"]),
+        _interval(known["shown"]),
     )
     speed = CrawlSpeed(
         Estimate(float(known["mean"]), float(known["error"])),
@@ -127,3 +127,8 @@ def _recording(dataset: Any) -> Recording:
         course_shown=course,
         **arrays,
     )
+
+
+def _interval(values: Any) -> tuple[float, float]:
+    first, last = (float(t) for t in values)
+    return first, last

@@ -1,6 +1,6 @@
 """Pictures and films of a recording, written to the folder of a run."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
@@ -24,7 +24,11 @@ KINDS: dict[str, Callable[[Recording, Units | None], Any]] = {
 
 SUFFIXES = (".png", ".pdf")
 
-METADATA: dict[str, dict[str, Any]] = {".pdf": {"CreationDate": None}, ".png": {"Software": None}}
+METADATA: dict[str, dict[str, Any]] = {
+    ".pdf": {"CreationDate": None},
+    ".svg": {"Date": None},
+    ".png": {"Software": None},
+}
 """Nothing that changes from one writing to the next."""
 
 DPI = 150
@@ -39,19 +43,21 @@ Report = Callable[[int, int], object]
 
 def write_pictures(recording: Recording, folder: Path, units: Units | None = None) -> list[Path]:
     """Every picture as PNG and PDF; their paths."""
-    return [path for kind in KINDS for path in _written(recording, folder, units, kind)]
+    targets = {kind: [folder / f"{kind}{suffix}" for suffix in SUFFIXES] for kind in KINDS}
+    for kind, paths in targets.items():
+        save(recording, paths, units, kind)
+    return [path for paths in targets.values() for path in paths]
 
 
-def _written(recording: Recording, folder: Path, units: Units | None, kind: str) -> Iterator[Path]:
-    import matplotlib.pyplot as plt
+def save(recording: Recording, paths: list[Path], units: Units | None, kind: str) -> None:
+    """Draw one of KINDS, and write it to files of the types that their names say."""
+    import matplotlib.pyplot as plt  # here: it selects a backend
 
     figure = np.atleast_1d(KINDS[kind](recording, units))[0].figure
     try:
-        for suffix in SUFFIXES:
-            target = folder / f"{kind}{suffix}"
-            with styled(), replacing(target) as part:
-                figure.savefig(part, dpi=DPI, metadata=METADATA[suffix])
-            yield target
+        for path in paths:
+            with styled(), replacing(path) as part:
+                figure.savefig(part, dpi=DPI, metadata=METADATA[path.suffix.lower()])
     finally:
         plt.close(figure)
 

@@ -216,6 +216,7 @@ class Weights:
         self._corners, self._weights = corners, weights
 
     def __call__(self, values: Array) -> Array:
+        """Values (..., vertices) at the points."""
         return np.asarray((values[..., self._corners] * self._weights).sum(-2))
 
 
@@ -260,7 +261,7 @@ def recorded(result: Any, scene: Scene) -> Recording:
         triangles=triangles,
         times=times,
         place=place,
-        wave=np.stack([np.broadcast_to(scene.drive.value(*points, t), points[0].shape) for t in times]),
+        wave=_wave(scene, points, times),
         growth=np.stack([frame.growth for frame in frames]),
         centre=centre,
         heading=heading,
@@ -284,3 +285,9 @@ def _floor(moving: Moving, place: Array) -> Array:
     margin = MARGIN * moving.length
     y = np.linspace(place[:, 1].min() - margin, place[:, 1].max() + margin, FLOOR)
     return np.stack([y, np.broadcast_to(moving.ground(y), y.shape)])
+
+
+def _wave(scene: Scene, points: Array, times: Array) -> Array:
+    """c at the points, (n, p)."""
+    x, y = points
+    return np.stack([np.broadcast_to(scene.drive.value(x, y, float(t)), x.shape) for t in times])

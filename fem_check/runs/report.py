@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 from matplotlib.colors import to_hex
 
+from fem_check.answer.block import LABEL
 from fem_check.answer.rounding import measured, plain
 from fem_check.answer.units import Units
 from fem_check.output.files import replacing
@@ -22,6 +23,9 @@ from fem_check.runs.folder import SCENE, SCENE_DATA
 PAGE = files("fem_check.runs") / "page"
 
 MISSING = "not estimated"
+
+INDENT = LABEL + 2
+"""Columns of the block before its text."""
 
 
 def write_report(found: Finished, path: Path) -> Path:
@@ -43,7 +47,7 @@ def report(found: Finished) -> str:
         "shown": shown_speed(found),
         "met": "met" if found.converged else "missed",
         "met_words": "tolerance met" if found.converged else "tolerance not met",
-        "block": found.block,
+        "block": _rows(found.block),
         "errors": _errors(found, units),
         "cost": _cost(found),
         "scene": _scene(found.folder),
@@ -65,7 +69,7 @@ def report(found: Finished) -> str:
     return Template(_file("report.html")).substitute(escaped, **inlined)
 
 
-TABLES = ("errors", "cost")
+TABLES = ("block", "errors", "cost")
 """Parts that are HTML already."""
 
 
@@ -76,6 +80,18 @@ def shown_speed(found: Finished) -> str:
     error = answer["error"] if answer["error"] is not None else answer["numerical_error"]
     value, wrong = units.of_speed(answer["mean"]), units.of_speed(error or 0.0)
     return measured(value, wrong).with_unit(units.speed)
+
+
+def _rows(block: str) -> str:
+    """The block as a list of labels and texts, which a narrow screen breaks as it must."""
+    rows: list[list[str]] = []
+    for line in block.splitlines():
+        label, text = line[:INDENT].strip(), line[INDENT:].strip()
+        if label or not rows:
+            rows.append([label, text])
+        else:
+            rows[-1][1] += f" {text}"
+    return "".join(f"<dt>{html.escape(label)}</dt><dd>{html.escape(text)}</dd>" for label, text in rows)
 
 
 def _errors(found: Finished, units: Units) -> str:

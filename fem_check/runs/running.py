@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from fem_check.answer.units import Units
-from fem_check.choice.ways import Solved, solved, way_of
+from fem_check.choice.ways import solved, way_of
 from fem_check.files.parts.scene_file import RunSettings
 from fem_check.files.writing import write as write_scene
 from fem_check.output.files import replacing
@@ -91,8 +91,8 @@ def _has_result(folder: Path, scene: Scene, settings: RunSettings, resume: bool)
     if (folder / RESULT).exists():
         if not resume:
             raise ValueError(
-                f"{name}: holds the result of an earlier run; name another folder, or resume it to draw "
-                "what is missing"
+                f"{name}: holds the result of an earlier run; name another folder, or resume it, which "
+                "draws what is missing"
             )
         kept = finished(folder).result
         asked = {"scene": plain(scene), "run": plain(settings)}
