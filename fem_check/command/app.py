@@ -86,7 +86,7 @@ def _movie(
     /,
     *,
     file: Annotated[Path | None, Parameter(help="motion.gif in the folder unless given.")] = None,
-    periods: Annotated[int | None, Parameter(help="All, or 4 of a motion that repeats.")] = None,
+    periods: Annotated[int | None, Parameter(help="All, or 2 of a motion that repeats.")] = None,
     frames: Annotated[int, Parameter(help="To a period of the wave.")] = 24,
     width: Annotated[int, Parameter(help="In pixels.")] = 640,
     exaggerate: Annotated[float, Parameter(help="Factor on the displacement in the sheet.")] = 1.0,

@@ -1,4 +1,4 @@
-"""`sheetcrawl run`, `show`, `movie`, `plot` and `paraview`: scenes run to folders, and what comes of them."""
+"""`sheetcrawl run`, `show`, `movie`, `plot` and `paraview`: scenes run to folders."""
 
 import shlex
 import sys
@@ -61,9 +61,9 @@ def _folder(path: Path) -> Path:
 
 
 def _again(path: Path, out: Path | None) -> str:
-    """The command that goes on."""
+    """The command that goes on from where this one was stopped."""
     words = ["sheetcrawl", "run", str(path), *([] if out is None else ["--out", str(out)]), "--resume"]
-    return f"{shlex.join(words)} goes on from there"
+    return shlex.join(words)
 
 
 def _failed(problem: str) -> int:

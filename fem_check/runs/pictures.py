@@ -33,7 +33,7 @@ METADATA: dict[str, dict[str, Any]] = {
 
 DPI = 150
 
-PERIODS, PER_PERIOD = 4, 24
+PERIODS, PER_PERIOD = 2, 24
 """Length of a film of a motion that repeats, in periods, and its frames to a period."""
 
 FILMS = tuple(writers.WRITERS)

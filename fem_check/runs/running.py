@@ -38,6 +38,8 @@ SNAPSHOT_EVERY = 10
 
 AGAIN = "run(..., resume=True)"
 
+RESUME = "resume = True, --resume"
+
 
 def run(
     scene: Scene,
@@ -92,7 +94,7 @@ def _has_result(folder: Path, scene: Scene, settings: RunSettings, resume: bool)
         if not resume:
             raise ValueError(
                 f"{name}: holds the result of an earlier run; name another folder, or resume it, which "
-                "draws what is missing"
+                f"draws what is missing ({RESUME})"
             )
         kept = finished(folder).result
         asked = {"scene": plain(scene), "run": plain(settings)}
@@ -101,7 +103,9 @@ def _has_result(folder: Path, scene: Scene, settings: RunSettings, resume: bool)
             raise ValueError(f"{name}: holds the result of another {' and '.join(other)}")
         return True
     if (folder / SNAPSHOT).exists() and not resume:
-        raise ValueError(f"{name}: holds a run that was interrupted; resume it, or name another folder")
+        raise ValueError(
+            f"{name}: holds a run that was interrupted; resume it ({RESUME}), or name another folder"
+        )
     return False
 
 
@@ -175,5 +179,5 @@ def _interruptible(again: str) -> Iterator[None]:
     try:
         yield
     except KeyboardInterrupt as stopped:
-        said = str(stopped) or "interrupted; what is finished is kept"
+        said = str(stopped) or "interrupted; what is finished is kept, the rest follows by"
         raise KeyboardInterrupt(f"{said}: {again}") from None
