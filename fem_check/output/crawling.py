@@ -99,7 +99,7 @@ class Crawling:
             force = -load * self._deformation.law.ratio(size) * slip
         return np.where(size > 0, force, 0.0)
 
-    def ground(self, y: Array) -> Array:
+    def ground(self, x: Array, y: Array) -> Array:
         """Level: no theory and no cycle of shapes knows any other."""
         return np.zeros_like(y)
 

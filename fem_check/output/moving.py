@@ -88,8 +88,8 @@ class Moving(Protocol):
     def friction(self, points: Array, phase: float) -> Array:
         """Force of the ground per undeformed area, over mu times the weight, (2, n)."""
 
-    def ground(self, y: Array) -> Array:
-        """Height of the ground at x = 0, (n,)."""
+    def ground(self, x: Array, y: Array) -> Array:
+        """Height of the ground at places (n,)."""
 
     def frames(self, points: Array, periods: int, samples: int) -> "Frames":
         """Frames at equal intervals."""

@@ -85,12 +85,12 @@ class Simulated:
         ratio = self._scene.contact.friction.ratio(np.maximum(np.hypot(*velocity), TINY))
         return np.asarray(-self._load(region, t) * ratio * velocity)
 
-    def ground(self, y: Array) -> Array:
+    def ground(self, x: Array, y: Array) -> Array:
         """See Moving."""
         found: Ground | None = self._model.find(Ground)
         if found is None or found.height is None:
             return np.zeros_like(y)
-        return np.asarray(found.height.values(0 * y, y))
+        return np.asarray(found.height.values(x, y))
 
     def frames(self, points: Array, periods: int, samples: int) -> "SimulatedFrames":
         """See Moving."""

@@ -1,7 +1,7 @@
 """Scenes run to folders: the answer, the motion as arrays, pictures, a film and a page to look at.
 
-running     a scene to its folder                recording, netcdf   the motion, kept without its solver
-folder      names of the files, the lock         pictures, report    what is drawn from a recording
+running   a scene to its folder           capture, recording, netcdf   the motion without its solver
+folder    names of the files, the lock    pictures, animation, report  what is drawn from it
 """
 
 import lazy_loader

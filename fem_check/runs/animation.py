@@ -26,6 +26,12 @@ MOST = 65535
 
 COLOURS = 64
 
+TURNS = 0.02
+"""Radians in all, from which a sheet needs as much room across as along."""
+
+DRAPED = 80
+"""Points of a line of uneven ground."""
+
 RULES = 14
 """Lines of the ground along the longer side, about."""
 
@@ -62,7 +68,6 @@ def data_of(recording: Recording, units: Units) -> dict[str, Any]:
         "size": size,
         "middle": middle,
         "grid": grid,
-        "floor": _profile(recording, middle, size),
         "start": 0.0,
         "dt": dt,
         "time": units.time,
@@ -76,34 +81,24 @@ def _text(values: NDArray[Any]) -> str:
 
 
 def _ground(recording: Recording, laps: int) -> tuple[list[float], float, list[Any]]:
-    """The middle of all places and their extent, and lines of the ground as pairs of points."""
+    """The middle of all places and their extent, and lines of the ground as lists of points."""
     spread = np.abs(recording.place[:, :2] - recording.centre[:, :, None]).max((0, 2))
     _, way = recording.way(laps * recording.periods, 24)
-    if recording.heading.any():  # a sheet that turns takes as much room each way
+    if np.ptp(recording.heading) > TURNS:  # a sheet that turns takes as much room each way
         spread = np.full(2, spread.max())
     low, high = way.min(1) - spread, way.max(1) + spread
     middle, half = (low + high) / 2, (high - low) / 2 + 0.1 * recording.length
     rule = nice(2 * float(half.max()) / RULES)
+    digits = 5 - int(np.floor(np.log10(recording.length)))
+    first, last = (np.rint((middle + sign * half) / rule).astype(int) for sign in (-1, 1))
     lines = []
     for axis in (0, 1):
         other = 1 - axis
-        first, last = (round((middle[axis] + sign * half[axis]) / rule) for sign in (-1, 1))
-        for k in range(first, last + 1):
-            ends = []
-            for sign in (-1, 1):
-                end = [0.0, 0.0]
-                end[axis] = k * rule
-                end[other] = round((middle[other] + sign * half[other]) / rule) * rule
-                ends.append(end)
-            lines.append(ends)
+        count = 2 if recording.level else DRAPED
+        along = rule * np.linspace(first[other], last[other], count)
+        for k in range(first[axis], last[axis] + 1):
+            places = np.empty((3, count))
+            places[axis], places[other] = k * rule, along
+            places[2] = recording.ground(places[0], places[1])
+            lines.append(places.T.round(digits).tolist())
     return middle.tolist(), 2.1 * float(half.max()), lines
-
-
-def _profile(recording: Recording, middle: list[float], size: float) -> list[Any]:
-    """The ground below the middle of the sheet, for ground that is not level."""
-    y, height = recording.floor
-    if not np.ptp(height):
-        return []
-    near = np.abs(y - middle[1]) <= size / 2
-    pairs: list[Any] = np.stack([y[near], height[near]], axis=1).round(6).tolist()
-    return pairs

@@ -35,7 +35,9 @@ COLUMNS = (
     ("triangle", "triangles", "points at the corners of triangles", NUMBER, ("cell", "corner")),
     ("arrow_place", "tails", "points with known friction", LENGTH, ("plane", "arrow")),
     ("sheet_friction", "arrows", "friction over mu weight", NUMBER, ("frame", "plane", "arrow")),
-    ("floor", "floor", "y and height of the ground at x = 0", LENGTH, ("floor_axis", "floor_place")),
+    ("floor_x", "floor_x", "places on the ground, across", LENGTH, ("floor_x",)),
+    ("floor_y", "floor_y", "places on the ground, along", LENGTH, ("floor_y",)),
+    ("floor", "floor", "height of the ground", LENGTH, ("floor_x", "floor_y")),
 )
 """Names in the file and in a Recording, long names, units and dimensions."""
 

@@ -42,7 +42,7 @@ def errors_of(found: Solved) -> list[dict[str, Any]]:
     else:
         of = found.motion.errors
         rows = [("steps in time", of.step), ("difference of the last two periods", of.spread)]
-        rows += [("mesh", of.mesh), ("slip speed: distance to dry friction", of.slip_speed)]
+        rows += [("mesh", of.mesh), ("distance to dry friction, not part of the error", of.slip_speed)]
     return [{"part": part, "error": plain(float(error))} for part, error in rows]
 
 

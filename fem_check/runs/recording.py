@@ -12,16 +12,14 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.interpolate import RegularGridInterpolator
 from scipy.spatial import cKDTree
 from skfem import MeshTri
 
 from fem_check.mesh.location import TriangleFinder
-from fem_check.output.moving import Course, Frame, Moving, turned
-from fem_check.output.panels import arrow_places
-from fem_check.output.pictures import moving_of
+from fem_check.output.moving import Course, Frame, turned
 from linear_theory.common.drawable import Drawable
 from linear_theory.common.shown import Shown
-from linear_theory.scene.scene import Scene
 from linear_theory.speed.result import CrawlSpeed
 
 Array = NDArray[np.float64]
@@ -29,12 +27,6 @@ Integers = NDArray[np.int64]
 
 PHASES = 48
 """Recorded times to a period: twice those of a film."""
-
-FLOOR = 400
-"""Places at which the height of the ground is recorded."""
-
-MARGIN = 0.5
-"""How far beyond the sheet the ground is recorded, in lengths of the sheet."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,9 +36,10 @@ class Recording(Drawable, Shown):
     speed: the answer. points (2, p), triangles (m, 3): of the undeformed sheet. place (n, 2 or 3, p):
     positions in the frame of the ground. wave, growth (n, p): c and alpha c. centre (n, 2), heading
     (n,): of the body frame. middle (2,): centre of mass of the undeformed sheet. tails (2, a): points
-    with arrows; friction (n, 2, a): force on them over mu times the weight, per undeformed area. floor
-    (2, k): y and height of the ground at x = 0. periods: recorded; repeats: whether the last of them
-    goes on without end. words: about the shape. Lengths and times in units of the scene.
+    with arrows; friction (n, 2, a): force on them over mu times the weight, per undeformed area.
+    floor_x (i,), floor_y (j,), floor (i, j): places around the sheet and the height of the ground.
+    periods: recorded; repeats: whether they go on without end. words: about the shape. Lengths and
+    times in units of the scene.
 
     >>> from fem_check.runs import recorded
     >>> from linear_theory import Scene, Sheet, SineWave, crawl_speed
@@ -75,6 +68,8 @@ class Recording(Drawable, Shown):
     middle: Array = field(repr=False)
     tails: Array = field(repr=False)
     arrows: Array = field(repr=False)
+    floor_x: Array = field(repr=False)
+    floor_y: Array = field(repr=False)
     floor: Array = field(repr=False)
 
     has_shape = True
@@ -115,9 +110,15 @@ class Recording(Drawable, Shown):
         force = np.asarray(_between(self.arrows, inside * PHASES)[:, nearest])
         return turned(force, lap * self._turn)
 
-    def ground(self, y: Array) -> Array:
-        """See Moving."""
-        return np.interp(y, *self.floor)
+    @property
+    def level(self) -> bool:
+        """Whether the ground is."""
+        return not np.ptp(self.floor)
+
+    def ground(self, x: Array, y: Array) -> Array:
+        """See Moving; that of the nearest place beyond those that are recorded."""
+        near = [np.clip(v, a[0], a[-1]) for v, a in ((x, self.floor_x), (y, self.floor_y))]
+        return np.asarray(self._heights(np.stack(near, axis=-1)))
 
     def frames(self, points: Array, periods: int, samples: int) -> "RecordedFrames":
         """See Moving."""
@@ -185,6 +186,10 @@ class Recording(Drawable, Shown):
         return self.inside(points)[1]
 
     @cached_property
+    def _heights(self) -> Any:
+        return RegularGridInterpolator((self.floor_x, self.floor_y), self.floor)
+
+    @cached_property
     def _finder(self) -> tuple[TriangleFinder, Integers]:
         """With the corners (3, m) in the order of its local coordinates."""
         mesh = MeshTri(self.points, self.triangles.T.copy(), validate=False)
@@ -227,67 +232,3 @@ def _between(values: Array, row: float) -> Array:
     if share < 1e-9 or first + 1 == len(values):
         return np.array(values[first], float)
     return np.asarray((1 - share) * values[first] + share * values[first + 1])
-
-
-def recorded(result: Any, scene: Scene) -> Recording:
-    """The motion of a result, for the scene that it answers: a speed, a prediction or a trajectory.
-
-    Raises ValueError for a speed without a shape.
-    """
-    moving = moving_of(result)
-    if not moving.has_shape:
-        raise ValueError("result: must have a shape; a speed on a line, or a copied one, has none")
-    repeats = moving.most_periods is None
-    periods = moving.most_periods or 1
-    points, triangles = moving.covering()
-    frames = list(moving.frames(points, periods, PHASES))
-    place = np.stack([frame.place for frame in frames])
-    times = np.array([frame.time for frame in frames])
-    centre = np.stack([frame.centre for frame in frames])
-    heading = np.array([frame.heading for frame in frames])
-    first = frames[0]
-    back = turned(first.still[:2, :1] - first.centre[:, None], -first.heading)
-    tails = arrow_places(points, triangles)
-    return Recording(
-        speed=moving.speed,
-        period=moving.period,
-        length=moving.length,
-        words=moving.words,
-        direction=moving.direction,
-        periods=periods,
-        repeats=repeats,
-        course_shown=moving.course(),
-        points=points,
-        triangles=triangles,
-        times=times,
-        place=place,
-        wave=_wave(scene, points, times),
-        growth=np.stack([frame.growth for frame in frames]),
-        centre=centre,
-        heading=heading,
-        middle=points[:, 0] - back[:, 0],
-        tails=tails,
-        arrows=_arrows(moving, tails, heading if repeats else 0 * heading),
-        floor=_floor(moving, place),
-    )
-
-
-def _arrows(moving: Moving, tails: Array, heading: Array) -> Array:
-    """Friction in the frame of the ground, (n, 2, a); speeds say it in that of the body."""
-    phases = np.arange(heading.size) / PHASES
-    return np.stack(
-        [turned(moving.friction(tails, float(p)), h) for p, h in zip(phases, heading, strict=True)]
-    )
-
-
-def _floor(moving: Moving, place: Array) -> Array:
-    """y and height of the ground, around all places of the sheet."""
-    margin = MARGIN * moving.length
-    y = np.linspace(place[:, 1].min() - margin, place[:, 1].max() + margin, FLOOR)
-    return np.stack([y, np.broadcast_to(moving.ground(y), y.shape)])
-
-
-def _wave(scene: Scene, points: Array, times: Array) -> Array:
-    """c at the points, (n, p)."""
-    x, y = points
-    return np.stack([np.broadcast_to(scene.drive.value(x, y, float(t)), x.shape) for t in times])

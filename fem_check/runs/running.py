@@ -12,6 +12,7 @@ from fem_check.files.parts.scene_file import RunSettings
 from fem_check.files.writing import write as write_scene
 from fem_check.output.files import replacing
 from fem_check.runs import netcdf
+from fem_check.runs.capture import recorded
 from fem_check.runs.finished import Finished, finished
 from fem_check.runs.folder import (
     REPORT,
@@ -24,7 +25,6 @@ from fem_check.runs.folder import (
 )
 from fem_check.runs.pictures import write_films, write_pictures
 from fem_check.runs.record import result_of
-from fem_check.runs.recording import recorded
 from fem_check.runs.report import write_report
 from linear_theory.common import validation
 from linear_theory.common.errors import Unidentifiable
@@ -128,7 +128,8 @@ def _solve(
         **_snapshots(scene, folder, way),
     )
     result = found.motion or found.answer.speed
-    netcdf.write(recorded(result, scene), result, folder / TRAJECTORY)
+    recording = recorded(result, scene, found.answer.speed)
+    netcdf.write(recording, result, folder / TRAJECTORY)
     _write_json(result_of(found, settings, units), folder / RESULT)
 
 

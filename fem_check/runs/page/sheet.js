@@ -63,9 +63,7 @@
   const ground = () => {
     pen.lineWidth = 1;
     pen.strokeStyle = "#d5d5d5";
-    for (const [from, to] of data.grid) line([project(...from, 0), project(...to, 0)]);
-    pen.strokeStyle = "#808080";
-    if (data.floor.length) line(data.floor.map(([py, pz]) => project(data.middle[0], py, pz)));
+    for (const rule of data.grid) line(rule.map((p) => project(...p)));
   };
 
   const draw = () => {
