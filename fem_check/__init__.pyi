@@ -8,6 +8,7 @@ from .shell.cycle.speed import cycle_speed
 from .shell.effects.friction import Friction
 from .shell.effects.gravity import Gravity
 from .shell.effects.ground import Ground
+from .shell.effects.height_map import HeightMap
 from .shell.effects.inertia import Inertia
 from .shell.effects.koiter import Bending, Membrane
 from .shell.effects.loads import DeadLoad
@@ -24,6 +25,7 @@ __all__ = [
     "Friction",
     "Gravity",
     "Ground",
+    "HeightMap",
     "Inertia",
     "Material",
     "Membrane",

@@ -125,6 +125,7 @@ MADE = {
     "FrictionField": lambda: linear_theory.friction_field(field("AirySeries"), 0.1, [0.1, 0.2], 0, 0.1),
     "Gravity": lambda: fem_check.Gravity(2.5e-4),
     "Ground": lambda: fem_check.Ground(0.5),
+    "HeightMap": lambda: fem_check.HeightMap(np.zeros((9, 9)), 1.0, 2.0),
     "Growth": lambda: linear_theory.Growth(0.25),
     "Inertia": lambda: fem_check.Inertia(1.0, MATERIAL),
     "Linear": linear_theory.Linear,

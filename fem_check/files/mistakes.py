@@ -2,6 +2,7 @@
 
 import difflib
 import re
+from collections import Counter
 from collections.abc import Iterable
 from pathlib import Path
 from types import TracebackType
@@ -16,6 +17,9 @@ if TYPE_CHECKING:
 
 Place = tuple[str | int, ...]
 """Names of tables and keys, and places in lists."""
+
+ARGUMENT = re.compile(r"(\w+)(?: = |: |,)")
+"""The name at the start of a message of the library."""
 
 HEADER = re.compile(r"\s*\[\[?\s*([^\]#]+?)\s*\]")
 KEY = re.compile(r"\s*([\w.\"'-]+)\s*=")
@@ -34,14 +38,20 @@ class Mistakes:
     """Collects them while a file is read."""
 
     def __init__(self) -> None:
-        self._found: list[tuple[Place, str]] = []
+        self._found: list[tuple[Place, str, str]] = []
 
     def __bool__(self) -> bool:
         return bool(self._found)
 
     def add(self, place: Place, words: str) -> None:
         """A mistake at a place; words: what follows the name of the table."""
-        self._found.append((place, words))
+        self._found.append((place, _table(place), words))
+
+    def add_raised(self, table: Place, words: str) -> None:
+        """What was raised by the work on a table; the words may begin with one of its keys."""
+        key = ARGUMENT.match(words)
+        place = (*table, key[1]) if key and table else table
+        self._found.append((place, f"[{'.'.join(map(str, table))}] " if table else "", words))
 
     def under(self, *place: str | int) -> "Under":
         """Keep a ValueError of what is made of a table, which names its argument."""
@@ -55,12 +65,9 @@ class Mistakes:
 
     def error(self, path: Path, text: str) -> SceneFileError:
         """All mistakes of a file with that text, in its order."""
-        lines = [(line_of(text, place), place, words) for place, words in self._found]
+        lines = [(line_of(text, place), f"{table}{words}") for place, table, words in self._found]
         lines.sort(key=lambda found: found[0])
-        told = (
-            f"{path}{f':{number}' if number else ''}: {_table(place)}{words}"
-            for number, place, words in lines
-        )
+        told = (f"{path}{f':{number}' if number else ''}: {words}" for number, words in lines)
         return SceneFileError("\n".join(told))
 
 
@@ -81,7 +88,7 @@ class Under:
     ) -> bool:
         if not isinstance(error, ValueError):
             return False
-        self._mistakes.add(self._place, " ".join(str(error).split()))
+        self._mistakes.add_raised(self._place, " ".join(str(error).split()))
         return True
 
 
@@ -96,17 +103,25 @@ def line_of(text: str, place: Place) -> int:
     """The line of a key, of the key or table that it is in, counted from 1; 0 where it is not found."""
     names = [part for part in place if isinstance(part, str)]
     best, found, table = 0, 0, ""
+    seen: Counter[str] = Counter()
     for number, line in enumerate(text.splitlines(), start=1):
         header, key = HEADER.match(line), KEY.match(line)
         if header:
             table, key = header[1].replace('"', ""), None
+            seen[table] += 1
         elif not key:
             continue
         said = ".".join(filter(None, [table, key[1].strip("\"'") if key else ""])).split(".")
         depth = len(said)
-        if said == names[:depth] and depth > best:
+        if said == names[:depth] and depth > best and _is_item(place, table, seen[table]):
             best, found = depth, number
     return found
+
+
+def _is_item(place: Place, table: str, count: int) -> bool:
+    """Whether the place is in that table, the count-th one of its name where they are a list."""
+    depth = len(table.split("."))
+    return depth >= len(place) or not isinstance(place[depth], int) or place[depth] == count - 1
 
 
 def _table(place: Place) -> str:

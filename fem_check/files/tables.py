@@ -114,7 +114,7 @@ class FrictionTable(Table):
     load: Weight | None = None
     """Weight that friction is proportional to, where neither gravity nor ground say it: grows with the
     "current" or the "grown" area, or stays with the "material"."""
-    slope: float = 0.0
+    slope: float | None = None
     """Of the ground over the friction coefficient, where no effects say it."""
 
 

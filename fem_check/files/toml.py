@@ -39,8 +39,10 @@ def _blocks(name: str, table: Mapping[str, Any]) -> Iterator[list[str]]:
 def _value(value: Any) -> str:
     if isinstance(value, bool):
         return "true" if value else "false"
-    if isinstance(value, int | float):
+    if isinstance(value, int):
         return repr(value)
+    if isinstance(value, float):
+        return repr(float(value))  # numpy's say their type
     if isinstance(value, str):  # what JSON escapes in its strings, TOML reads; and one character more
         return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
     if isinstance(value, Sequence):

@@ -116,7 +116,7 @@ def _contact(scene: Scene) -> Entries:
             entries["slip_speed"] = contact.friction.width
     if contact.load != own.load:
         entries["load"] = str(contact.load)
-    if contact.slope != own.slope:
+    if repr(contact.slope) != repr(own.slope):
         entries["slope"] = contact.slope
     return entries
 
@@ -173,7 +173,8 @@ DEFAULTS = {
 
 
 def _without_defaults(entries: Entries) -> Entries:
-    return {name: v for name, v in entries.items() if name not in DEFAULTS or v != DEFAULTS[name]}
+    """Compared as text, in which -0.0 is not 0.0, as it is not in the key of a scene."""
+    return {n: v for n, v in entries.items() if n not in DEFAULTS or repr(v) != repr(DEFAULTS[n])}
 
 
 def _run(run: RunSettings) -> Entries:

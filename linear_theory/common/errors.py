@@ -15,7 +15,8 @@
 
 ConvergenceError and UnstableError are defined in `fem_check.shell.statics.equilibrium`,
 NotPeriodicError and UnresolvedError in `fem_check.shell.cycle`, SnapshotError in
-`fem_check.shell.stepping.snapshot`, SceneFileError in `fem_check.files.mistakes`, all others here. Bad arguments are a plain ValueError.
+`fem_check.shell.stepping.snapshot`, SceneFileError in `fem_check.files.mistakes`, all others here. Bad
+arguments are a plain ValueError.
 """
 
 from collections.abc import Callable

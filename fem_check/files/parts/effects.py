@@ -42,8 +42,8 @@ TANH = LAWS[Tanh.name]
 class Effects:
     """Makes effects of their tables."""
 
-    def __init__(self, system: System, sheet: Sheet, folder: Path) -> None:
-        self.system, self.sheet, self.folder = system, sheet, folder
+    def __init__(self, system: System, sheet: Sheet, folder: Path, mistakes: Mistakes) -> None:
+        self.system, self.sheet, self.folder, self.mistakes = system, sheet, folder, mistakes
 
     def material(self, young: Any) -> Material:
         """Of the sheet; with units Young's modulus is the unit of stress."""
@@ -101,7 +101,8 @@ class Effects:
         number = self.system.number
         height = None
         if table.terrain is not None:
-            height = terrain_of(table.terrain, self.system, self.sheet, self.folder)
+            with self.mistakes.under("ground", "terrain"):
+                height = terrain_of(table.terrain, self.system, self.sheet, self.folder)
         return Ground(
             number(table.stiffness), number(table.damping), Load(table.load), height, table.form
         )
@@ -128,7 +129,7 @@ def effects_of(
     young = tables["sheet"].young
     if not named and (young is None or young.unit is not None):
         return []
-    maker = Effects(system, sheet, folder)
+    maker = Effects(system, sheet, folder, mistakes)
     material = maker.material(young)
     found: list[Any] = [Membrane(material)]
     for name in named:
@@ -143,7 +144,8 @@ def with_contact(scene: Scene, table: FrictionTable | None, system: System) -> S
         return scene
     law = _law(table, system)
     load = scene.contact.load if table.load is None else Load(table.load)
-    return scene.but(contact=Contact(load, law, table.slope or scene.contact.slope))
+    slope = scene.contact.slope if table.slope is None else table.slope
+    return scene.but(contact=Contact(load, law, slope))
 
 
 def _law(table: FrictionTable, system: System) -> FrictionLaw:

@@ -1,5 +1,6 @@
 """The ground of a scene file that is not flat: eq. 13, a formula, or heights on a grid."""
 
+import math
 from pathlib import Path
 from typing import Any
 
@@ -18,7 +19,7 @@ Array = NDArray[np.float64]
 EQ_13 = ("amplitude", "wavelength_x", "wavelength_y")
 MAP = ("width", "length", "height", "smoothing")
 IMAGES = (".png", ".jpg", ".jpeg", ".tif", ".tiff", ".bmp")
-GREY = 1 / np.sqrt(12)
+GREY = 1 / math.sqrt(12)
 """Root mean square of the rounding to a grey value, in steps of them."""
 
 WAYS = ("amplitude", "expression", "map", "heights")

@@ -70,7 +70,8 @@ def growth_of(table: GrowthTable, system: System, sheet: Sheet, wave: Wave) -> G
     if len(said) != 1:
         given = " and ".join(said) or "none"
         raise ValueError(f"{given}: one of {', '.join(WAYS)} must be given, and no other")
-    alpha, coupling = table.alpha or 0.0, system.number(table.curvature_coupling)
+    alpha = 0.0 if table.alpha is None else table.alpha
+    coupling = system.number(table.curvature_coupling)
     if table.swelling is not None:
         alpha = alpha_of(_swelling(table, system), wave, sheet, table.law)
     if table.bilayer is not None:

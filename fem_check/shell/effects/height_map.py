@@ -34,7 +34,7 @@ class HeightMap(Shown):
     Raises ValueError for heights that are not finite or too few, sizes <= 0 and smoothing < 0.
 
     >>> import numpy as np
-    >>> from fem_check.shell.effects.height_map import HeightMap
+    >>> from fem_check import HeightMap
     >>> x, y = np.meshgrid(np.linspace(-1, 1, 41), np.linspace(2, -2, 81))
     >>> hill = HeightMap(0.1 * np.exp(-x**2 - y**2), width=2.0, length=4.0)
     >>> print(hill(np.array([0.0, 0.5]), np.array([0.0, 0.0]))[:2].round(4) + 0.0)  # f, f_x
