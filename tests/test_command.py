@@ -140,7 +140,7 @@ def test_wave_of_harmonics_and_all_options(capsys):
         ([*SPEED, "--movie", "crawl.avi"], "must end in .gif or .mp4"),
         ([*SPEED, "--json", "--csv"], "--json: must be without --csv"),
         ([*SPEED, "12"], "'12': must follow an option"),
-        (["crawl"], "'crawl' is not a command; there are speed, new, check, schema and examples"),
+        (["crawl"], "'crawl' is not a command; there are speed, run, show, movie, "),
     ],
 )
 def test_bad_arguments_get_one_line_and_status_2(capsys, arguments, named):

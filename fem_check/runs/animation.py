@@ -68,7 +68,7 @@ def data_of(recording: Recording, units: Units) -> dict[str, Any]:
         "size": size,
         "middle": middle,
         "grid": grid,
-        "start": 0.0,
+        "start": float(times[0]) * units.time_factor if recording.repeats else 0.0,
         "dt": dt,
         "time": units.time,
         "digits": max(0, 2 - int(np.floor(np.log10(recording.period * units.time_factor)))),

@@ -59,17 +59,17 @@ def recorded(result: Any, scene: Scene, speed: CrawlSpeed | None = None) -> Reco
         heading=heading,
         middle=points[:, 0] - back[:, 0],
         tails=tails,
-        arrows=_arrows(moving, tails, heading if repeats else 0 * heading),
+        arrows=_arrows(moving, tails, times, heading),
         **_floor(moving, place),
     )
 
 
-def _arrows(moving: Moving, tails: Array, heading: Array) -> Array:
-    """Friction in the frame of the ground, (n, 2, a); speeds say it in that of the body."""
-    phases = np.arange(heading.size) / PHASES
-    return np.stack(
-        [turned(moving.friction(tails, float(p)), h) for p, h in zip(phases, heading, strict=True)]
-    )
+def _arrows(moving: Moving, tails: Array, times: Array, heading: Array) -> Array:
+    """Friction in the frame of the ground, (n, 2, a); speeds tell it in that of the body."""
+    if moving.most_periods is None:
+        forces = [moving.friction(tails, float(t)) for t in times / moving.period]
+        return np.stack([turned(force, angle) for force, angle in zip(forces, heading, strict=True)])
+    return np.stack([moving.friction(tails, k / PHASES) for k in range(times.size)])
 
 
 def _floor(moving: Moving, place: Array) -> dict[str, Array]:

@@ -54,7 +54,7 @@ def finished(folder: str | Path) -> Finished:
     path = folder / RESULT
     try:
         result = json.loads(path.read_text(encoding="utf-8"))
-    except FileNotFoundError:
+    except (FileNotFoundError, NotADirectoryError):
         raise ValueError(f"folder = {str(folder)!r}: {_missing(folder)}") from None
     except (OSError, UnicodeDecodeError, json.JSONDecodeError) as problem:
         raise ValueError(f"{path}: cannot be read: {problem}") from None

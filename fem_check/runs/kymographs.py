@@ -52,10 +52,9 @@ def middle_line(recording: Recording) -> Line:
         along.append(own[1] - (y - recording.middle[1]))
     height = weights(recording.place[:, 2]) if recording.components == 3 else None
     hidden = np.where(there, 0.0, np.nan)
-    times = recording.times - (recording.times[0] if recording.repeats else 0.0)
     return Line(
         y,
-        times,
+        recording.times,
         weights(recording.wave) + hidden,
         np.array(along) + hidden,
         None if height is None else height + hidden,

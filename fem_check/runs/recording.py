@@ -99,16 +99,16 @@ class Recording(Drawable, Shown):
 
     def at(self, points: Array, phase: float) -> Frame:
         """See Moving."""
-        return self._frame(self._weights(points), points, phase)
+        frame = self._frame(self._weights(points), points, self._counted(phase))
+        return frame._replace(time=phase * self.period) if self.repeats else frame
 
     def friction(self, points: Array, phase: float) -> Array:
         """See Moving; that of the nearest recorded arrow."""
         if not self.tails.size:
             return np.zeros_like(points)
         nearest = cKDTree(self.tails.T).query(points.T)[1]
-        lap, inside = self._lap(phase)
-        force = np.asarray(_between(self.arrows, inside * PHASES)[:, nearest])
-        return turned(force, lap * self._turn)
+        row = self._lap(self._counted(phase))[1] * PHASES
+        return np.asarray(_between(self.arrows, row)[:, nearest])
 
     @property
     def level(self) -> bool:
@@ -140,6 +140,12 @@ class Recording(Drawable, Shown):
         still[:2] += centre[:, None]
         time = float(self.times[0] + phase * self.period)
         return Frame(time, place, still, growth, centre, heading)
+
+    def _counted(self, phase: float) -> float:
+        """A phase of the wave as one of the record, which may begin at any; within it if it repeats."""
+        if not self.repeats:
+            return phase
+        return float((phase - self.times[0] / self.period) % self.periods)
 
     def _lap(self, phase: float) -> tuple[int, float]:
         """Whole repetitions before a phase, and the phase within the recorded periods."""
