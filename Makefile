@@ -2,6 +2,7 @@
 #
 #   make figures   all figures and the film of the README (options: OUT=folder RTOL=1e-6): a minute
 #   make test      lint, types, tests: six minutes
+#   make test-browser  report.html in Debian's Chromium: half a minute; skipped where there is none
 #   make paper     the write-up as a PDF, paper/out/sheetcrawl.pdf, with its figures
 #   make docs      the documentation as one site, build/docs/index.html: a minute
 #   make cost      error against time of every level, the price of each effect: four minutes
@@ -35,7 +36,7 @@ export MKL_NUM_THREADS := 1
 FIGURE_OUT = $(if $(OUT),--out "$(OUT)")
 FIGURE_RTOL = $(if $(RTOL),--rtol $(RTOL))
 
-.PHONY: figures test paper docs cost bench-shell bench-threads tables lock clean distclean
+.PHONY: figures test test-browser paper docs cost bench-shell bench-threads tables lock clean distclean
 .DEFAULT_GOAL := figures
 .DELETE_ON_ERROR:
 
@@ -52,7 +53,12 @@ test: $(STAMP)
 	$(RUN) -m ruff check .
 	$(RUN) -m ruff format --check .
 	$(RUN) -m mypy
-	$(RUN) -m pytest -n $(WORKERS)
+	$(RUN) -m pytest -n $(WORKERS) --ignore tests/browser
+
+# CI_BROWSER=1 makes a missing browser an error.
+test-browser: $(STAMP)
+	@test -x /usr/bin/chromium || test -n "$(CI_BROWSER)" || echo "make test-browser: skipped, no /usr/bin/chromium (apt-get install chromium)"
+	@test ! -x /usr/bin/chromium -a -z "$(CI_BROWSER)" || $(RUN) -m pytest tests/browser
 
 cost: $(STAMP)
 	$(RUN) -m figures.measure.cost

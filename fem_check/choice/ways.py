@@ -8,6 +8,7 @@ stepped   all effects, step by step in time
 import math
 from collections.abc import Callable
 from dataclasses import replace
+from typing import Any, NamedTuple
 
 from fem_check.choice.prediction import Prediction, predict
 from fem_check.shell.abilities import CYCLE, STEPPED, left_out
@@ -16,6 +17,7 @@ from fem_check.shell.effects.friction import Friction
 from fem_check.shell.model import ShellModel
 from fem_check.shell.stepping.run import Progress as Steps
 from fem_check.shell.stepping.simulation import simulate
+from fem_check.shell.stepping.trajectory import Trajectory
 from linear_theory.common import validation
 from linear_theory.common.progress import Progress, Report
 from linear_theory.common.tolerance import Tolerance
@@ -70,20 +72,42 @@ def answer(
     rtol: of the speed; periods, steps: of a scene that is stepped through time, see `simulate`. Raises
     ValueError as `way_of` does, and what `predict`, `cycle_speed` and `simulate` raise.
     """
+    return solved(scene, way, rtol, periods, steps, progress).answer
+
+
+class Solved(NamedTuple):
+    """An answer, and the motion in time that gave it where the scene was stepped, else None."""
+
+    answer: Prediction
+    motion: Trajectory | None
+
+
+def solved(
+    scene: Scene,
+    way: str = "auto",
+    rtol: float | None = 1e-2,
+    periods: int = 2,
+    steps: int | None = None,
+    progress: Report | None = None,
+    **stepping: Any,
+) -> Solved:
+    """As `answer`, with the motion. stepping: further arguments of `simulate`, such as its snapshot."""
     way = way_of(scene, way)
     tolerance = Tolerance(1e-2 if rtol is None else rtol).of_speed(scene.alpha, scene.unit)
     if way == "predict":
-        return predict(scene, rtol=tolerance.rtol, progress=progress)
+        return Solved(predict(scene, rtol=tolerance.rtol, progress=progress), None)
+    motion = None
     if way == "cycle":
         speed = cycle_speed(scene, rtol=tolerance.rtol, progress=progress)
     else:
         heard = False if progress is None else _steps_to(progress)
-        motion = simulate(scene, periods, rtol=rtol, steps=steps, progress=heard)
+        motion = simulate(scene, periods, rtol=rtol, steps=steps, progress=heard, **stepping)
         speed = replace(motion.speed, model_error=math.nan)  # there: how far from dry friction
     named = {type(effect) for effect in scene.effects} - ({Friction} if way == "cycle" else set())
     reason = f"{way}, the cheapest that represents the scene"
     missing = left_out(named)
-    return Prediction(speed, way, reason, speed.converged, speed.seconds, missing, scene, tolerance)
+    found = Prediction(speed, way, reason, speed.converged, speed.seconds, missing, scene, tolerance)
+    return Solved(found, motion)
 
 
 def _steps_to(report: Report) -> Callable[[Steps], None]:

@@ -10,8 +10,13 @@ from fem_check.command.options import Options
 from fem_check.command.screens import (
     CHECK_HELP,
     EXAMPLES_HELP,
+    MOVIE_HELP,
     NEW_HELP,
+    PARAVIEW_HELP,
+    PLOT_HELP,
+    RUN_HELP,
     SCHEMA_HELP,
+    SHOW_HELP,
     SPEED_HELP,
     examples,
     welcome,
@@ -50,6 +55,70 @@ def _speed(
     from fem_check.command.speed import speed
 
     return speed(options or Options(), scene)
+
+
+FolderArgument = Annotated[Path, Parameter(help="The folder of a finished run.")]
+
+
+@app.command(name="run", help=RUN_HELP)
+def _run(
+    scene: Annotated[Path, Parameter(help="A scene file, NAME.toml.")],
+    /,
+    *,
+    out: Annotated[Path | None, Parameter(help="The folder; NAME here unless given.")] = None,
+    resume: Annotated[bool, Parameter(help="Go on from an interrupted run in the folder.")] = False,
+) -> int:
+    from fem_check.command.runs import run
+
+    return run(scene, out, resume)
+
+
+@app.command(name="show", help=SHOW_HELP)
+def _show(folder: FolderArgument, /) -> int:
+    from fem_check.command.runs import show
+
+    return show(folder)
+
+
+@app.command(name="movie", help=MOVIE_HELP)
+def _movie(
+    folder: FolderArgument,
+    /,
+    *,
+    file: Annotated[Path | None, Parameter(help="motion.gif in the folder unless given.")] = None,
+    periods: Annotated[int | None, Parameter(help="All, or 2 of a motion that repeats.")] = None,
+    frames: Annotated[int, Parameter(help="To a period of the wave.")] = 24,
+    width: Annotated[int, Parameter(help="In pixels.")] = 640,
+    exaggerate: Annotated[float, Parameter(help="Factor on the displacement in the sheet.")] = 1.0,
+) -> int:
+    from fem_check.command.runs import movie
+
+    return movie(folder, file, periods, frames, width, exaggerate)
+
+
+@app.command(name="plot", help=PLOT_HELP)
+def _plot(
+    folder: FolderArgument,
+    /,
+    *,
+    file: Annotated[Path | None, Parameter(help=".png, .pdf or .svg; else all, in the folder.")] = None,
+    what: Annotated[str, Parameter(help="In that file: motion or kymograph.")] = "motion",
+) -> int:
+    from fem_check.command.runs import plot
+
+    return plot(folder, file, what)
+
+
+@app.command(name="paraview", help=PARAVIEW_HELP)
+def _paraview(
+    folder: FolderArgument,
+    /,
+    *,
+    file: Annotated[Path | None, Parameter(help="motion.xdmf in the folder unless given.")] = None,
+) -> int:
+    from fem_check.command.runs import paraview
+
+    return paraview(folder, file)
 
 
 @app.command(name="new", help=NEW_HELP)

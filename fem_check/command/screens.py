@@ -41,6 +41,15 @@ FILES = (
 )
 """In this order, each with what those before it have written."""
 
+RUNS = (
+    ("A scene to a folder: answer, table, pictures, film, page", "sheetcrawl run hydrogel.toml"),
+    ("The answer of that run, again", "sheetcrawl show hydrogel"),
+    ("Another film of it", "sheetcrawl movie hydrogel --file crawl.gif --periods 2"),
+    ("Another picture of it", "sheetcrawl plot hydrogel --file crawl.pdf --what kymograph"),
+    ("Its motion for ParaView", "sheetcrawl paraview hydrogel"),
+)
+"""In this order, after `FILES`."""
+
 BEYOND = (
     ("the same answer in Python", "fem_check.predict(Sheet(), SineWave(), alpha=0.1)"),
     ("a scene file, read and written", "Scene.from_toml(path), scene.to_toml(path)"),
@@ -74,6 +83,33 @@ SCHEMA_HELP = f"""Print the JSON Schema of scene files, by which editors know ta
   {FILES[3][1]}
 """
 
+RUN_HELP = f"""Run a scene file to a folder: answer, motion as netCDF, pictures, film, report.html.
+
+Ctrl-C keeps what a scene that is stepped through time has reached; --resume goes on from there.
+
+  {RUNS[0][1]}
+"""
+
+SHOW_HELP = f"""Print the answer of a finished run again.
+
+  {RUNS[1][1]}
+"""
+
+MOVIE_HELP = f"""Write a film of a finished run, .gif or .mp4, without running it again.
+
+  {RUNS[2][1]}
+"""
+
+PLOT_HELP = f"""Draw pictures of a finished run, without running it again.
+
+  {RUNS[3][1]}
+"""
+
+PARAVIEW_HELP = f"""Write the motion of a finished run for ParaView (.xdmf), without running it again.
+
+  {RUNS[4][1]}
+"""
+
 EXAMPLES_HELP = "More examples, and the Python calls for tasks beyond this command."
 
 
@@ -96,6 +132,7 @@ Other commands
 
   sheetcrawl speed --help         all options: sheet, wave, growth, friction, tolerance, output
   sheetcrawl new --list           scene files with comments: bending, ground, outlines, weight, terrain
+  sheetcrawl run scene.toml       all of a scene to a folder: pictures, film, report.html
   sheetcrawl check scene.toml     what a scene file says, by which level it is answered, at what cost
   sheetcrawl examples             more examples, pictures and films; what to do in Python
   sheetcrawl --install-completion shell completion of commands and options
@@ -106,7 +143,7 @@ In Python: from fem_check import predict; help(predict)"""
 
 def examples() -> str:
     """Commands by purpose, and the Python calls for everything else."""
-    lines = [f"{title}\n  {command}\n" for title, command in (*MORE, *FILES)]
+    lines = [f"{title}\n  {command}\n" for title, command in (*MORE, *FILES, *RUNS)]
     lines += ["Scene files to start from, for sheetcrawl new", *listed(), ""]
     width = max(len(title) for title, _ in BEYOND)
     lines.append("Beyond the command, in Python (help(name) shows an example of each)")

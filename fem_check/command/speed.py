@@ -1,15 +1,14 @@
 """`sheetcrawl speed`: has the question answered, and tells the answer as the options want it."""
 
 import json
-import math
 import shutil
 import sys
 import warnings
 from functools import partial
 from pathlib import Path
-from typing import Any
 
 from fem_check.answer.block import block, why
+from fem_check.answer.record import record
 from fem_check.answer.units import Units
 from fem_check.choice.prediction import Prediction, predict
 from fem_check.command.files import check_files
@@ -73,31 +72,6 @@ def _told(found: Prediction, units: Units | None, options: Options) -> str:
     if options.why:
         text = f"{text}\n{why(found, width)}"
     return printable(f"\n{text}\n", sys.stdout)
-
-
-def record(found: Prediction, units: Units | None) -> dict[str, Any]:
-    """The answer for programs, in the units of the question; unknown values are None."""
-    speed = found.speed
-    numbers = {
-        "mean": found.mean,
-        "error": found.error,
-        "numerical_error": speed.error,
-        "model_error": speed.model_error,
-        "slip_ratio": speed.slip_ratio,
-        "seconds": found.seconds,
-        "alpha": found.scene.alpha,
-    }
-    return {
-        **{name: value if math.isfinite(value) else None for name, value in numbers.items()},
-        "unit": units.speed if units else "length/time",
-        "converged": found.converged,
-        "regime": speed.regime,
-        "level": found.level,
-        "reason": found.reason,
-        "model": speed.model,
-        "left_out": list(found.left_out),
-        "reach": speed.reach,
-    }
 
 
 def table(found: Prediction, units: Units | None) -> str:

@@ -2,7 +2,10 @@
 
 from collections.abc import Sequence
 
-COMMANDS = ("speed", "new", "check", "schema", "examples")
+COMMANDS = (
+    *("speed", "run", "show", "movie", "plot", "paraview"),
+    *("new", "check", "schema", "examples"),
+)
 
 OWN = ("--help", "--version", "--install-completion")
 """Options of the program itself; any other option without a command implies `speed`."""

@@ -6,7 +6,8 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from fem_check.output.moving import Course, Frame, direction, turned
+from fem_check.answer.wave_words import direction
+from fem_check.output.moving import Course, Frame, turned
 from linear_theory.speed.drawn import Deformation
 from linear_theory.speed.path import Poses, rigid_path
 from linear_theory.speed.result import CrawlSpeed
@@ -95,7 +96,7 @@ class Crawling:
         slip = velocity + np.stack([v_x - omega * y, v_y + omega * x])
         return -load * self._deformation.law.force(slip)
 
-    def ground(self, y: Array) -> Array:
+    def ground(self, x: Array, y: Array) -> Array:
         """Level ground, the only one in the theories and the cycle of shapes."""
         return np.zeros_like(y)
 

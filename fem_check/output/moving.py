@@ -5,7 +5,7 @@ the frame of the ground, where the centre of a speed starts at that of the undef
 """
 
 from collections.abc import Iterator
-from typing import NamedTuple, Protocol
+from typing import NamedTuple, Protocol, runtime_checkable
 
 import numpy as np
 from numpy.typing import NDArray
@@ -37,6 +37,7 @@ class Course(NamedTuple):
     shown: tuple[float, float]
 
 
+@runtime_checkable
 class Moving(Protocol):
     """The interface used by `panels` and `movies`."""
 
@@ -87,8 +88,8 @@ class Moving(Protocol):
     def friction(self, points: Array, phase: float) -> Array:
         """Friction force per undeformed area, divided by mu times the weight, (2, n)."""
 
-    def ground(self, y: Array) -> Array:
-        """Height of the ground at x = 0, (n,)."""
+    def ground(self, x: Array, y: Array) -> Array:
+        """Height of the ground at places (n,)."""
 
     def frames(self, points: Array, periods: int, samples: int) -> "Frames":
         """Frames at equal intervals."""
@@ -102,11 +103,6 @@ class Frames(Protocol):
     def __getitem__(self, index: int) -> Frame: ...
 
     def __iter__(self) -> Iterator[Frame]: ...
-
-
-def direction(wave: object) -> int:
-    """Direction of a wave along y, 0 for a general wave given by a function."""
-    return int(np.sign(getattr(wave, "count", 0)))
 
 
 def turned(place: Array, heading: float) -> Array:

@@ -174,7 +174,7 @@ def add_side(
 def draw_ground(ax: Axes, moving: Moving, low: float, high: float, factor: float) -> None:
     """The ground from the side, under the middle of the sheet, between two positions y."""
     y = np.linspace(low, high, 400)
-    ax.plot(y * factor, moving.ground(y) * factor, color="0.4", linewidth=0.8, zorder=1)
+    ax.plot(y * factor, moving.ground(0 * y, y) * factor, color="0.4", linewidth=0.8, zorder=1)
 
 
 def outline(place: Array, triangles: Integers, **look: Any) -> LineCollection:
@@ -195,14 +195,25 @@ def growth_scale(moving: Moving, points: Array) -> float:
     return 100 * max(float(abs(frame.growth).max()) for frame in frames)
 
 
+def arrow_places(points: Array, triangles: Integers) -> Array:
+    """Points of the undeformed sheet at which friction is drawn, (2, arrows)."""
+    return inside(points, triangles, *_arrow_cells(points))
+
+
+def _arrow_cells(points: Array) -> tuple[int, int]:
+    """Arrows across and along."""
+    width, length = np.ptp(points, axis=1)
+    along = max(2, round(float(np.sqrt(ARROWS * length / width))))
+    return max(2, round(ARROWS / along)), along
+
+
 def _draw_friction(
     ax: Axes, moving: Moving, phase: float, points: Array, triangles: Integers, factor: float
 ) -> bool:
     """Draw friction arrows; returns False if there is no friction."""
     width, length = np.ptp(points, axis=1)
-    along = max(2, round(float(np.sqrt(ARROWS * length / width))))
-    across = max(2, round(ARROWS / along))
-    tails = inside(points, triangles, across, along)
+    across, along = _arrow_cells(points)
+    tails = arrow_places(points, triangles)
     force = moving.friction(tails, phase)
     largest = float(np.hypot(*force).max(initial=0.0))
     if not largest:

@@ -68,6 +68,8 @@ def moving_of(result: Any) -> Moving:
         result = result.speed
     if isinstance(result, CrawlSpeed):
         return Crawling(result)
+    if isinstance(result, Moving):  # a recorded motion
+        return result
     hint = "use crawl_speed, field_speed, cycle_speed, predict or simulate"
     return Simulated(validation.instance("result", result, Trajectory, hint))
 

@@ -6,8 +6,9 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from fem_check.answer.wave_words import direction
 from fem_check.mesh import location as triangles
-from fem_check.output.moving import Course, Frame, direction, turned
+from fem_check.output.moving import Course, Frame, turned
 from fem_check.shell.effects.gravity import Gravity
 from fem_check.shell.effects.ground import Ground
 from fem_check.shell.kinematics.point_state import PointState
@@ -80,12 +81,12 @@ class Simulated:
         law = self._scene.contact.friction
         return np.asarray(-self._load(region, t) * law.force(moved / (after - before)))
 
-    def ground(self, y: Array) -> Array:
+    def ground(self, x: Array, y: Array) -> Array:
         """See Moving."""
         found: Ground | None = self._model.find(Ground)
         if found is None or found.height is None:
             return np.zeros_like(y)
-        return np.asarray(found.height.values(0 * y, y))
+        return np.asarray(found.height.values(x, y))
 
     def frames(self, points: Array, periods: int, samples: int) -> "SimulatedFrames":
         """See Moving."""

@@ -193,7 +193,7 @@ class Stage:
         half[0] = half[1] * aspect
         ax.set(xlim=(middle[1] - half[1], middle[1] + half[1]))
         ax.set(ylim=(middle[0] + half[0], middle[0] - half[0]), facecolor=GROUND)
-        step = _nice(2 * half[1] / 12)
+        step = nice(2 * half[1] / 12)
         for at, draw in ((1, ax.axvline), (0, ax.axhline)):
             for k in range(*_multiples(middle[at], half[at], step)):
                 draw(k * step, color=RULES, linewidth=0.8, zorder=0)
@@ -236,7 +236,7 @@ def _multiples(middle: float, half: float, step: float) -> tuple[int, int]:
     return int(np.ceil((middle - half) / step)), int(np.floor((middle + half) / step)) + 1
 
 
-def _nice(step: float) -> float:
+def nice(step: float) -> float:
     """The next larger of 1, 2, 5 times a power of ten."""
     power = 10.0 ** np.floor(np.log10(step))
     return float(power * next(n for n in (1, 2, 5, 10) if n * power >= step * (1 - 1e-9)))
