@@ -266,10 +266,8 @@ def test_old_and_new_spelling_are_one(capsys):
     words = ("--alpha", "0.1", "--rtol", "0.3", "--json")
     old, new = (json.loads(run(capsys, *start, *words)[1]) for start in ((), ("speed",)))
     assert {**old, "seconds": 0} == {**new, "seconds": 0}
-    keys = (
-        "mean error numerical_error model_error slip_ratio seconds converged regime level reason model"
-    )
-    assert {*keys.split(), "left_out", "reach"} <= set(old)
+    keys = "mean error numerical_error wave_error model_error slip_ratio seconds converged regime level"
+    assert {*keys.split(), "reason", "model", "left_out", "reach"} <= set(old)
     assert old["unit"] == "length/time"
 
 

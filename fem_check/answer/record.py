@@ -15,7 +15,8 @@ def record(found: "Prediction", units: Units | None) -> dict[str, Any]:
     numbers = {
         "mean": found.mean,
         "error": found.error,
-        "numerical_error": speed.error,
+        "numerical_error": speed.error - speed.wave_error,
+        "wave_error": speed.wave_error,
         "model_error": speed.model_error,
         "slip_ratio": speed.slip_ratio,
         "seconds": found.seconds,

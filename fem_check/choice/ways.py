@@ -15,6 +15,7 @@ from fem_check.shell.abilities import CYCLE, STEPPED, left_out
 from fem_check.shell.cycle.speed import cycle_speed
 from fem_check.shell.effects.friction import Friction
 from fem_check.shell.model import ShellModel
+from fem_check.shell.statics.meter import Meter, metered
 from fem_check.shell.stepping.run import Progress as Steps
 from fem_check.shell.stepping.simulation import simulate
 from fem_check.shell.stepping.trajectory import Trajectory
@@ -76,10 +77,11 @@ def answer(
 
 
 class Solved(NamedTuple):
-    """An answer, and the motion in time that gave it where the scene was stepped, else None."""
+    """An answer, the motion in time that gave it (None where it was not stepped), and its cost."""
 
     answer: Prediction
     motion: Trajectory | None
+    cost: Meter
 
 
 def solved(
@@ -94,20 +96,35 @@ def solved(
     """As `answer`, with the motion. stepping: further arguments of `simulate`, such as its snapshot."""
     way = way_of(scene, way)
     tolerance = Tolerance(1e-2 if rtol is None else rtol).of_speed(scene.alpha, scene.unit)
-    if way == "predict":
-        return Solved(predict(scene, rtol=tolerance.rtol, progress=progress), None)
+    with metered() as cost:
+        if way == "predict":
+            return Solved(predict(scene, rtol=tolerance.rtol, progress=progress), None, cost)
+        found, motion = _by_elements(scene, way, tolerance, periods, steps, progress, stepping)
+    return Solved(found, motion, cost)
+
+
+def _by_elements(
+    scene: Scene,
+    way: str,
+    tolerance: Tolerance,
+    periods: int,
+    steps: int | None,
+    progress: Report | None,
+    stepping: dict[str, Any],
+) -> tuple[Prediction, Trajectory | None]:
     motion = None
     if way == "cycle":
         speed = cycle_speed(scene, rtol=tolerance.rtol, progress=progress)
     else:
         heard = False if progress is None else _steps_to(progress)
+        rtol = None if steps else tolerance.rtol
         motion = simulate(scene, periods, rtol=rtol, steps=steps, progress=heard, **stepping)
         speed = replace(motion.speed, model_error=math.nan)  # there: how far from dry friction
     named = {type(effect) for effect in scene.effects} - ({Friction} if way == "cycle" else set())
     reason = f"{way}, the cheapest that represents the scene"
     missing = left_out(named)
     found = Prediction(speed, way, reason, speed.converged, speed.seconds, missing, scene, tolerance)
-    return Solved(found, motion)
+    return found, motion
 
 
 def _steps_to(report: Report) -> Callable[[Steps], None]:

@@ -37,7 +37,9 @@ def errors_of(found: Solved) -> list[dict[str, Any]]:
     """The error budget: parts of the error of the mean speed, absolute; None where not estimated."""
     speed = found.answer.speed
     if found.motion is None:
-        rows = [("numerical: mesh, times, friction balance", speed.error)]
+        rows = [("numerical: mesh, times, friction balance", speed.error - speed.wave_error)]
+        if speed.wave_error:
+            rows.append(("noise of the measured wave", speed.wave_error))
         rows.append(("model: distance to the nonlinear flat sheet", speed.model_error))
     else:
         of = found.motion.errors
@@ -54,6 +56,11 @@ def cost_of(found: Solved) -> list[dict[str, Any]]:
     ]
     work = "" if motion is None else f"{motion.times.size - 1} steps, {motion.iterations} iterations"
     rows.append((answer.level, answer.speed.seconds, work))
+    spent = found.cost.seconds
+    rows += [
+        (f"of these for {name}", seconds, f"{found.cost.calls[name]} evaluations")
+        for name, seconds in sorted(spent.items(), key=lambda one: -one[1])
+    ]
     return [{"part": part, "seconds": seconds, "work": work} for part, seconds, work in rows]
 
 

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linear_theory.common import validation
+from linear_theory.common.errors import SheetcrawlError
 from linear_theory.common.pairs import PAIRS, product
 from linear_theory.friction.law import FrictionLaw
 
@@ -43,7 +44,7 @@ SMALLEST, LARGEST = 1e-100, 1e100
 """Widths beyond which a law is tried at speeds of these sizes."""
 
 
-class Fault(Exception):
+class Fault(SheetcrawlError, ValueError):
     """What is wrong with a law, in words."""
 
 

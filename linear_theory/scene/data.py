@@ -14,6 +14,7 @@ from importlib import import_module
 from typing import Any
 
 from linear_theory.common import validation
+from linear_theory.common.errors import SheetcrawlError
 from linear_theory.friction.contact import Contact
 from linear_theory.friction.laws import FRICTION_LAWS
 from linear_theory.growth.growth import Growth
@@ -48,7 +49,7 @@ FAULTS = (TypeError, KeyError, IndexError, OverflowError, AttributeError, ZeroDi
 """Raised by classes that are given something of a kind that they do not expect."""
 
 
-class NotRestorable(ValueError):
+class NotRestorable(SheetcrawlError, ValueError):
     """A part that plain data cannot hold, such as a function, and that must be passed again."""
 
 

@@ -13,6 +13,7 @@ from fem_check.shell.kinematics.point_state import PointState
 from fem_check.shell.kinematics.rates import Step
 from fem_check.shell.kinematics.region import Entries, Region
 from fem_check.shell.kinematics.rest_state import RestState
+from fem_check.shell.statics.meter import asked
 from linear_theory.common.pairs import PAIRS
 from linear_theory.common.shown import Shown
 
@@ -144,7 +145,7 @@ class Term:
         total = 0.0
         for part in self.parts:
             state = self.state(u, part)
-            total += sum(float(e.energy(state).sum()) for g in self.groups for e in g.effects)
+            total += sum(float(asked(e, "energy", state).sum()) for g in self.groups for e in g.effects)
         return total
 
     def add_gradient(self, u: Array, out: Array) -> float:
@@ -157,8 +158,8 @@ class Term:
             for group in self.groups:
                 density = np.zeros((len(group.entries), count, state.measure.size))
                 for effect in group.effects:
-                    density[_rows(group, effect)] += effect.gradient(state)
-                    total += float(effect.energy(state).sum())
+                    density[_rows(group, effect)] += asked(effect, "gradient", state)
+                    total += float(asked(effect, "energy", state).sum())
                 forces += self._integrated(group, density, part)
             dofs = self.region.dofs[part.elements].ravel()
             for c in range(count):
@@ -227,7 +228,7 @@ def _rows(group: Group, effect: Effect) -> slice:
 def _summed_hessian(group: Group, state: PointState) -> Array | None:
     total: Array | None = None
     for effect in group.effects:
-        density = effect.hessian(state)
+        density = asked(effect, "hessian", state)
         if density is None:
             continue
         if total is None and len(effect.entries) == len(group.entries):
