@@ -1,0 +1,99 @@
+"""The numbers of the page as HTML; `data-` attributes hold them to the last digit."""
+
+import html
+import math
+from collections.abc import Mapping
+
+from fem_check.answer.block import LEVEL_WORDS
+from fem_check.answer.rounding import measured, rounded_up
+from fem_check.explorer.nonlinear import Predicted
+from fem_check.explorer.small_strain import FIRST, STRIP, Answer
+from linear_theory.common.progress import Progress
+
+UNIT = "lengths per period"
+
+PREDICTED = "nonlinear"
+"""Row of the answer of `predict`."""
+
+ROWS = {STRIP: "Narrow strip", FIRST: "Sheet, small strain", PREDICTED: "Sheet, nonlinear"}
+"""Rows of the table by level."""
+
+CALLS = {STRIP: "predict, method='strip'", FIRST: "crawl_speed", PREDICTED: "predict"}
+"""What a row is in Python."""
+
+Found = Answer | Predicted | Progress | None
+"""Content of a row: None and Progress while it is being computed."""
+
+
+def table(found: Mapping[str, Found]) -> str:
+    """Speed, error and cost by level; found: content of the rows by level.
+
+    >>> from fem_check.explorer.text import table
+    >>> from fem_check.explorer.small_strain import Answer
+    >>> shown = table({"first order": Answer("first order", 0.1, 0.0226, 0.0003, 0.002, 0.03)})
+    >>> "0.0226 ± 0.0003" in shown, "30 ms" in shown
+    (True, True)
+    """
+    rows = "".join(_row(level, found.get(level)) for level in ROWS)
+    head = f"<th></th><th>V, {UNIT}</th><th>nonlinear sheet within</th><th>took</th>"
+    return f"<table class='speeds'><tr>{head}</tr>{rows}</table>"
+
+
+def messages(found: Mapping[str, Found]) -> str:
+    """What is wrong or to be minded, one sentence per level; empty if nothing is."""
+    lines = [
+        f"<p><b>{ROWS[level]}</b>: {html.escape(one.problem)}.</p>"
+        for level in ROWS
+        if (one := found.get(level)) and isinstance(one, Answer | Predicted) and one.problem
+    ]
+    return f"<div class='messages' role='status'>{''.join(lines)}</div>" if lines else ""
+
+
+def refused(problem: Exception) -> str:
+    """A question that no level can answer, as one sentence."""
+    said = html.escape(" ".join(str(problem).split()))
+    return f"<div class='messages' role='alert'><p>{said}.</p></div>"
+
+
+def _row(level: str, one: Found) -> str:
+    name = f"<th scope='row'>{ROWS[level]}<br><small>{html.escape(CALLS[level])}</small></th>"
+    if one is None or isinstance(one, Progress):
+        return f"<tr data-level='{level}'>{name}<td colspan='3'>{_waiting(one)}</td></tr>"
+    exact = f"data-level='{level}' data-mean='{one.mean!r}' data-error='{one.error!r}'"
+    if math.isnan(one.mean):
+        return f"<tr {exact}>{name}<td>no answer</td><td></td><td>{duration(one.seconds)}</td></tr>"
+    speed = measured(one.mean, one.error).with_unit("")
+    took = f"{duration(one.seconds)}{_by(one)}"
+    return f"<tr {exact}>{name}<td><b>{speed}</b></td><td>{_distance(one)}</td><td>{took}</td></tr>"
+
+
+def _waiting(progress: Progress | None) -> str:
+    if progress is None:
+        return "<span class='waiting'>computing</span>"
+    done = f"{html.escape(progress.task)}, {progress.share:.0%}; {progress.seconds:.0f} s so far"
+    return f"<span class='waiting'>{done}</span>"
+
+
+def _by(one: Answer | Predicted) -> str:
+    """The level that `predict` chose, in words."""
+    if not isinstance(one, Predicted):
+        return ""
+    missed = "" if one.converged else "; the tolerance is not met"
+    return f", by {LEVEL_WORDS[one.level]}{missed}"
+
+
+def _distance(one: Answer | Predicted) -> str:
+    """What is known of the distance to the nonlinear sheet."""
+    if isinstance(one, Predicted):
+        return "included in the error" if math.isfinite(one.error) else "unknown"
+    return "unknown" if math.isnan(one.model_error) else rounded_up(one.model_error)
+
+
+def duration(seconds: float) -> str:
+    """A time as people say it.
+
+    >>> from fem_check.explorer.text import duration
+    >>> duration(0.0304), duration(2.34)
+    ('30 ms', '2.3 s')
+    """
+    return f"{seconds:.1f} s" if seconds >= 1 else f"{1e3 * seconds:.0f} ms"
