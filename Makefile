@@ -2,6 +2,7 @@
 #
 #   make figures   all figures and the film of the README (options: OUT=folder RTOL=1e-6): a minute
 #   make test      lint, types, tests: six minutes
+#   make test-browser  the pages in a real browser (Debian: chromium, chromium-driver): a minute
 #   make paper     the write-up as a PDF, paper/out/sheetcrawl.pdf, with its figures
 #   make docs      the API reference from the docstrings, build/docs
 #   make cost      error against time of every level, the price of each effect: four minutes
@@ -35,7 +36,7 @@ export MKL_NUM_THREADS := 1
 FIGURE_OUT = $(if $(OUT),--out "$(OUT)")
 FIGURE_RTOL = $(if $(RTOL),--rtol $(RTOL))
 
-.PHONY: figures test paper docs cost bench-shell bench-threads tables lock clean distclean
+.PHONY: figures test test-browser paper docs cost bench-shell bench-threads tables lock clean distclean
 .DEFAULT_GOAL := figures
 .DELETE_ON_ERROR:
 
@@ -53,6 +54,10 @@ test: $(STAMP)
 	$(RUN) -m ruff format --check .
 	$(RUN) -m mypy
 	$(RUN) -m pytest -n $(WORKERS)
+
+# One after the other: times from a move of a slider to the picture are measured.
+test-browser: $(STAMP)
+	$(RUN) -m pytest tests/browser
 
 cost: $(STAMP)
 	$(RUN) -m figures.measure.cost

@@ -140,7 +140,7 @@ def test_wave_of_harmonics_and_all_options(capsys):
         ([*SPEED, "--movie", "crawl.avi"], "must end in .gif or .mp4"),
         ([*SPEED, "--json", "--csv"], "--json: must not be combined with --csv"),
         ([*SPEED, "12"], "'12': must follow an option"),
-        (["crawl"], "'crawl' is not a command: must be speed or examples"),
+        (["crawl"], "'crawl' is not a command: must be speed, explore or examples"),
     ],
 )
 def test_bad_arguments_get_one_line_and_status_2(capsys, arguments, named):

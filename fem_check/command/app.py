@@ -6,7 +6,7 @@ from typing import Annotated
 from cyclopts import App, Parameter
 
 from fem_check.command.options import Options
-from fem_check.command.screens import EXAMPLES_HELP, SPEED_HELP, examples, welcome
+from fem_check.command.screens import EXAMPLES_HELP, EXPLORE_HELP, SPEED_HELP, examples, welcome
 
 app = App(
     name="sheetcrawl",
@@ -31,6 +31,19 @@ def _speed(options: Annotated[Options | None, Parameter(name="*")] = None) -> in
     from fem_check.command.speed import speed
 
     return speed(options or Options())
+
+
+@app.command(name="explore", help=EXPLORE_HELP)
+def _explore(
+    *,
+    port: Annotated[
+        int | None, Parameter(help="Port of the address on this computer; a free one by default.")
+    ] = None,
+    no_browser: Annotated[bool, Parameter(help="Print the address only.")] = False,
+) -> int:
+    from fem_check.command.explore import explore
+
+    return explore(port, not no_browser)
 
 
 @app.command(name="examples", help=EXAMPLES_HELP)

@@ -47,6 +47,16 @@ Quantities may have units, as in "40 mm", "8 s", "12 %"; plain numbers are in un
   {FIRST[0]}
 """
 
+EXPLORE = "sheetcrawl explore --port 8800 --no-browser"
+
+EXPLORE_HELP = f"""A page with sliders in the browser: shape, friction, V(alpha) and cost, with errors.
+
+What small strain answers is drawn at once, the nonlinear answer follows. The page is served to this
+computer alone and needs no network; Ctrl-C ends. Needs the extra: pip install 'sheetcrawl[explorer]'
+
+  {EXPLORE}
+"""
+
 EXAMPLES_HELP = "More examples, and the Python calls for tasks beyond this command."
 
 
@@ -63,6 +73,7 @@ Examples to paste
 Other commands
 
   sheetcrawl speed --help         all options: sheet, wave, growth, friction, tolerance, output
+  sheetcrawl explore              a page with sliders, in the browser
   sheetcrawl examples             more examples, pictures and films; what to do in Python
   sheetcrawl --install-completion shell completion of commands and options
   sheetcrawl --version

@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 
-COMMANDS = ("speed", "examples")
+COMMANDS = ("speed", "explore", "examples")
 
 OWN = ("--help", "--version", "--install-completion")
 """Options of the program itself; any other option without a command implies `speed`."""
@@ -21,7 +21,8 @@ def tidied(arguments: Sequence[str]) -> list[str]:
     if words and words[0].startswith("--") and words[0].split("=")[0] not in OWN:
         words.insert(0, "speed")
     if words and not words[0].startswith("-") and words[0] not in COMMANDS:
-        raise ValueError(f"{words[0]!r} is not a command: must be {' or '.join(COMMANDS)}")
+        listed = f"{', '.join(COMMANDS[:-1])} or {COMMANDS[-1]}"
+        raise ValueError(f"{words[0]!r} is not a command: must be {listed}")
     groups: list[list[str]] = [[]]
     for word in words:
         if word.startswith("--"):

@@ -7,7 +7,6 @@ from fem_check.explorer.question import Question
 from linear_theory.common.extras import optional
 from linear_theory.friction.laws import FRICTION_LAWS, Tanh
 from linear_theory.friction.load import WEIGHTS
-from linear_theory.wave.pulse import NARROWEST
 
 SINE, PULSE = "sine", "pulse"
 
@@ -25,8 +24,12 @@ class Controls:
         slider, select = widgets.FloatSlider, widgets.Select
         self.length = slider(name="length", value=FIRST.length, start=0.5, end=4.0, step=0.1)
         self.width = slider(name="width", value=FIRST.width, start=0.1, end=4.0, step=0.05)
-        self.poisson = slider(name="Poisson ratio nu", value=FIRST.poisson, start=0.0, end=0.5, step=0.05)
-        self.alpha = slider(name="growth coupling alpha", value=FIRST.alpha, start=-0.8, end=0.8, step=0.01)
+        self.poisson = slider(
+            name="Poisson ratio nu", value=FIRST.poisson, start=0.0, end=0.5, step=0.05
+        )
+        self.alpha = slider(
+            name="growth coupling alpha", value=FIRST.alpha, start=-0.8, end=0.8, step=0.01
+        )
         self.form = widgets.RadioButtonGroup(name="wave", options=[SINE, PULSE], value=SINE)
         self.count = widgets.IntSlider(name="waves on the sheet", value=FIRST.count, start=1, end=4)
         self.pulse = slider(
@@ -35,11 +38,15 @@ class Controls:
         self.load = select(name="load", options=[str(load) for load in WEIGHTS], value=FIRST.load)
         self.friction = select(name="friction", options=list(FRICTION_LAWS), value=FIRST.friction)
         self.slip_speed = slider(
-            name="slip speed, lengths per period", value=FIRST.slip_speed, start=0.001, end=0.1,
+            name="slip speed, length/period", value=FIRST.slip_speed, start=0.001, end=0.1,
             step=0.001, format="0.000", visible=False,
         )  # fmt: skip
-        self.tolerance = select(name="tolerance of the nonlinear answer", options=TOLERANCES, value=FIRST.rtol)
-        self.time = slider(name="time of the picture, periods", value=0.0, start=0.0, end=1.0, step=0.02)
+        self.tolerance = select(
+            name="tolerance of the nonlinear answer", options=TOLERANCES, value=FIRST.rtol
+        )
+        self.time = slider(
+            name="time of the picture, periods", value=0.0, start=0.0, end=1.0, step=0.02
+        )
         self._changed = changed
         for widget in self.widgets:
             widget.param.watch(self._moved, "value")
@@ -80,6 +87,3 @@ class Controls:
 def _rounded(value: float) -> float:
     """As the slider shows it, without the rounding errors of its steps."""
     return round(float(value), 4)
-
-
-assert NARROWEST  # the narrowest pulse is narrower than the slider's

@@ -24,16 +24,22 @@ PAUSE = 0.3
 
 
 class Predicted(NamedTuple):
-    """What `predict` answers: mean, error (numerical plus model) in length per period, NaN if there is
-    no answer; block: the answer in lines; problem: why there is none, or what to mind, in words."""
+    """What `predict` answers: mean, error (numerical) and model_error in length per period, NaN if
+    there is no answer; block: the answer in lines; problem: why there is none, or what to mind."""
 
-    mean: float
-    error: float
-    level: str
-    converged: bool
-    seconds: float
-    block: str
-    problem: str
+    mean: float = math.nan
+    error: float = math.nan
+    model_error: float = math.nan
+    level: str = ""
+    converged: bool = False
+    seconds: float = 0.0
+    block: str = ""
+    problem: str = ""
+
+    @property
+    def total(self) -> float:
+        """Numerical plus model error, `error` of the `Prediction`."""
+        return self.error + self.model_error
 
 
 def predicted(question: Question, report: Callable[[Progress], None] | None = None) -> Predicted:
@@ -42,7 +48,7 @@ def predicted(question: Question, report: Callable[[Progress], None] | None = No
     >>> from fem_check.explorer.nonlinear import predicted
     >>> from fem_check.explorer.question import Question
     >>> found = predicted(Question(alpha=0.25, rtol=0.2))
-    >>> print(f"V = {found.mean:.2f} +- {found.error:.2f} by {found.level}")
+    >>> print(f"V = {found.mean:.2f} +- {found.total:.2f} by {found.level}")
     V = 0.10 +- 0.01 by strip
     """
     start = time.perf_counter()
@@ -51,11 +57,11 @@ def predicted(question: Question, report: Callable[[Progress], None] | None = No
             found = predict(question.scene, rtol=question.rtol, progress=report)
     except (SheetcrawlError, ValueError) as problem:
         said = " ".join(str(problem).split())
-        return Predicted(math.nan, math.nan, "", False, time.perf_counter() - start, "", said)
-    said = "; ".join(str(warning.message) for warning in seen)
-    return Predicted(
-        found.mean, found.error, found.level, found.converged, found.seconds, str(found), said
-    )
+        return Predicted(seconds=time.perf_counter() - start, problem=said)
+    said, speed = "; ".join(str(warning.message) for warning in seen), found.speed
+    errors = speed.error, speed.model_error
+    level, converged, spent = found.level, found.converged, found.seconds
+    return Predicted(found.mean, *errors, level, converged, spent, str(found), said)
 
 
 class Nonlinear:
@@ -101,7 +107,7 @@ class Nonlinear:
                 self._told(question, part)
         if not self._closed:
             said = "the process that computes has died; move a slider to start it again"
-            self._told(self._newest, Predicted(math.nan, math.nan, "", False, 0.0, "", said))
+            self._told(self._newest, Predicted(problem=said))
 
 
 def work(pipe: "Connection[object, Question]") -> None:

@@ -72,7 +72,10 @@ class Question:
         if self.pulse is None:
             names, wave = "Sheet, SineWave, crawl_speed", f"SineWave(count={self.count})"
         else:
-            names, wave = "Sheet, crawl_speed, pulse_wave", f"pulse_wave({self.pulse}, count={self.count})"
+            names, wave = (
+                "Sheet, crawl_speed, pulse_wave",
+                f"pulse_wave({self.pulse}, count={self.count})",
+            )
         size = f"length={self.length}, width={self.width}, poisson={self.poisson}"
         contact = "".join(f", {name}={value!r}" for name, value in self._contact_given())
         asked = f"sheet, wave, alpha={self.alpha}{contact}"

@@ -1,6 +1,7 @@
 """Serves the page to this machine only."""
 
 import contextlib
+import logging
 import socket
 import webbrowser
 from typing import Any
@@ -40,6 +41,8 @@ def serve(port: int | None, browser: bool) -> None:
         websocket_origin=[f"{HOST}:{port}", f"localhost:{port}"], verbose=False,
         check_unused_sessions_milliseconds=2000, unused_session_lifetime_milliseconds=5000,
     )  # fmt: skip
+    # a window that is closed while an answer is on its way is no fault
+    logging.getLogger("bokeh.server.views.ws").setLevel(logging.ERROR)
     print(f"{address}  (Ctrl-C ends)", flush=True)
     if browser:
         with contextlib.suppress(webbrowser.Error):

