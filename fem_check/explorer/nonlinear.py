@@ -86,9 +86,11 @@ class Nonlinear:
     def ask(self, question: Question) -> None:
         """Answer this question from now on; a process that has died is started again."""
         self._newest = question
-        if not self._process.is_alive():
+        try:
+            self._pipe.send(question)
+        except OSError:
             self._start()
-        self._pipe.send(question)
+            self._pipe.send(question)
 
     def close(self) -> None:
         """End the process."""

@@ -1,5 +1,6 @@
 """Serves the page to this machine only."""
 
+import asyncio
 import contextlib
 import logging
 import socket
@@ -41,13 +42,24 @@ def serve(port: int | None, browser: bool) -> None:
         websocket_origin=[f"{HOST}:{port}", f"localhost:{port}"], verbose=False,
         check_unused_sessions_milliseconds=2000, unused_session_lifetime_milliseconds=5000,
     )  # fmt: skip
-    # a window that is closed while an answer is on its way is no fault
-    logging.getLogger("bokeh.server.views.ws").setLevel(logging.ERROR)
+    _ignore_closed_windows(server.io_loop.asyncio_loop)
     print(f"{address}  (Ctrl-C ends)", flush=True)
     if browser:
         with contextlib.suppress(webbrowser.Error):
             webbrowser.open(address)
     server.io_loop.start()
+
+
+def _ignore_closed_windows(loop: asyncio.AbstractEventLoop) -> None:
+    """A window that is closed while an answer is on its way is no fault: print nothing."""
+    closed = optional("tornado.websocket", "explorer", "sheetcrawl explore").WebSocketClosedError
+
+    def handle(loop: asyncio.AbstractEventLoop, context: dict[str, Any]) -> None:
+        if not isinstance(context.get("exception"), closed):
+            loop.default_exception_handler(context)
+
+    loop.set_exception_handler(handle)
+    logging.getLogger("bokeh.server.views.ws").setLevel(logging.ERROR)
 
 
 def _page() -> Any:

@@ -128,10 +128,10 @@ def picture(question: Question, phase: float) -> Picture:
     half = np.array([sheet.width, sheet.length]) / 2
     cells = (ACROSS, max(ALONG, PER_WAVE * abs(question.count)))
     nodes = np.stack(_grid(half, [n + 1 for n in cells]))
-    moved = nodes + scene.alpha * solved.displacement(*nodes, t)
+    moved = nodes + scene.alpha * solved.displacement(nodes[0], nodes[1], t)
     pieces = moved[:, :-1, :-1], moved[:, 1:, :-1], moved[:, 1:, 1:], moved[:, :-1, 1:]
     middle = (nodes[:, :-1, :-1] + nodes[:, 1:, 1:]) / 2
-    growth = np.broadcast_to(scene.drive.value(*middle, t), middle[0].shape)
+    growth = np.broadcast_to(scene.drive.value(middle[0], middle[1], t), middle.shape[1:])
     place, force = _friction(solved, question, half, t)
     corners = np.stack([piece.reshape(2, -1) for piece in pieces])
     return Picture(corners, growth.ravel(), place, force, half, time.perf_counter() - start)

@@ -27,6 +27,9 @@ FLAGS = (
 )
 """Without a screen, as root in a container, and without the browser's own requests."""
 
+PATIENCE = 180
+"""Seconds for a command: on a busy machine a browser may need a minute to start."""
+
 FOUND = {name: shutil.which(name) for name in ("chromium", "chromedriver")}
 """Paths of the programs; None where one is missing (Debian: chromium, chromium-driver)."""
 
@@ -50,7 +53,7 @@ class Browser:
         url = f"{self._driver}/session{self._session}{path}"
         request = urllib.request.Request(url, data, {"Content-Type": "application/json"})
         try:
-            with urllib.request.urlopen(request, timeout=60) as answer:
+            with urllib.request.urlopen(request, timeout=PATIENCE) as answer:
                 return json.load(answer)["value"]
         except urllib.error.HTTPError as refused:
             raise RuntimeError(json.load(refused)["value"]["message"]) from None
