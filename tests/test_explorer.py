@@ -130,6 +130,9 @@ def test_the_table_shows_value_error_and_cost():
     assert "0.0226 ± 0.0006" in text.headline({"first order": answer})
     best = Predicted(0.0185, 1e-4, 0.0, "cycle", True, 0.3)
     assert "0.0185" in text.headline({"first order": answer, "nonlinear": best})
+    assert "the tolerance is not met" in text.headline({"nonlinear": best._replace(converged=False)})
+    none = Predicted(problem="the sheet wrinkles")
+    assert "No answer" in text.headline({"first order": answer, "nonlinear": none})
 
 
 def test_lines_go_through_their_points():

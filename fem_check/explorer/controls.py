@@ -49,6 +49,7 @@ class Controls:
         )
         self._changed = changed
         for widget in self.widgets:
+            widget.sizing_mode = "stretch_width"
             widget.param.watch(self._moved, "value")
 
     @property

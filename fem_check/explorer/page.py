@@ -28,6 +28,7 @@ h2 { margin: 4px 0 0 0; }
 .messages { background: #fff4e5; border-left: 4px solid #D55E00; padding: 2px 12px; font-size: 14px; }
 .messages p { margin: 6px 0; overflow-wrap: anywhere; }
 pre { background: #f5f5f5; padding: 8px; margin: 4px 0; font-size: 12px; overflow-x: auto; }
+pre.code { white-space: pre-wrap; user-select: all; }
 """
 
 
@@ -70,7 +71,7 @@ class Page:
     def layout(self) -> Any:
         """All of it, for the framework; columns below each other where the window is narrow."""
         column, figures = self._panel.Column, self._figures
-        left = column(*self._controls.widgets, styles={"flex": "1 1 280px"}, max_width=420)
+        left = column(*self._controls.widgets, styles={"flex": "1 1 280px"})
         answer = column(
             self._heading(SHEET_HEADING), figures.sheet, self._heading(CURVE_HEADING), figures.curve,
             self._table, self._messages, self._block,
@@ -113,6 +114,7 @@ class Page:
                 self._draw(drawing.curve_data(self._curve))
             self._nonlinear.ask(question)
             self._python.object, self._command.object = map(_code, (question.python, question.command))
+            self._block.object = ""
         self._latest.ask(self._asked)
 
     def _small_strain(self, asked: tuple[Question, float], part: Any) -> None:
@@ -120,7 +122,7 @@ class Page:
             return
         if isinstance(part, Exception):
             self._found, self._block.object = {}, ""
-            self._headline.object = self._table.object = text.table({})
+            self._headline.object, self._table.object = text.headline({}), text.table({})
             self._messages.object = text.refused(part)
         elif isinstance(part, Picture):
             self._draw({**drawing.sheet_data(part), "now": {"alpha": [asked[0].alpha]}})
@@ -134,7 +136,7 @@ class Page:
             return
         self._show(text.PREDICTED, part)
         if isinstance(part, Predicted):
-            self._block.object = _code(part.block) if part.block else ""
+            self._block.object = f"<pre>{html.escape(part.block)}</pre>" if part.block else ""
             self._curve = self._curve.with_point(question.alpha, part.mean, part.total)
             self._draw(drawing.curve_data(self._curve))
 
@@ -149,5 +151,5 @@ class Page:
 
 
 def _code(lines: str) -> str:
-    """Lines to copy."""
-    return f"<pre>{html.escape(lines)}</pre>"
+    """Lines to copy: one click selects all of them."""
+    return f"<pre class='code' title='a click selects all'>{html.escape(lines)}</pre>"

@@ -42,15 +42,26 @@ def table(found: Mapping[str, Found]) -> str:
 
 
 def headline(found: Mapping[str, Found]) -> str:
-    """The best speed known so far, in one line."""
+    """The best speed known so far, in one line, and what is to be thought of it."""
+    last = found.get(PREDICTED)
+    if isinstance(last, Predicted) and math.isnan(last.mean):
+        return "<h2>No answer</h2><small>the sheet has none here, see the sentences below</small>"
     for level in reversed(ROWS):
         one = found.get(level)
         if isinstance(one, Answer | Predicted) and math.isfinite(one.mean):
-            more = "" if level == PREDICTED else "; the nonlinear answer follows"
-            if isinstance(found.get(PREDICTED), Predicted) and more:
-                more = "; there is no nonlinear answer"
-            return f"<h2>V = {_speed(one)} {UNIT}</h2><small>{ROWS[level].lower()}{more}</small>"
-    return "<h2>V: no answer yet</h2>"
+            words = "; ".join([ROWS[level].lower(), *_doubts(one)])
+            return f"<h2>V = {_speed(one)} {UNIT}</h2><small>{words}</small>"
+    return "<h2>V: computing</h2><small>&nbsp;</small>"
+
+
+def _doubts(one: Answer | Predicted) -> list[str]:
+    """What a speed in the headline lacks."""
+    found = ["distance to the nonlinear sheet unknown"] if math.isnan(one.model_error) else []
+    if isinstance(one, Answer):
+        found.append("the nonlinear answer follows")
+    elif not one.converged:
+        found.append("the tolerance is not met")
+    return found
 
 
 def messages(found: Mapping[str, Found]) -> str:
