@@ -25,7 +25,7 @@ from linear_theory.common.progress import Progress, track
 
 QUESTIONS = {
     "sine": Question(alpha=0.2, rtol=0.2),
-    "pulse": Question(pulse=0.4, width=0.3, poisson=0.3, alpha=0.1, load="grown", friction="viscous"),
+    "pulse": Question(pulse=0.7, width=0.3, poisson=0.3, alpha=0.1, load="grown", friction="viscous"),
     "tanh": Question(length=2.0, count=2, alpha=-0.15, friction="tanh", slip_speed=0.02, rtol=0.1),
 }
 

@@ -1,7 +1,7 @@
 """One thread that works on the newest question and drops older ones."""
 
 import threading
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from typing import Generic, TypeVar
 
 from linear_theory.common.progress import Progress, watched
@@ -17,8 +17,8 @@ class SupersededError(BaseException):
 class Latest(Generic[Q, A]):
     """Answers the newest question in a thread of its own, part by part.
 
-    solve: returns or yields the parts of an answer; called in the thread, where only one instance of
-    this class computes at a time (warnings are caught per process). told: called in the thread with
+    solve: returns or yields the parts of an answer, none of them None; called in the thread. Of all
+    instances one computes at a time: warnings are caught per process. told: called in the thread with
     the question and each part, unless a newer question has come. An exception of `solve` is passed to
     `told` as a part.
 
@@ -63,19 +63,26 @@ class Latest(Generic[Q, A]):
                     return
                 question = self._question.pop()
             try:
-                with self._computing, watched(self._check, "explore"):
+                with watched(self._check, "explore"):
                     self._answer(question)
             except SupersededError:
                 continue
 
     def _answer(self, question: Q) -> None:
         try:
-            for part in self._solve(question):
+            parts = iter(self._solve(question))
+            while (part := self._next(parts)) is not None:
                 self._check()
                 self._told(question, part)
         except Exception as problem:
             self._check()
             self._told(question, problem)
+
+    def _next(self, parts: Iterator[A]) -> A | None:
+        """The next part, None after the last; the windows of one server take turns."""
+        with self._computing:
+            self._check()
+            return next(parts, None)
 
     def _check(self, _: Progress | None = None) -> None:
         """Raise SupersededError if there is a newer question; called from inside the solvers."""

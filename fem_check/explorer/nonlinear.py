@@ -5,6 +5,7 @@ A newer question ends the work on an older one at the solver's next step.
 
 import math
 import multiprocessing
+import os
 import signal
 import threading
 import time
@@ -18,6 +19,9 @@ from fem_check.explorer.latest import SupersededError
 from fem_check.explorer.question import Question
 from linear_theory.common.errors import SheetcrawlError
 from linear_theory.common.progress import Progress
+
+NICE = 10
+"""Of the second process: what is drawn at once goes first on a busy machine."""
 
 PAUSE = 0.3
 """Seconds between two notes on the progress."""
@@ -115,6 +119,8 @@ class Nonlinear:
 def work(pipe: "Connection[object, Question]") -> None:
     """What the second process does until the pipe is closed."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # the first process ends this one
+    if hasattr(os, "nice"):
+        os.nice(NICE)
     while True:
         try:
             question = pipe.recv()

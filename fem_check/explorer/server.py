@@ -1,9 +1,9 @@
 """Serves the page to this machine only."""
 
 import asyncio
-import contextlib
 import logging
 import socket
+import sys
 import webbrowser
 from typing import Any
 
@@ -44,9 +44,8 @@ def serve(port: int | None, browser: bool) -> None:
     )  # fmt: skip
     _ignore_closed_windows(server.io_loop.asyncio_loop)
     print(f"{address}  (Ctrl-C ends)", flush=True)
-    if browser:
-        with contextlib.suppress(webbrowser.Error):
-            webbrowser.open(address)
+    if browser and not webbrowser.open(address):
+        print("sheetcrawl: no browser was found; open the address above in one", file=sys.stderr)
     server.io_loop.start()
 
 

@@ -101,7 +101,7 @@ def answers(question: Question, phase: float) -> Iterator[Picture | Answer | Cur
     >>> from fem_check.explorer.small_strain import answers
     >>> picture, strip, *_ = answers(Question(), phase=0.0)
     >>> print(f"{strip.level}: V = {strip.mean:.4f} +- {strip.error + strip.model_error:.4f}")
-    strip: V = 0.0208 +- 0.0029
+    strip: V = 0.0208 +- 0.0031
     """
     yield picture(question, phase)
     yield strip(question)

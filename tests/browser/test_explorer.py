@@ -37,12 +37,12 @@ function row(level) { return deep(document, `tr[data-level="${level}"][data-mean
 
 TIMED = """
 const [name, key] = arguments, start = performance.now(); window.drawn = window.told = 0;
-const before = row('strip').dataset.mean;
+const before = row('first order').dataset.mean;
 const source = Bokeh.documents[0].get_model_by_name('cells');
 const seen = () => { source.change.disconnect(seen); requestAnimationFrame(() => setTimeout(() => {
   window.drawn = performance.now() - start })) };
 source.change.connect(seen);
-(function watch() { const now = row('strip');
+(function watch() { const now = row('first order');
   if (now && now.dataset.mean !== before) window.told = performance.now() - start;
   else requestAnimationFrame(watch) })();
 press(name, key)
