@@ -113,22 +113,22 @@ class Page:
                 self._curve = Curve(text.PREDICTED)
                 self._draw(drawing.curve_data(self._curve))
             self._nonlinear.ask(question)
-            self._python.object, self._command.object = map(_code, (question.python, question.command))
-            self._block.object = ""
         self._latest.ask(self._asked)
 
     def _small_strain(self, asked: tuple[Question, float], part: Any) -> None:
         if asked != self._asked:
             return
+        if isinstance(part, Picture):
+            self._draw({**drawing.sheet_data(part), "now": {"alpha": [asked[0].alpha]}})
+        if isinstance(part, Exception | Picture):
+            self._write_down(asked[0])
         if isinstance(part, Exception):
             self._found, self._block.object = {}, ""
             self._headline.object, self._table.object = text.headline({}), text.table({})
             self._messages.object = text.refused(part)
-        elif isinstance(part, Picture):
-            self._draw({**drawing.sheet_data(part), "now": {"alpha": [asked[0].alpha]}})
         elif isinstance(part, Answer):
             self._show(part.level, part)
-        else:
+        elif isinstance(part, Curve):
             self._draw(drawing.curve_data(part))
 
     def _predicted(self, question: Question, part: Predicted | Progress) -> None:
@@ -139,6 +139,16 @@ class Page:
             self._block.object = f"<pre>{html.escape(part.block)}</pre>" if part.block else ""
             self._curve = self._curve.with_point(question.alpha, part.mean, part.total)
             self._draw(drawing.curve_data(self._curve))
+
+    def _write_down(self, question: Question) -> None:
+        """The question in Python and as a command, and no answer to another one.
+
+        After the picture: the browser lays the page out anew for it, which takes it as long as the
+        drawing.
+        """
+        self._python.object, self._command.object = map(_code, (question.python, question.command))
+        if not isinstance(self._found.get(text.PREDICTED), Predicted):
+            self._block.object = ""
 
     def _show(self, level: str, found: text.Found) -> None:
         self._found[level] = found
