@@ -1,5 +1,6 @@
 """`sheetcrawl explore` in a real browser: sliders move, the numbers are those of Python."""
 
+import os
 import signal
 import subprocess
 import sys
@@ -166,6 +167,8 @@ def test_a_move_is_drawn_at_once(page, name):
         times.append((drawn, told))
     shown = "; ".join(f"picture {drawn:.0f} ms, numbers {told:.0f} ms" for drawn, told in times)
     print(f"{name}: {shown}")
+    if os.getloadavg()[0] > 2 * (os.cpu_count() or 1):
+        pytest.skip(f"the machine is busy with other work, which these times measure: {shown}")
     assert min(drawn for drawn, _ in times) < 1e3 * MARGIN
 
 
