@@ -25,7 +25,10 @@ LAYERS = (
     *(f"fem_check.{part}" for part in ("version", "scene", "mesh", "plane_stress")),
     *(f"fem_check.shell.{part}" for part in ("material", "kinematics", "effects", "statics")),
     *(f"fem_check.shell.{part}" for part in ("model", "depth", "abilities", "cycle", "stepping")),
-    *(f"fem_check.{part}" for part in ("answer", "choice", "output", "files", "runs", "command")),
+    *(
+        f"fem_check.{part}"
+        for part in ("answer", "choice", "output", "files", "runs", "explorer", "command")
+    ),
     "fem_check",
     "figures",
     "paper",

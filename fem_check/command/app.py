@@ -10,6 +10,7 @@ from fem_check.command.options import Options
 from fem_check.command.screens import (
     CHECK_HELP,
     EXAMPLES_HELP,
+    EXPLORE_HELP,
     MOVIE_HELP,
     NEW_HELP,
     PARAVIEW_HELP,
@@ -146,6 +147,19 @@ def _schema() -> int:
     from fem_check.command.scene_files import schema
 
     return schema()
+
+
+@app.command(name="explore", help=EXPLORE_HELP)
+def _explore(
+    *,
+    port: Annotated[
+        int | None, Parameter(help="Port of the address on this computer; a free one by default.")
+    ] = None,
+    no_browser: Annotated[bool, Parameter(help="Print the address only.")] = False,
+) -> int:
+    from fem_check.command.explore import explore
+
+    return explore(port, not no_browser)
 
 
 @app.command(name="examples", help=EXAMPLES_HELP)

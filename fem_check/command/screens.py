@@ -110,6 +110,16 @@ PARAVIEW_HELP = f"""Write the motion of a finished run for ParaView (.xdmf), wit
   {RUNS[4][1]}
 """
 
+EXPLORE = "sheetcrawl explore --port 8800 --no-browser"
+
+EXPLORE_HELP = f"""A page with sliders in the browser: shape, friction, V(alpha) and cost, with errors.
+
+What small strain answers is drawn at once, the nonlinear answer follows. The page is served to this
+computer alone and needs no network; Ctrl-C ends. Needs the extra: pip install 'sheetcrawl[explorer]'
+
+  {EXPLORE}
+"""
+
 EXAMPLES_HELP = "More examples, and the Python calls for tasks beyond this command."
 
 
@@ -134,6 +144,7 @@ Other commands
   sheetcrawl new --list           scene files with comments: bending, ground, outlines, weight, terrain
   sheetcrawl run scene.toml       all of a scene to a folder: pictures, film, report.html
   sheetcrawl check scene.toml     what a scene file says, by which level it is answered, at what cost
+  sheetcrawl explore              a page with sliders, in the browser
   sheetcrawl examples             more examples, pictures and films; what to do in Python
   sheetcrawl --install-completion shell completion of commands and options
   sheetcrawl --version

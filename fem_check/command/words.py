@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 COMMANDS = (
     *("speed", "run", "show", "movie", "plot", "paraview"),
-    *("new", "check", "schema", "examples"),
+    *("new", "check", "schema", "explore", "examples"),
 )
 
 OWN = ("--help", "--version", "--install-completion")
