@@ -97,6 +97,9 @@ class Browser:
 @contextlib.contextmanager
 def browser() -> Iterator[Browser]:
     """A browser with an empty profile, ended with its driver."""
+    missing = [name for name, path in FOUND.items() if path is None]
+    if missing:
+        raise FileNotFoundError(f"{', '.join(missing)}: apt-get install chromium chromium-driver")
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as profile:
         driver = subprocess.Popen(
             [str(FOUND["chromedriver"]), "--port=0"], stdout=subprocess.PIPE, text=True
