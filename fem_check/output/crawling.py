@@ -6,7 +6,8 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from fem_check.output.moving import Course, Frame, direction, turned
+from fem_check.answer.wave_words import direction
+from fem_check.output.moving import Course, Frame, turned
 from linear_theory.speed.drawn import Deformation
 from linear_theory.speed.path import Poses, rigid_path
 from linear_theory.speed.result import CrawlSpeed
@@ -24,6 +25,7 @@ class Crawling:
     """See `moving.Moving`. Without a deformation only V(t) and the path can be drawn."""
 
     most_periods: int | None = None
+    energies = None
 
     def __init__(self, speed: CrawlSpeed) -> None:
         self.speed = speed
@@ -95,9 +97,13 @@ class Crawling:
         slip = velocity + np.stack([v_x - omega * y, v_y + omega * x])
         return -load * self._deformation.law.force(slip)
 
-    def ground(self, y: Array) -> Array:
+    def ground(self, y: Array, x: Array | float = 0.0) -> Array:
         """Level ground, the only one in the theories and the cycle of shapes."""
-        return np.zeros_like(y)
+        return np.zeros(np.broadcast(y, x).shape)
+
+    def waves(self, points: Array, times: Array) -> Array:
+        """See Moving."""
+        return self._deformation.growth(points, times)
 
     def frames(self, points: Array, periods: int, samples: int) -> "CrawlingFrames":
         """The shapes of one period, moved along the path."""

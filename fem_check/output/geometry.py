@@ -26,3 +26,22 @@ def inside(points: Array, triangles: Integers, across: int, along: int) -> Array
     finder: Any = Triangulation(points[0], points[1], triangles).get_trifinder()
     found = finder(x, y) >= 0
     return np.stack([x[found], y[found]])
+
+
+def middle_line(points: Array, triangles: Integers, count: int) -> tuple[Array, Integers]:
+    """Points (2, count) of a line along the sheet, and the indices of those inside the sheet.
+
+    The line x = const nearest to the middle of the bounding box that lies at least half inside the
+    sheet; if there is none, the line with the largest part inside.
+    """
+    low, high = points.min(1), points.max(1)
+    y = low[1] + (high[1] - low[1]) * (np.arange(count) + 0.5) / count
+    finder: Any = Triangulation(points[0], points[1], triangles).get_trifinder()
+    shares = 0.5 + np.array([0, 1, -1, 2, -2, 3, -3, 4, -4]) / 10
+    lines = [np.stack([np.full(count, low[0] + s * (high[0] - low[0])), y]) for s in shares]
+    found = [np.flatnonzero(finder(*line) >= 0) for line in lines]
+    best = next(
+        (k for k, indices in enumerate(found) if 2 * indices.size >= count),
+        int(np.argmax([indices.size for indices in found])),
+    )
+    return lines[best], found[best]

@@ -10,6 +10,7 @@ from typing import NamedTuple, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from fem_check.output.works import Energies
 from linear_theory.speed.result import CrawlSpeed
 
 Array = NDArray[np.float64]
@@ -87,8 +88,15 @@ class Moving(Protocol):
     def friction(self, points: Array, phase: float) -> Array:
         """Friction force per undeformed area, divided by mu times the weight, (2, n)."""
 
-    def ground(self, y: Array) -> Array:
-        """Height of the ground at x = 0, (n,)."""
+    def ground(self, y: Array, x: Array | float = 0.0) -> Array:
+        """Height of the ground, (n,)."""
+
+    def waves(self, points: Array, times: Array) -> Array:
+        """The wave c at the points at given times, (times, n)."""
+
+    @property
+    def energies(self) -> Energies | None:
+        """Where the work of growth went, if the result tells."""
 
     def frames(self, points: Array, periods: int, samples: int) -> "Frames":
         """Frames at equal intervals."""
@@ -102,11 +110,6 @@ class Frames(Protocol):
     def __getitem__(self, index: int) -> Frame: ...
 
     def __iter__(self) -> Iterator[Frame]: ...
-
-
-def direction(wave: object) -> int:
-    """Direction of a wave along y, 0 for a general wave given by a function."""
-    return int(np.sign(getattr(wave, "count", 0)))
 
 
 def turned(place: Array, heading: float) -> Array:

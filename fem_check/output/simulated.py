@@ -1,13 +1,15 @@
 """Trajectories, prepared for pictures."""
 
 from collections.abc import Iterator
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 
+from fem_check.answer.wave_words import direction
 from fem_check.mesh import location as triangles
-from fem_check.output.moving import Course, Frame, direction, turned
+from fem_check.output.moving import Course, Frame, turned
+from fem_check.output.works import Energies
 from fem_check.shell.effects.gravity import Gravity
 from fem_check.shell.effects.ground import Ground
 from fem_check.shell.kinematics.point_state import PointState
@@ -23,6 +25,9 @@ Integers = NDArray[np.int64]
 AROUND = 1e-2
 """Half the interval, in periods, of the difference quotients for velocities."""
 
+REGIONS = 4
+"""Sets of points whose shape functions are kept: a film returns to the same ones in each frame."""
+
 
 class Simulated:
     """See `moving.Moving`; phases and frames are counted from the end of the ramp of growth."""
@@ -36,6 +41,7 @@ class Simulated:
         self.period, self.length = self._scene.period, self._scene.sheet.length
         self.components = self._scene.components
         self.most_periods: int | None = trajectory.periods
+        self._regions = lru_cache(REGIONS)(self._region_of)
 
     @cached_property
     def speed(self) -> CrawlSpeed:
@@ -80,12 +86,26 @@ class Simulated:
         law = self._scene.contact.friction
         return np.asarray(-self._load(region, t) * law.force(moved / (after - before)))
 
-    def ground(self, y: Array) -> Array:
+    def ground(self, y: Array, x: Array | float = 0.0) -> Array:
         """See Moving."""
         found: Ground | None = self._model.find(Ground)
+        x, y = np.broadcast_arrays(x, y)
         if found is None or found.height is None:
-            return np.zeros_like(y)
-        return np.asarray(found.height.values(0 * y, y))
+            return np.zeros(y.shape)
+        return np.asarray(found.height.values(x, y))
+
+    def waves(self, points: Array, times: Array) -> Array:
+        """See Moving."""
+        return np.stack([self._model.growth(float(t), *points) for t in times])
+
+    @property
+    def energies(self) -> Energies:
+        """Since the end of the ramp."""
+        run = self._trajectory
+        counted = run.times >= run.start - 1e-9 * self.period
+        works = {**run.power._asdict(), "residual": run.power.residual}
+        since = {name: values[counted] - values[counted][0] for name, values in works.items()}
+        return Energies(run.times[counted], since)
 
     def frames(self, points: Array, periods: int, samples: int) -> "SimulatedFrames":
         """See Moving."""
@@ -118,7 +138,10 @@ class Simulated:
         return float(min(max(t, first), last))
 
     def _region(self, points: Array) -> Region:
-        return self._model.discretisation.points(points)
+        return self._regions(points.tobytes())
+
+    def _region_of(self, points: bytes) -> Region:
+        return self._model.discretisation.points(np.frombuffer(points).reshape(2, -1))
 
     def _place(self, region: Region, t: float) -> Array:
         return np.asarray(region.position(self._trajectory.shape(t, None), (0,))[0])

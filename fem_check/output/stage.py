@@ -11,10 +11,9 @@ from matplotlib.ticker import MultipleLocator
 from numpy.typing import NDArray
 
 from fem_check.answer.units import Units
-from fem_check.output.look import styled
+from fem_check.output.look import GROWTH_MAP, styled
 from fem_check.output.moving import Frame, Moving
 from fem_check.output.panels import (
-    GROWTH_MAP,
     WAVE,
     add_sheet,
     add_side,
@@ -96,7 +95,9 @@ class Stage:
         """Parts redrawn on every picture, from back to front."""
         top, *side = axes
         factor = self._units.length_factor
-        yield from add_sheet(top, frame.place * factor, frame.growth, self._triangles, self._growth)
+        yield from add_sheet(
+            top, frame.place * factor, 100 * frame.growth, self._triangles, self._growth
+        )
         yield from top.plot(*(trail[::-1] * factor), color="black", linewidth=1.2)
         yield from top.plot(*(trail[::-1, -1:] * factor), "o", color="black", mec="white", markersize=6)
         height = 1 + 26 / self._height

@@ -28,12 +28,22 @@ class Drawable:
     ) -> Any:
         """Draw the motion with matplotlib.
 
-        what: "speed", V(t) over a period with its mean and error band; "sheet", the deformed sheet
-        coloured by its growth alpha c, with the friction forces as arrows; "path", the path of its
-        centre over several periods with its outline at both ends; None for a figure of all of them.
-        ax: matplotlib axes for "speed", "sheet" or "path"; new ones by default. phase: time at which
-        the sheet is drawn, in periods. periods: length of the path in periods, 10 by default. units:
-        an `fem_check.output.Units`; by default the length of the sheet and the period of the wave.
+        what: one panel,
+
+        - "speed": V(t) over a period with its mean and error band,
+        - "sheet": the deformed sheet coloured by its growth alpha c, with friction forces as arrows,
+        - "friction": the sheet coloured by the friction along y, per mu times the weight per area,
+        - "side": a sheet in space and its ground, seen from the edge,
+        - "kymograph", "displacement", "height": along the middle of the sheet, y across and time
+          upwards, the wave c, the displacement along y in the frame of the body (as in fig. 2 of the
+          paper) and the height over z = 0,
+        - "power": of a simulation, the work of growth and where it goes,
+        - "path": the path of the centre over several periods, with the outline at both ends;
+
+        None for a figure of all that the result has. ax: matplotlib axes for one panel; new ones by
+        default. phase: time at which the sheet is drawn, in periods. periods: shown, of a motion that
+        repeats by default 10 in a path and 2 in kymographs. units: an `fem_check.output.Units`; by
+        default the length of the sheet and the period of the wave.
 
         Returns the axes, or an array (panels,) of them if what is None; `axes.figure.savefig(path)`
         writes the picture. Raises ValueError for bad input and for a panel for which the result has no
