@@ -7,7 +7,7 @@ import pytest
 from PIL import Image
 
 from fem_check.output import Units, movies, writers
-from fem_check.output.look import GROWTH_MAP
+from fem_check.output.panels import GROWTH_MAP
 from fem_check.output.pictures import checked_units, moving_of
 from fem_check.output.stage import LEFT, RIGHT, TOP, Stage
 from figures.draw import readme_movie

@@ -10,9 +10,8 @@ from numpy.typing import NDArray
 
 from fem_check.answer.units import Units
 from fem_check.output.geometry import middle_line
-from fem_check.output.look import GROWTH_MAP
 from fem_check.output.moving import Moving, turned
-from fem_check.output.panels import add_scale
+from fem_check.output.panels import GROWTH_MAP, add_scale
 
 Array = NDArray[np.float64]
 

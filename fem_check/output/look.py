@@ -5,10 +5,7 @@ from contextlib import contextmanager
 from typing import Any
 
 import matplotlib as mpl
-import numpy as np
 from cycler import cycler
-from matplotlib import colormaps
-from matplotlib.colors import LinearSegmentedColormap
 
 COLUMN_CM = 8.5
 """Width of a figure in one column of the journal."""
@@ -30,12 +27,6 @@ COLORS = {
 }
 """Okabe and Ito's colours, distinguishable with any colour vision; in the cycle, those with little
 contrast to white paper come last."""
-
-GROWTH_MAP = LinearSegmentedColormap.from_list(
-    "growth", colormaps["PuOr"](np.linspace(0.16, 0.84, 256)), N=256
-)
-"""Colours of growth: signs are distinguishable with any colour vision, and black lines are visible at
-both ends."""
 
 # Any for the keys too: some releases of matplotlib type them as text, newer ones as a list of names.
 STYLE: dict[Any, Any] = {

@@ -11,16 +11,23 @@ from matplotlib import colormaps
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
+from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.tri import Triangulation
 from numpy.typing import NDArray
 
 from fem_check.answer.units import Units
 from fem_check.output.geometry import edges, inside
-from fem_check.output.look import COLORS, GROWTH_MAP
+from fem_check.output.look import COLORS
 from fem_check.output.moving import Frame, Moving
 
 Array = NDArray[np.float64]
 Integers = NDArray[np.int64]
+
+GROWTH_MAP = LinearSegmentedColormap.from_list(
+    "growth", colormaps["PuOr"](np.linspace(0.16, 0.84, 256)), N=256
+)
+"""Colours of growth: signs are distinguishable with any colour vision, and black lines are visible at
+both ends."""
 
 ARROWS = 60
 """Approximate number of friction arrows on a rectangle."""

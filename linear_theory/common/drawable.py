@@ -60,6 +60,7 @@ class Drawable:
         fps: float = 15.0,
         width: int = 640,
         exaggerate: float = 1.0,
+        view: Any = None,
         units: Any = None,
         progress: Callable[[int, int], object] | bool = False,
     ) -> Path:
@@ -68,7 +69,10 @@ class Drawable:
         periods: duration in periods of the wave; by default 6, for a trajectory all of its periods.
         frames: per period. fps: frames per second. width: of the picture, 420 to 1920 pixels.
         exaggerate: factor on the displacement within the sheet (never on the distance crawled), which
-        the film then states. units: as in `plot`. progress: called with the number of frames done and
+        the film then states. view: "top", from above, or "space", from the side and above, with a section
+        to scale below (heights too small to be seen are stretched by a factor that is written down); by
+        default in space for a sheet that leaves the plane; an `fem_check.output.View` or its name. Arrows
+        are friction, colours growth alpha c. units: as in `plot`. progress: called with the number of frames done and
         the total; True prints a line once writing takes more than two seconds.
 
         The file appears when it is complete, and not at all if writing is interrupted. A .gif is
@@ -83,6 +87,7 @@ class Drawable:
             fps=fps,
             width=width,
             exaggerate=exaggerate,
+            view=view,
             units=units,
             progress=progress,
         )
