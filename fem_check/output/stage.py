@@ -145,6 +145,7 @@ class Stage:
         digits = max(0, 2 - int(np.floor(np.log10(size))))
         span = self._moving.period * units.time_factor
         decimals = max(0, 2 - int(np.floor(np.log10(span))))
+        way = round(way, digits) + 0.0  # no minus before 0.0
         words = f"t = {time:.{decimals}f} {units.time}    way {way:+.{digits}f} {units.length}"
         return words.replace("-", "\N{MINUS SIGN}")
 

@@ -69,11 +69,12 @@ class Drawable:
         periods: duration in periods of the wave; by default 6, for a trajectory all of its periods.
         frames: per period. fps: frames per second. width: of the picture, 420 to 1920 pixels.
         exaggerate: factor on the displacement within the sheet (never on the distance crawled), which
-        the film then states. view: "top", from above, or "space", from the side and above, with a section
-        to scale below (heights too small to be seen are stretched by a factor that is written down); by
-        default in space for a sheet that leaves the plane; an `fem_check.output.View` or its name. Arrows
-        are friction, colours growth alpha c. units: as in `plot`. progress: called with the number of frames done and
-        the total; True prints a line once writing takes more than two seconds.
+        the film then states. view: "top", from above, or "space", from the side and above with a
+        section to scale below it (heights too small to be seen are stretched by a factor that the film
+        states); by default in space for a sheet that leaves the plane; an `fem_check.output.View` or
+        its name. Colours are growth alpha c, arrows friction. units: as in `plot`. progress: called
+        with the number of frames done and the total; True prints a line once writing takes more than
+        two seconds.
 
         The file appears when it is complete, and not at all if writing is interrupted. A .gif is
         reproducible byte for byte. Raises, before any work, ValueError for bad input, OSError for a

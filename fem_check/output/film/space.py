@@ -13,7 +13,7 @@ from matplotlib.ticker import MultipleLocator
 from numpy.typing import NDArray
 
 from fem_check.output.film.camera import Camera
-from fem_check.output.film.surface import Surface, faces, normals, quads
+from fem_check.output.film.surface import Surface, normals, paint, quads
 from fem_check.output.geometry import middle_line
 from fem_check.output.moving import Frame
 from fem_check.output.panels import GROWTH_MAP
@@ -55,7 +55,7 @@ CELLS = 72
 
 
 class SpaceStage(Stage):
-    """See `Stage`. Heights are to scale in both views, or stretched by a factor that is written down."""
+    """See `Stage`. Heights are to scale in both views, or stretched by a factor that is stated."""
 
     def _shown(self, frame: Frame) -> Frame:
         """In space, also a sheet that stays in the plane."""
@@ -149,8 +149,8 @@ class SpaceStage(Stage):
         level = camera.light(np.array([0.0, 0.0, 1.0]))
         bright = np.clip(1 + 0.9 * (camera.light(normals(floor)) - level), 0.6, 1.08)
         colors = np.clip(grey * bright[:, None], 0, 1)
-        patches = (camera.page(floor.points) * factor).T[floor.cells]
-        ax.add_collection(PolyCollection(list(patches), facecolors=colors, edgecolors=colors, lw=0.6))
+        patches: Any = (camera.page(floor.points) * factor).T[floor.cells]
+        ax.add_collection(PolyCollection(patches, facecolors=colors, edgecolors=colors, lw=0.6))
         ax.add_collection(LineCollection(list(self._rules()), color=RULES, linewidth=0.8))
         start = [self._line(1, self._start[1])]
         ax.add_collection(LineCollection(start, color="black", lw=0.8, linestyle=(0, (4, 3))))
@@ -203,7 +203,7 @@ class SpaceStage(Stage):
         view, side = axes
         factor, page = self._units.length_factor, self._camera.page
         yield self._shadow(view, frame)
-        yield self._sheet(view, frame)
+        yield from self._sheet(view, frame)
         yield from self._arrows(view, index)
         yield from draw_trail(view, page(trail) * factor)
         height = 1 + 26 / self._height
@@ -213,18 +213,17 @@ class SpaceStage(Stage):
 
     def _shadow(self, ax: Axes, frame: Frame) -> Any:
         """Of the sheet on the ground below it, which shows where it is lifted."""
-        x, y = frame.place[:2]
-        below = np.stack([x, y, self._moving.ground(y, x)])
-        seen = (self._camera.page(below) * self._units.length_factor).T[self._triangles]
-        return ax.add_collection(
-            PolyCollection(list(seen), facecolors=SHADOW, edgecolors=SHADOW, lw=0.5)
-        )
+        x, y, z = frame.place
+        below = np.stack([x, y, np.minimum(self._moving.ground(y, x), z)])
+        seen: Any = (self._camera.page(below) * self._units.length_factor).T[self._triangles]
+        shadow = PolyCollection(seen, facecolors=SHADOW, edgecolors=SHADOW, lw=0.5)
+        return ax.add_collection(shadow, autolim=False)
 
-    def _sheet(self, ax: Axes, frame: Frame) -> Any:
-        """The sheet from back to front, coloured by growth."""
-        growth = self._colors(frame.growth[self._triangles].mean(1))
-        seen, looks = faces(Surface(frame.place, self._triangles), growth, self._camera)
-        return ax.add_collection(PolyCollection(list(seen * self._units.length_factor), **looks))
+    def _sheet(self, ax: Axes, frame: Frame) -> Iterator[Any]:
+        """The sheet, coloured by growth."""
+        surface = Surface(frame.place, self._triangles)
+        colors, factor = self._colors(frame.growth), self._units.length_factor
+        yield from paint(ax, surface, colors, self._camera, factor)
 
     def _colors(self, growth: Array) -> Array:
         """RGB colours (n, 3) of growth."""
@@ -256,8 +255,8 @@ class SpaceStage(Stage):
         yield from ax.plot(y * factor, ground, color="0.4", linewidth=0.8)
         for piece in pieces:
             points = (frame.place[1:, piece] * factor).T
+            yield from ax.plot(*points.T, color="0.15", linewidth=4.0, solid_capstyle="round")
             ends = np.stack([points[:-1], points[1:]], axis=1)
-            middle = (frame.growth[piece][1:] + frame.growth[piece][:-1]) / 2
-            for color, width in (("0.15", 4.0), (self._colors(middle), 2.6)):
-                lines = LineCollection(list(ends), color=color, linewidth=width, capstyle="round")
-                yield ax.add_collection(lines)
+            colors = self._colors((frame.growth[piece][1:] + frame.growth[piece][:-1]) / 2)
+            lines = LineCollection(list(ends), color=colors, linewidth=2.6, capstyle="round")
+            yield ax.add_collection(lines, autolim=False)
