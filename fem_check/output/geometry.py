@@ -17,15 +17,21 @@ def edges(triangles: Integers) -> Integers:
     return np.asarray(sides[first[count == 1]])
 
 
-def inside(points: Array, triangles: Integers, across: int, along: int) -> Array:
-    """Centres, if inside the sheet, of across x along cells of its bounding box, (2, k)."""
+def inside(points: Array, triangles: Integers, across: int, along: int, margin: float = 0.0) -> Array:
+    """Centres, if inside the sheet, of across x along cells of its bounding box, (2, k).
+
+    margin: distance, relative to that of the centres, at which the sheet must still be.
+    """
     low, high = points.min(1), points.max(1)
     shares = [(np.arange(n) + 0.5) / n for n in (across, along)]
     grid = np.stack(np.meshgrid(*shares, indexing="ij")).reshape(2, -1)
-    x, y = low[:, None] + (high - low)[:, None] * grid
+    centres = low[:, None] + (high - low)[:, None] * grid
+    step = (high - low) / (across, along)
     finder: Any = Triangulation(points[0], points[1], triangles).get_trifinder()
-    found = finder(x, y) >= 0
-    return np.stack([x[found], y[found]])
+    found = np.ones(grid.shape[1], bool)
+    for way in [(0, 0), (1, 0), (-1, 0), (0, 1), (0, -1)] if margin else [(0, 0)]:
+        found &= finder(*(centres + (margin * step * way)[:, None])) >= 0
+    return np.asarray(centres[:, found])
 
 
 def middle_line(points: Array, triangles: Integers, count: int) -> tuple[Array, Integers]:

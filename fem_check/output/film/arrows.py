@@ -17,6 +17,9 @@ ARROWS = 24
 LONGEST = 0.9
 """Length of the longest arrow relative to the spacing of arrows."""
 
+NEAR = 0.3
+"""How far inside the sheet arrows start, relative to their spacing: none leaves it by much."""
+
 
 class Arrows(NamedTuple):
     """frame: with the points on which the forces act; ways (2, n): along the forces, in units of length
@@ -34,7 +37,7 @@ class Friction:
         width, length = np.ptp(points, axis=1)
         along = max(3, round(float(np.sqrt(ARROWS * length / width))))
         across = max(2, round(ARROWS / along))
-        self._moving, self._points = moving, inside(points, triangles, across, along)
+        self._moving, self._points = moving, inside(points, triangles, across, along, NEAR)
         self._frames = moving.frames(self._points, periods, samples)
         self._samples, self._repeats = samples, moving.most_periods is None
         self._start = moving.at(self._points, 0.0).time

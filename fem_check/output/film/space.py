@@ -38,6 +38,9 @@ Array = NDArray[np.float64]
 
 SHADOW = "#C9C9C9"
 
+RELIEF = 1.6
+"""How much slopes change the brightness of the ground."""
+
 SEEN, RAISED = 14, 30
 """Heights in pixels: smaller ones are stretched, to the larger number or more."""
 
@@ -147,7 +150,7 @@ class SpaceStage(Stage):
         ax.set_axis_off()
         grey = np.array([int(GROUND[k : k + 2], 16) / 255 for k in (1, 3, 5)])
         level = camera.light(np.array([0.0, 0.0, 1.0]))
-        bright = np.clip(1 + 0.9 * (camera.light(normals(floor)) - level), 0.6, 1.08)
+        bright = np.clip(1 + RELIEF * (camera.light(normals(floor)) - level), 0.6, 1.03)
         colors = np.clip(grey * bright[:, None], 0, 1)
         patches: Any = (camera.page(floor.points) * factor).T[floor.cells]
         ax.add_collection(PolyCollection(patches, facecolors=colors, edgecolors=colors, lw=0.6))
@@ -256,7 +259,8 @@ class SpaceStage(Stage):
         for piece in pieces:
             points = (frame.place[1:, piece] * factor).T
             yield from ax.plot(*points.T, color="0.15", linewidth=4.0, solid_capstyle="round")
-            ends = np.stack([points[:-1], points[1:]], axis=1)
+            lap = (points[1:] - points[:-1]) / 4  # without gaps where the line bends
+            ends = np.stack([points[:-1] - lap, points[1:] + lap], axis=1)
             colors = self._colors((frame.growth[piece][1:] + frame.growth[piece][:-1]) / 2)
-            lines = LineCollection(list(ends), color=colors, linewidth=2.6, capstyle="round")
+            lines = LineCollection(list(ends), color=colors, linewidth=2.6, capstyle="butt")
             yield ax.add_collection(lines, autolim=False)
