@@ -2,6 +2,7 @@
 
 from .choice.prediction import Prediction, predict
 from .mesh.outline import Outline
+from .output.paraview import write_paraview
 from .plane_stress.field import PlaneStressField, plane_stress_field
 from .scene import Scene, bilayer
 from .shell.cycle.speed import cycle_speed
@@ -13,7 +14,6 @@ from .shell.effects.koiter import Bending, Membrane
 from .shell.effects.loads import DeadLoad
 from .shell.effects.terrain import Terrain
 from .shell.material import Material
-from .shell.stepping.paraview import write_paraview
 from .shell.stepping.simulation import simulate
 from .shell.stepping.trajectory import Trajectory
 from .version import __version__

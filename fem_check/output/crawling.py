@@ -105,6 +105,12 @@ class Crawling:
         """See Moving."""
         return self._deformation.growth(points, times)
 
+    def stress(self, points: Array, t: float) -> dict[str, Array]:
+        """Components (n,) of the stress in the axes of the sheet by name, if the theory has them."""
+        stress = self._deformation.stress(points, t)
+        names = ("stress_xx", "stress_yy", "stress_xy")
+        return {} if stress is None else dict(zip(names, stress, strict=True))
+
     def frames(self, points: Array, periods: int, samples: int) -> "CrawlingFrames":
         """The shapes of one period, moved along the path."""
         return CrawlingFrames(self, points, self._poses(periods, samples), samples)

@@ -117,3 +117,12 @@ def turned(place: Array, heading: float) -> Array:
     cosine, sine = np.cos(heading), np.sin(heading)
     x, y = place[:2]
     return np.concatenate([[cosine * x - sine * y, sine * x + cosine * y], place[2:]])
+
+
+def friction_at(moving: Moving, points: Array, time: float) -> tuple[Array, float]:
+    """Friction (2, n) at the time of a frame, and the heading of the sheet to which it belongs.
+
+    A motion that repeats is known in one period: turn the force by the heading of the frame minus that.
+    """
+    phase = (time - moving.at(points, 0.0).time) / moving.period
+    return moving.friction(points, phase), moving.at(points, phase).heading

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fem_check.output.geometry import inside
-from fem_check.output.moving import Frame, Moving, turned
+from fem_check.output.moving import Frame, Moving, friction_at, turned
 
 Array = NDArray[np.float64]
 
@@ -40,7 +40,6 @@ class Friction:
         self._moving, self._points = moving, inside(points, triangles, across, along, NEAR)
         self._frames = moving.frames(self._points, periods, samples)
         self._samples, self._repeats = samples, moving.most_periods is None
-        self._start = moving.at(self._points, 0.0).time
         self._force = lru_cache(samples)(self._force_in)
         self._step = LONGEST * min(width / across, length / along)
         self.acts = moving.speed.regime != "none" and self._points.size > 0
@@ -59,6 +58,4 @@ class Friction:
 
     def _force_in(self, index: int) -> tuple[Array, float]:
         """At the phase of a frame, with the heading of the sheet at that phase in `Moving.at`."""
-        phase = (self._frames[index].time - self._start) / self._moving.period
-        heading = self._moving.at(self._points, phase).heading
-        return self._moving.friction(self._points, phase), heading
+        return friction_at(self._moving, self._points, self._frames[index].time)

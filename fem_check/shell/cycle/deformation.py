@@ -71,6 +71,9 @@ class CycleDeformation(Shown):
             weight = self.shapes.model.find(Gravity).weight
         return Touch(found.velocity[:, 0, :, 0, 0], found.area[0, :, 0, 0] / weight)
 
+    def stress(self, points: Array, t: float) -> None:
+        """See Deformation; not computed."""
+
     def _motion(self, points: Array) -> "_AtPoints":
         return self._motions(points.tobytes())
 
