@@ -16,7 +16,7 @@ from matplotlib.tri import Triangulation
 from numpy.typing import NDArray
 
 from fem_check.answer.units import Units
-from fem_check.output.geometry import edges, inside
+from fem_check.output.geometry import edges, inside, refined
 from fem_check.output.look import COLORS
 from fem_check.output.moving import Frame, Moving
 
@@ -46,10 +46,12 @@ FRICTION_MAP = colormaps["RdBu_r"]
 
 def draw_sheet(ax: Axes, moving: Moving, units: Units, phase: float) -> None:
     """The sheet from above, coloured by growth, with friction as arrows."""
-    points, _ = moving.covering()
+    points, triangles = moving.covering()
     frame = moving.at(points, phase)
     most = growth_scale(moving, points)
-    image, arrows = _draw_above(ax, moving, units, phase, 100 * frame.growth, most, GROWTH_MAP)
+    place = frame.place * units.length_factor
+    image, _ = add_sheet(ax, place, 100 * frame.growth, triangles, most)
+    arrows = _draw_around(ax, moving, units, phase)
     friction = ", arrows: friction" if arrows else ""
     ax.set_title(f"{_time(frame, units)}{friction}; {_ways(moving)}", loc="left")
     if most:
@@ -58,29 +60,21 @@ def draw_sheet(ax: Axes, moving: Moving, units: Units, phase: float) -> None:
 
 def draw_friction(ax: Axes, moving: Moving, units: Units, phase: float) -> None:
     """The sheet from above, coloured by the friction along y, with friction as arrows."""
-    points, _ = moving.covering()
-    along = moving.friction(points, phase)[1]
-    most = float(np.abs(along).max())
-    image, _ = _draw_above(ax, moving, units, phase, along, most, FRICTION_MAP)
-    time = _time(moving.at(points, phase), units)
-    ax.set_title(f"{time}, arrows: friction; {_ways(moving)}", loc="left")
+    # Dry friction changes over distances much shorter than growth does.
+    points, triangles = refined(*refined(*moving.covering()))
+    frame, along = moving.at(points, phase), moving.friction(points, phase)[1]
+    most, place = float(np.abs(along).max()), frame.place * units.length_factor
+    image, _ = add_sheet(ax, place, along, triangles, most, FRICTION_MAP)
+    _draw_around(ax, moving, units, phase)
+    ax.set_title(f"{_time(frame, units)}, arrows: friction; {_ways(moving)}", loc="left")
     add_scale(ax, image, r"friction $f_y$ ($\mu\,w$)")
 
 
-def _draw_above(
-    ax: Axes,
-    moving: Moving,
-    units: Units,
-    phase: float,
-    values: Array,
-    most: float,
-    cmap: Any,
-) -> tuple[Any, bool]:
-    """The sheet from above with values as colours; the image, and whether there are friction arrows."""
+def _draw_around(ax: Axes, moving: Moving, units: Units, phase: float) -> bool:
+    """Undeformed outline, friction arrows, axes; whether there are arrows."""
     points, triangles = moving.covering()
     frame, factor = moving.at(points, phase), units.length_factor
     ax.add_collection(outline(frame.still * factor, triangles, linestyle=":", color="0.5"))
-    image, _ = add_sheet(ax, frame.place * factor, values, triangles, most, cmap)
     arrows = _draw_friction(ax, moving, phase, points, triangles, factor)
     label_ground(ax, units)
     ax.set_aspect("equal", anchor="W")
@@ -88,7 +82,7 @@ def _draw_above(
     margin = 0.06 * float(np.ptp(shown[1]))
     ax.set_xlim(shown[1].min() - margin, shown[1].max() + margin)
     ax.set_ylim(shown[0].max() + margin, shown[0].min() - margin)
-    return image, arrows
+    return arrows
 
 
 def _time(frame: Frame, units: Units) -> str:
