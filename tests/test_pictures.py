@@ -108,7 +108,7 @@ def test_the_sheet_is_drawn_where_it_is(theory):
         corner = np.array([x, y]) + ALPHA * field.displacement(x, y, 0.3)
         assert np.abs(drawn - corner[::-1]).sum(1).min() < 1e-3 * ALPHA
     assert ax.yaxis_inverted()
-    image = ax.collections[1]
+    image = ax.collections[0]
     assert image.get_clim() == pytest.approx((-20, 20), rel=1e-2)  # alpha c in per cent
 
 
