@@ -79,6 +79,16 @@ class Crawling:
         times = np.concatenate([times[-1:] - self.period, times, times[:1] + self.period])
         return Course(times, np.concatenate([velocity[-1:], velocity, velocity[:1]]), whole, whole)
 
+    def waves(self, points: Array, times: Array) -> Array:
+        """See Moving."""
+        return self._deformation.growth(points, times)
+
+    def stress(self, points: Array, t: float) -> dict[str, Array]:
+        """Components (n,) of the stress in the axes of the sheet by name, if the theory has them."""
+        stress = self._deformation.stress(points, t)
+        names = ("stress_xx", "stress_yy", "stress_xy")
+        return {} if stress is None else dict(zip(names, stress, strict=True))
+
     def way(self, periods: int, samples: int) -> tuple[Array, Array]:
         """See Moving."""
         poses = self._poses(periods, samples)
@@ -97,19 +107,9 @@ class Crawling:
         slip = velocity + np.stack([v_x - omega * y, v_y + omega * x])
         return -load * self._deformation.law.force(slip)
 
-    def ground(self, y: Array, x: Array | float = 0.0) -> Array:
+    def ground(self, x: Array, y: Array) -> Array:
         """Level ground, the only one in the theories and the cycle of shapes."""
-        return np.zeros(np.broadcast(y, x).shape)
-
-    def waves(self, points: Array, times: Array) -> Array:
-        """See Moving."""
-        return self._deformation.growth(points, times)
-
-    def stress(self, points: Array, t: float) -> dict[str, Array]:
-        """Components (n,) of the stress in the axes of the sheet by name, if the theory has them."""
-        stress = self._deformation.stress(points, t)
-        names = ("stress_xx", "stress_yy", "stress_xy")
-        return {} if stress is None else dict(zip(names, stress, strict=True))
+        return np.zeros_like(y)
 
     def frames(self, points: Array, periods: int, samples: int) -> "CrawlingFrames":
         """The shapes of one period, moved along the path."""

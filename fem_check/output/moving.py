@@ -79,6 +79,13 @@ class Moving(Protocol):
     def course(self) -> Course:
         """V(t)."""
 
+    def waves(self, points: Array, times: Array) -> Array:
+        """The wave c at the points at given times, (times, n)."""
+
+    @property
+    def energies(self) -> Energies | None:
+        """Where the work of growth went, if the result tells."""
+
     def way(self, periods: int, samples: int) -> tuple[Array, Array]:
         """Times (n,) and the positions of the centre (2, n)."""
 
@@ -88,15 +95,8 @@ class Moving(Protocol):
     def friction(self, points: Array, phase: float) -> Array:
         """Friction force per undeformed area, divided by mu times the weight, (2, n)."""
 
-    def ground(self, y: Array, x: Array | float = 0.0) -> Array:
-        """Height of the ground, (n,)."""
-
-    def waves(self, points: Array, times: Array) -> Array:
-        """The wave c at the points at given times, (times, n)."""
-
-    @property
-    def energies(self) -> Energies | None:
-        """Where the work of growth went, if the result tells."""
+    def ground(self, x: Array, y: Array) -> Array:
+        """Height of the ground at places (n,)."""
 
     def frames(self, points: Array, periods: int, samples: int) -> "Frames":
         """Frames at equal intervals."""

@@ -140,7 +140,7 @@ def add_side(
 def draw_ground(ax: Axes, moving: Moving, low: float, high: float, factor: float) -> None:
     """The ground from the side, under the middle of the sheet, between two positions y."""
     y = np.linspace(low, high, 400)
-    ax.plot(y * factor, moving.ground(y) * factor, color="0.4", linewidth=0.8, zorder=1)
+    ax.plot(y * factor, moving.ground(0 * y, y) * factor, color="0.4", linewidth=0.8, zorder=1)
 
 
 def outline(place: Array, triangles: Integers, **look: Any) -> LineCollection:

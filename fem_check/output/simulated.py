@@ -65,6 +65,19 @@ class Simulated:
         last, shown = (end - self.period, end), (run.start, end)
         return Course(run.times[counted], velocity[counted], last, shown)
 
+    def waves(self, points: Array, times: Array) -> Array:
+        """See Moving."""
+        return np.stack([self._model.growth(float(t), *points) for t in times])
+
+    @property
+    def energies(self) -> Energies:
+        """Since the end of the ramp."""
+        run = self._trajectory
+        counted = run.times >= run.start - 1e-9 * self.period
+        works = {**run.power._asdict(), "residual": run.power.residual}
+        since = {name: values[counted] - values[counted][0] for name, values in works.items()}
+        return Energies(run.times[counted], since)
+
     def way(self, periods: int, samples: int) -> tuple[Array, Array]:
         """Times at the ends of the steps, and the positions of the centre."""
         run = self._trajectory
@@ -86,26 +99,12 @@ class Simulated:
         law = self._scene.contact.friction
         return np.asarray(-self._load(region, t) * law.force(moved / (after - before)))
 
-    def ground(self, y: Array, x: Array | float = 0.0) -> Array:
+    def ground(self, x: Array, y: Array) -> Array:
         """See Moving."""
         found: Ground | None = self._model.find(Ground)
-        x, y = np.broadcast_arrays(x, y)
         if found is None or found.height is None:
-            return np.zeros(y.shape)
+            return np.zeros_like(y)
         return np.asarray(found.height.values(x, y))
-
-    def waves(self, points: Array, times: Array) -> Array:
-        """See Moving."""
-        return np.stack([self._model.growth(float(t), *points) for t in times])
-
-    @property
-    def energies(self) -> Energies:
-        """Since the end of the ramp."""
-        run = self._trajectory
-        counted = run.times >= run.start - 1e-9 * self.period
-        works = {**run.power._asdict(), "residual": run.power.residual}
-        since = {name: values[counted] - values[counted][0] for name, values in works.items()}
-        return Energies(run.times[counted], since)
 
     def frames(self, points: Array, periods: int, samples: int) -> "SimulatedFrames":
         """See Moving."""

@@ -81,7 +81,7 @@ class SpaceStage(Stage):
         y = np.linspace(y0, y1, CELLS + 1)
         x = np.linspace(x0, x1, max(2, round(CELLS * (x1 - x0) / (y1 - y0))) + 1)
         x, y = (a.ravel() for a in np.meshgrid(x, y, indexing="ij"))
-        return Surface(np.stack([x, y, self._moving.ground(y, x)]), quads(CELLS + 1, x.size))
+        return Surface(np.stack([x, y, self._moving.ground(x, y)]), quads(CELLS + 1, x.size))
 
     @cached_property
     def _levels(self) -> tuple[float, float]:
@@ -169,7 +169,7 @@ class SpaceStage(Stage):
         other = 1 - axis
         along = np.linspace(self._low[other], self._high[other], 2 * CELLS)
         x, y = (np.full_like(along, at), along)[:: 1 if axis == 0 else -1]
-        places = np.stack([x, y, self._moving.ground(y, x)])
+        places = np.stack([x, y, self._moving.ground(x, y)])
         return np.asarray(self._camera.page(places).T * self._units.length_factor)
 
     def _interval(self, axis: int) -> tuple[float, float]:
@@ -217,7 +217,7 @@ class SpaceStage(Stage):
     def _shadow(self, ax: Axes, frame: Frame) -> Any:
         """Of the sheet on the ground below it, which shows where it is lifted."""
         x, y, z = frame.place
-        below = np.stack([x, y, np.minimum(self._moving.ground(y, x), z)])
+        below = np.stack([x, y, np.minimum(self._moving.ground(x, y), z)])
         seen: Any = (self._camera.page(below) * self._units.length_factor).T[self._triangles]
         shadow = PolyCollection(seen, facecolors=SHADOW, edgecolors=SHADOW, lw=0.5)
         return ax.add_collection(shadow, autolim=False)
@@ -252,7 +252,7 @@ class SpaceStage(Stage):
         frames, pieces = self._middle
         frame, factor = self._shown(frames[index]), self._units.length_factor
         y = np.linspace(self._low[1], self._high[1], 400)
-        ground = self._moving.ground(y, float(frame.place[0].mean())) * factor
+        ground = self._moving.ground(np.full_like(y, frame.place[0].mean()), y) * factor
         bottom = ax.get_ylim()[0]
         yield ax.fill_between(y * factor, ground, bottom, color=GROUND, linewidth=0)
         yield from ax.plot(y * factor, ground, color="0.4", linewidth=0.8)
