@@ -2,8 +2,9 @@
 #
 #   make figures   all figures and the film of the README (options: OUT=folder RTOL=1e-6): a minute
 #   make test      lint, types, tests: six minutes
+#   make test-browser  the pages in a real browser (Debian: chromium, chromium-driver): a minute
 #   make paper     the write-up as a PDF, paper/out/sheetcrawl.pdf, with its figures
-#   make docs      the API reference from the docstrings, build/docs
+#   make docs      the documentation as one site, build/docs/index.html: a minute
 #   make cost      error against time of every level, the price of each effect: four minutes
 #   make bench-threads  times beside a busy core against one BLAS thread
 #   make bench-shell  time and memory of the sheet that bends
@@ -35,7 +36,7 @@ export MKL_NUM_THREADS := 1
 FIGURE_OUT = $(if $(OUT),--out "$(OUT)")
 FIGURE_RTOL = $(if $(RTOL),--rtol $(RTOL))
 
-.PHONY: figures test paper docs cost bench-shell bench-threads tables lock clean distclean
+.PHONY: figures test test-browser paper docs cost bench-shell bench-threads tables lock clean distclean
 .DEFAULT_GOAL := figures
 .DELETE_ON_ERROR:
 
@@ -53,6 +54,12 @@ test: $(STAMP)
 	$(RUN) -m ruff format --check .
 	$(RUN) -m mypy
 	$(RUN) -m pytest -n $(WORKERS)
+
+# One test after the other, since times are measured. CI_BROWSER=1 makes a missing browser an error.
+BROWSER = /usr/bin/chromium /usr/bin/chromedriver
+test-browser: $(STAMP)
+	@if [ -n "$(CI_BROWSER)" ] || ls $(BROWSER) > /dev/null 2>&1; then $(RUN) -m pytest tests/browser; \
+	else echo "make test-browser: skipped, needs $(BROWSER) (apt-get install chromium chromium-driver)"; fi
 
 cost: $(STAMP)
 	$(RUN) -m figures.measure.cost
@@ -80,10 +87,9 @@ tables: $(STAMP)
 paper: figures
 	$(RUN) -m paper.build
 
-# The public names, the effects and the material that scenes are made of.
+# Pages, examples as they run, and the API; fails where a link leads nowhere.
 docs: $(STAMP)
-	$(RUN) -m pdoc --docformat markdown -o build/docs linear_theory \
-	    fem_check fem_check.output fem_check.shell.effects fem_check.shell.material
+	$(RUN) -m docs.site
 
 # setuptools comes with the lock and build isolation is off: pip fetches nothing that is not pinned.
 $(STAMP): requirements.lock pyproject.toml

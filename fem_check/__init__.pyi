@@ -1,4 +1,7 @@
-"""What `import fem_check` offers: read by `lazy_loader` as it runs, and by type checkers."""
+"""Finite elements that check the linear theory: plane stress, and a nonlinear shell for any alpha.
+
+Read by `lazy_loader` as it runs, and by type checkers.
+"""
 
 from .choice.prediction import Prediction, predict
 from .mesh.outline import Outline
@@ -9,6 +12,7 @@ from .shell.cycle.speed import cycle_speed
 from .shell.effects.friction import Friction
 from .shell.effects.gravity import Gravity
 from .shell.effects.ground import Ground
+from .shell.effects.height_map import HeightMap
 from .shell.effects.inertia import Inertia
 from .shell.effects.koiter import Bending, Membrane
 from .shell.effects.loads import DeadLoad
@@ -24,6 +28,7 @@ __all__ = [
     "Friction",
     "Gravity",
     "Ground",
+    "HeightMap",
     "Inertia",
     "Material",
     "Membrane",

@@ -20,7 +20,7 @@ from fem_check import (
     simulate,
 )
 from fem_check.shell import effects as effect_classes
-from fem_check.shell.abilities import CYCLE, LEVELS, STEPPED, WORDS, require
+from fem_check.shell.abilities import CYCLE, LEVELS, STEPPED, WORDS
 from fem_check.shell.cycle.contact import creep
 from fem_check.shell.effects.effect import Effect
 from fem_check.shell.effects.friction import WEAK, friction_over_growth
@@ -71,7 +71,7 @@ WINDY = (MEMBRANE, Gravity(WEIGHT), FRICTION, Wind())
 @pytest.mark.parametrize("level", LEVELS)
 def test_an_effect_that_knows_of_no_level_is_refused_by_all(level: object) -> None:
     with pytest.raises(ValueError, match=r"cannot represent Wind; no level can"):
-        require(level, Scene(Sheet(), SineWave(), ALPHA, effects=WINDY))
+        level.require(Scene(Sheet(), SineWave(), ALPHA, effects=WINDY))
 
 
 def test_every_effect_has_words_for_what_leaves_it_out() -> None:
@@ -108,7 +108,7 @@ def test_what_a_cycle_would_drop_is_refused_with_the_level_that_can(name: str) -
         ValueError, match=rf"cycle_speed\(scene\) cannot represent {message}.*simulate\(scene\) can"
     ):
         cycle_speed(scene(*effects))
-    require(STEPPED, scene(*effects))
+    STEPPED.require(scene(*effects))
 
 
 def test_a_slope_without_friction_is_refused_by_all() -> None:
@@ -225,7 +225,7 @@ def test_a_turning_sheet_feels_the_moment_of_its_weight_on_a_slope() -> None:
 
 
 def test_too_steep_is_refused_and_creep_is_not_rest() -> None:
-    with pytest.raises(ValueError, match=r"incline = 0.6: the sheet slides down .* within \+-0.4636 "):
+    with pytest.raises(ValueError, match=r"incline = 0.6: friction cannot hold .* within \+-0.4636 "):
         cycle_speed(sloping(0.6, mu=0.5))
     with pytest.warns(ViscousRegimeWarning):  # at speeds below its slip speed
         still = cycle_speed(sloping(0.2, alpha=0.0))

@@ -67,7 +67,7 @@ def test_example_brings_all_it_needs(name):
             known |= {alias.asname or alias.name for alias in node.names}
         elif isinstance(node, ast.arg):
             known.add(node.arg)
-        elif isinstance(node, ast.ExceptHandler) and node.name:
+        elif isinstance(node, ast.ExceptHandler | ast.ClassDef) and node.name:
             known.add(node.name)
         elif isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store):
             known.add(node.id)

@@ -14,6 +14,7 @@ from linear_theory import SineWave
 from linear_theory.line import line_speed, line_speed_tanh, line_speed_viscous
 from linear_theory.line.series import LAPLACE_LIMIT, line_series, line_speed_series
 from tests import reference_line
+from tests.drawn_examples import examples
 
 ALPHAS = (0.01, 0.2, 0.5, 0.8, 0.99)
 DOTTIE = 0.7390851332151607  # the fixed point of the cosine
@@ -61,6 +62,7 @@ def test_a_million_speeds_in_one_call():
     assert time.process_time() - start < 5
 
 
+@examples(100)
 @given(alpha=st.floats(-0.999, 0.999), count=st.integers(1, 50), period=st.floats(1e-3, 1e3))
 def test_symmetries(alpha, count, period):
     for speed in (line_speed, line_speed_viscous, lambda a, n, t: line_speed_tanh(a, 0.1, n, t)):

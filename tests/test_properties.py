@@ -12,7 +12,7 @@ from contextlib import contextmanager
 
 import numpy as np
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from fem_check.shell.cycle.motion import UnresolvedError
@@ -39,6 +39,7 @@ from linear_theory.balance.crawl import Crawl
 from linear_theory.common.errors import BeyondReachWarning, ViscousRegimeWarning
 from linear_theory.scene.scene import Scene
 from tests import reference_line
+from tests.drawn_examples import examples
 
 LIMITS = (NotConvergedError, ConvergenceError, UnresolvedError)
 """What solvers raise where they miss a tolerance, by their documentation."""
@@ -48,16 +49,6 @@ NAMED = ("alpha", "rtol", "modes", "degree", "slip_speed", "growth", "poisson", 
 
 MOST_TIMES = 4 * 4097
 """Balances of one mean over a period: twice the most times, and those that choose cells."""
-
-
-def examples(count: int) -> Callable[[Callable[..., None]], Callable[..., None]]:
-    return settings(
-        max_examples=count,
-        deadline=None,
-        derandomize=True,
-        database=None,
-        suppress_health_check=[HealthCheck.too_slow, HealthCheck.function_scoped_fixture],
-    )
 
 
 def powers(low: float, high: float) -> st.SearchStrategy[float]:

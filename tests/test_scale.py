@@ -319,7 +319,7 @@ def test_slip_speeds_and_tolerances_are_in_the_unit_of_the_length():
 def test_materials_of_thin_sheets_are_told_apart():
     thin = Sheet(1e-6, 5e-7, 0.0, thickness=3e-9)
     for thickness in (9e-9, 3.1e-9):
-        with pytest.raises(ValueError, match=r"thickness = .*the sheet has 3e-09"):
+        with pytest.raises(ValueError, match=r"thickness = .*must be 3e-09"):
             Scene(thin, SineWave(), 0.1, effects=[Membrane(Material(thickness, 0.0))])
     rounded = Material(3e-9 * (1 + 1e-15), 0.1 + 0.2 - 0.3)
     assert Scene(thin, SineWave(), 0.1, effects=[Membrane(rounded)]).planar

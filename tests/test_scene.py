@@ -35,6 +35,7 @@ from linear_theory import (
     Sheet,
     SineWave,
     Tanh,
+    Tolerance,
     TravellingWave,
     Viscous,
     crawl_speed,
@@ -42,7 +43,7 @@ from linear_theory import (
     pulse_wave,
     second_order,
 )
-from linear_theory.common.errors import Unidentifiable
+from linear_theory.common.errors import Unidentifiable, ViscousRegimeWarning
 
 MATERIAL = Material(0.03, 0.5)
 PLANE = (Membrane(MATERIAL), Gravity(3e-6), Friction(1.0, 5e-3))
@@ -131,7 +132,6 @@ def test_names_and_objects_say_the_same() -> None:
     named = Scene(Sheet(), SineWave(), 0.1, growth_law="linear", area="undeformed")
     whole = Scene(Sheet(), SineWave(), growth=Growth(0.1, Linear(), energy_area="undeformed"))
     assert named == whole
-    assert Scene(Sheet(), SineWave(), 0.2, growth=whole.growth) == whole.but(alpha=0.2)
     assert Growth(0.1, "exp") == Growth(0.1, Exp())
     assert Contact("grown", "viscous") == Contact(Load.GROWN, Viscous())
     assert Contact.named() == Contact(Load.CURRENT, Coulomb())
@@ -148,7 +148,7 @@ def test_functions_are_known_by_content_or_name() -> None:
     nameless = FieldWave(iter([1]).__next__, 1.0)
     with pytest.raises(Unidentifiable, match=r"wave"):
         Scene(Sheet(), nameless, 0.1).key()
-    with pytest.raises(ValueError, match=r"wave = .*pass it: Scene.from_dict\(data, wave=...\)"):
+    with pytest.raises(ValueError, match=r"wave: a FieldWave .*Scene.from_dict\(data, wave=wave\)"):
         Scene.from_dict(same[0].to_dict())
     assert Scene.from_dict(same[0].to_dict(), wave=wave(1.0)) == same[0]
 
@@ -157,7 +157,7 @@ def test_uneven_ground_is_given_again() -> None:
     hill = Ground(0.5, height=lambda x, y: 0.01 * np.cos(3 * y) + 0 * x)
     effects = (*SPACE[:3], hill, SPACE[-1])
     scene = Scene(Sheet(), SineWave(), 0.1, effects=effects)
-    with pytest.raises(ValueError, match=r"effects\[3\].*a Terrain cannot be restored"):
+    with pytest.raises(ValueError, match=r"effects\[4\].*a Terrain cannot be restored"):
         Scene.from_dict(scene.to_dict())
     assert Scene.from_dict(scene.to_dict(), effects=effects) == scene
 
@@ -166,8 +166,11 @@ def test_uneven_ground_is_given_again() -> None:
     ("data", "words"),
     [
         ({}, "data = {}: must be what Scene.to_dict"),
-        ({"type": "Scene"}, "a scene must have sheet, wave, growth, effects"),
-        (SCENES["plain"].to_dict() | {"sheet": {"type": "Sheet", "size": 1}}, "must be its arguments"),
+        ({"type": "Scene"}, "a Scene must have sheet, wave, growth, contact, effects, cells"),
+        (
+            SCENES["plain"].to_dict() | {"sheet": {"type": "Sheet", "size": 1}},
+            "sheet.size: a Sheet has no such key",
+        ),
         (SCENES["plain"].to_dict() | {"sheet": {"type": "os"}}, "a os cannot be restored"),
         (SCENES["plain"].to_dict() | {"element": "os.system(1)"}, "must be a scikit-fem element"),
         (SCENES["plain"].to_dict() | {"cells": [0, 1]}, "cells = 0: must be >= 1"),
@@ -207,10 +210,11 @@ def test_every_level_reads_the_same_scene() -> None:
         )
         assert (one.mean, one.error, one.model) == (other.mean, other.error, other.model)
     assert predict(scene, rtol=0.3).mean == predict(*plain, rtol=0.3, **grown).mean
-    bare = scene.but(contact=Contact())
+    bare = scene.but(contact=None)
     one, other = cycle_speed(scene, rtol=1e-2), cycle_speed(bare, **options, rtol=1e-2)
     assert (one.mean, one.error) == (other.mean, other.error)
-    both = second_order(scene, rtol=1e-2), second_order(*plain[:2], rtol=1e-2, **grown)
+    per_alpha = {**grown, "slip_speed": 0.05 / 0.1}  # length per time and unit alpha
+    both = second_order(scene, rtol=1e-2), second_order(*plain[:2], rtol=1e-2, **per_alpha)
     assert both[0].second == both[1].second
     assert line_balance(SineWave(), 0.1).mean != 0
 
@@ -238,3 +242,118 @@ def test_a_scene_without_effects_stretches() -> None:
     assert (one.mean, one.error) == (other.mean, other.error)
     with pytest.raises(ValueError, match="without Friction and Inertia"):
         simulate(scene)
+
+
+SAID = Scene(
+    Sheet(), SineWave(), 0.1, growth_law="linear", contact=Contact("grown", Tanh(0.05)), cells=(2, 4)
+)
+CALLS = (crawl_speed, predict, second_order, cycle_speed)
+
+
+@pytest.mark.parametrize("call", CALLS)
+@pytest.mark.parametrize(
+    ("name", "value", "own"),
+    [("load", "current", "'grown'"), ("friction", "viscous", r"Tanh\(slip_speed=0.05\)")],
+)
+def test_arguments_beside_a_scene_must_agree_with_it(call, name, value, own) -> None:
+    with pytest.raises(ValueError, match=rf"{name} = .*must be None or that of the scene, {own}"):
+        call(SAID, **{name: value})
+    agreeing = {"load": "grown", "friction": Tanh(0.05)}[name]
+    one, other = call(SAID, rtol=0.1, **{name: agreeing}), call(SAID, rtol=0.1)
+    if call is not second_order:  # there a slip speed given in the call is per unit alpha
+        assert (one.mean, one.error) == (other.mean, other.error)
+
+
+@pytest.mark.parametrize("call", CALLS[:3])
+def test_growth_beside_a_scene_must_agree_with_it(call) -> None:
+    with pytest.raises(ValueError, match=r"growth_law = Exp\(\): must be None .* Linear\(\)"):
+        call(SAID, growth_law="exp")
+    with pytest.raises(ValueError, match=r"area = 'undeformed': must be None .* 'grown'"):
+        call(SAID, area="undeformed")
+
+
+def test_growth_is_given_once() -> None:
+    growth = Growth(0.2, "linear")
+    with pytest.raises(ValueError, match=r"alpha = 0.1: must be None if growth is given"):
+        Scene(Sheet(), SineWave(), 0.1, growth=growth)
+    with pytest.raises(ValueError, match=r"growth_law = 'exp': must be None if growth is given"):
+        SAID.but(growth=growth, growth_law="exp")
+    with pytest.raises(ValueError, match=r"alpha = None: must be given"):
+        SAID.but(alpha=None)
+    assert SAID.but(growth=growth).growth == growth
+
+
+@pytest.mark.parametrize("effects", [PLANE, SPACE])
+def test_a_slope_that_the_effects_do_not_have_is_refused(effects) -> None:
+    own = Scene(Sheet(), SineWave(), 0.1, effects=effects).contact
+    with pytest.raises(ValueError, match=r"slope = 0.7: must be 0 or 0"):
+        Scene(Sheet(), SineWave(), 0.1, effects=effects, contact=Contact(own.load, own.friction, 0.7))
+
+
+def test_the_stepper_refuses_a_contact_that_it_does_not_use() -> None:
+    effects = [Membrane(MATERIAL), Inertia(1e-3, MATERIAL)]
+    scene = Scene(Sheet(), SineWave(), 0.1, effects=effects, contact=Contact("grown", Viscous()))
+    with pytest.raises(ValueError, match=r"simulate\(scene\) cannot represent a contact"):
+        simulate(scene, periods=1)
+
+
+def test_no_meaning_is_in_the_order_of_effects_and_the_sign_of_zero() -> None:
+    one, other = (Scene(Sheet(), SineWave(), 0.1, effects=e) for e in (SPACE, SPACE[::-1]))
+    assert one == other
+    assert one.effects == other.effects
+    level = Scene(Sheet(), SineWave(), 0.0)
+    assert level == Scene(Sheet(), SineWave(), -0.0, contact=Contact(slope=-0.0))
+
+
+def test_a_slip_speed_needs_an_alpha_to_count_against() -> None:
+    with pytest.raises(ValueError, match=r"alpha = 0: must not be 0 for friction tanh\(v/0.05\)"):
+        second_order(SAID.but(alpha=0.0))
+
+
+def test_refusals_name_the_level_that_can() -> None:
+    slope = Scene(Sheet(), SineWave(), 0.1, contact=Contact(slope=0.1))
+    for call in (crawl_speed, second_order, predict):
+        with pytest.raises(ValueError, match=r"a slope of 0.1 .*; cycle_speed\(scene\) can"):
+            call(slope)
+
+
+@pytest.mark.parametrize("tangent", [0.75, 1.2])
+def test_viscous_friction_holds_on_any_slope(tangent) -> None:
+    """Without growth the sheet creeps at tan(incline)/mu times the speed scale of the law."""
+    effects = [
+        Membrane(MATERIAL),
+        Gravity(1e-7, "current", incline=math.atan(tangent)),
+        Friction(0.5, law=Viscous(0.2)),
+    ]
+    scene = Scene(Sheet(), SineWave(), 0.05, effects=effects, cells=(2, 4))
+    still = cycle_speed(scene.but(alpha=0.0))
+    assert still.mean == pytest.approx(-tangent / 0.5 * 0.2, rel=1e-12)
+    growing, stepped = cycle_speed(scene, rtol=1e-3), simulate(scene, periods=1, rtol=1e-2).speed
+    assert abs(growing.mean - stepped.mean) <= growing.error + stepped.error
+    with pytest.raises(ValueError, match=r"slope = 1.5: friction cannot hold the sheet"):
+        cycle_speed(Scene(Sheet(), SineWave(), 0.1, contact=Contact(slope=1.5)))
+
+
+@pytest.mark.parametrize(
+    ("make", "words"),
+    [
+        (lambda: Viscous(5e-324), r"speed = 4.94066e-324: must be from 1e-100"),
+        (lambda: Growth(0.1, law="a"), r"law = 'a': must be one of 'exp', 'linear', 'metric'"),
+        (lambda: Growth(0.1, energy_area="a"), r"energy_area = 'a': must be one of 'grown'"),
+        (lambda: Contact("a"), r"load = 'a': must be one of 'current', 'grown'"),
+        (lambda: Gravity(1.0, "grown", area="grown"), r"area = 'grown': must be None if load is given"),
+        (lambda: predict(Sheet(), SineWave(), 800.0), r"alpha = 800: alpha c = .* stretches by more"),
+        (lambda: Tolerance(1e-3).of_speed(0.1, -1.0), r"unit = -1: must be"),
+    ],
+)
+def test_values_out_of_range_are_named(make, words) -> None:
+    with pytest.raises(ValueError, match=words):
+        make()
+
+
+@pytest.mark.parametrize("width", [1e150, 1e300])
+def test_a_law_of_any_width_is_viscous_friction(width) -> None:
+    with pytest.warns(ViscousRegimeWarning):
+        wide = crawl_speed(Sheet(), SineWave(), 0.1, friction=Tanh(width), rtol=1e-2)
+    viscous = crawl_speed(Sheet(), SineWave(), 0.1, friction="viscous", rtol=1e-2)
+    assert wide.mean == pytest.approx(viscous.mean, rel=1e-2)

@@ -124,7 +124,7 @@ def test_one_state_a_period_shows_no_motion_and_is_not_believed() -> None:
     true = distance(few.positions(t, rtol=None), whole.positions(t))
     assert true > 0.1
     assert true <= few.shape_error(t) <= 4 * true
-    with pytest.raises(ValueError, match=r"positions are known to 0\.\d+, more than rtol = 0.01"):
+    with pytest.raises(ValueError, match=r"error of positions, 0\.\d+, is above rtol = 0.01"):
         few.shape(t)
     np.testing.assert_array_equal(few.path.position[:, 2], whole.path.position[:, 48])
 

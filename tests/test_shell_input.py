@@ -67,7 +67,7 @@ CASES: dict[str, tuple[str, Callable[[], object]]] = {
         ),
     ),
     "oblique BFS": (
-        "no rectangles along the axes",
+        "not axis-parallel rectangles",
         lambda: Discretisation(moved(QUADS, centre(QUADS), (0.6, 0.5)), BFS),
     ),
     "mesh not finite": (
@@ -105,7 +105,7 @@ CASES: dict[str, tuple[str, Callable[[], object]]] = {
     "thickness": ("thickness = 0: must be > 0", lambda: Material(0.0, 0.5)),
     "young": ("young = -1: must be > 0", lambda: Material(0.1, 0.5, -1.0)),
     "poisson": ("poisson = 0.6", lambda: Material(0.1, 0.6)),
-    "law": ("growth_law = 'cubic'", lambda: Growth(0.1, "cubic")),
+    "law": ("law = 'cubic'", lambda: Growth(0.1, "cubic")),
     "growth not finite": (
         "growth contains nan",
         lambda: grown_state(PLATE.interior, np.nan, Growth(0.1)),
@@ -166,7 +166,7 @@ CASES: dict[str, tuple[str, Callable[[], object]]] = {
         lambda: Potential(PLATE, (Friction(0.7, 1.0), Ground(1.0)), REST),
     ),
     "static inertia": (
-        "step: Inertia needs",
+        "step: must have an acceleration for Inertia",
         lambda: Potential(PLATE, (Inertia(1.0, PAPER),), REST, STILL),
     ),
     "current area in statics": (
@@ -181,11 +181,14 @@ CASES: dict[str, tuple[str, Callable[[], object]]] = {
         r"first = 2: must be in \(0, 1\]",
         lambda: ramp(Minimiser(Supports(PLATE)), lambda s: None, PLATE.zeros(), first=2.0),
     ),
-    "no such edge": ("no boundary edge", lambda: PLATE.edge(at(0, 7))),
+    "no such edge": ("at least one boundary edge", lambda: PLATE.edge(at(0, 7))),
     "point outside": (r"xi = \[7. 0.\]: must be in", lambda: PLATE.point((7.0, 0.0))),
     "point of wrong shape": ("xi has shape", lambda: PLATE.point((1.0,))),
     "held components": ("components", lambda: Supports(PLANAR).pin(at(0, 0), (2,))),
-    "slope of Lagrange": ("has no slopes", lambda: Supports(PLANAR).hold_slope(at(0, 0), (0,))),
+    "slope of Lagrange": (
+        "must be BFS or Argyris",
+        lambda: Supports(PLANAR).hold_slope(at(0, 0), (0,)),
+    ),
     "oblique edge": (
         "along the axes",
         lambda: Supports(

@@ -106,7 +106,7 @@ def test_an_inverted_start_is_refused() -> None:
     d = minimiser.supports.discretisation
     mirrored = d.zeros().reshape(-1, 2)
     mirrored[:, 0] = -2 * d.locations[0]
-    with pytest.raises(ConvergenceError, match="inside out"):
+    with pytest.raises(ConvergenceError, match="initial state is inverted"):
         minimiser.minimise(problem(1.0), mirrored.ravel())
 
 
@@ -122,7 +122,7 @@ def test_a_failure_keeps_the_last_state_and_its_parameter() -> None:
         return Potential(d, koiter(PAPER), rest, loads=(Load(tip, DeadLoad((0.0, 0.0, 1e-7 * s))),))
 
     with pytest.raises(
-        ConvergenceError, match=r"stuck at 0\.\d+ of the ramp: no equilibrium"
+        ConvergenceError, match=r"continuation failed at load factor 0\.\d+: no equilibrium"
     ) as failure:
         ramp(minimiser, problem, d.zeros(), first=0.5)
     assert 0.59 < failure.value.parameter <= 0.6

@@ -26,6 +26,7 @@ from fem_check.shell.stepping.run import Progress
 from linear_theory.common.shown import LINES, WIDTH, Shown, in_words, number, with_error
 from linear_theory.friction.law import Response
 from linear_theory.growth.bilayer import Couplings
+from tests.drawn_examples import examples
 
 PACKAGES = (linear_theory, fem_check)
 
@@ -68,6 +69,12 @@ def many_harmonics():
 def turning():
     wave = linear_theory.FieldWave(lopsided, period=1.0)
     return linear_theory.crawl_speed(SHEET, wave, alpha=0.25, rtol=5e-2)
+
+
+def measured():
+    y, t = np.linspace(-0.5, 0.5, 12), np.arange(10) / 10
+    c = np.sin(2 * np.pi * (y[:, None] - t)) + 0.1 * np.cos(40 * y[:, None] * t)
+    return linear_theory.SampledWave(y, t, c, period=1.0)
 
 
 @cache
@@ -121,11 +128,13 @@ MADE = {
     "Exp": linear_theory.Exp,
     "FieldWave": lambda: linear_theory.FieldWave(lambda x, y, t: np.sin(y - t), 1.0, name="a & <b>"),
     "FieldDrive": lambda: linear_theory.FieldWave(lopsided, period=1.0).on(SHEET),
+    "FitUncertainty": lambda: measured().uncertainty,
     "Flat": Flat,
     "Friction": lambda: fem_check.Friction(0.7, 0.01),
     "FrictionField": lambda: linear_theory.friction_field(field("AirySeries"), 0.1, [0.1, 0.2], 0, 0.1),
     "Gravity": lambda: fem_check.Gravity(2.5e-4),
     "Ground": lambda: fem_check.Ground(0.5),
+    "HeightMap": lambda: fem_check.HeightMap(np.zeros((9, 9)), 1.0, 2.0),
     "Growth": lambda: linear_theory.Growth(0.25),
     "Inertia": lambda: fem_check.Inertia(1.0, MATERIAL),
     "IsotropicResponse": lambda: linear_theory.Tanh(0.1).at(np.ones((2, 3))),
@@ -140,6 +149,8 @@ MADE = {
     ),
     "Path": lambda: linear_theory.rigid_path(turning(), periods=20),
     "PlaneStressField": lambda: field("PlaneStressField"),
+    "PolynomialDrive": lambda: measured().on(SHEET),
+    "PolynomialWave": lambda: measured().smooth,
     "Poses": lambda: trajectory().path,
     "Potential": potential,
     "Prediction": lambda: fem_check.predict(SHEET, SINE, alpha=0.05, rtol=0.1),
@@ -149,6 +160,7 @@ MADE = {
     "RestState": lambda: ShellModel(planar()).rest(0.2),
     "RigidSpeed": lambda: turning().turning,
     "RitzField": lambda: field("RitzField"),
+    "SampledWave": measured,
     "Scale": lambda: linear_theory.Scale(0.04, 8.0),
     "Scene": full_scene,
     "Scene on a mesh": lambda: planar(mesh=fem_check.Outline.trapezoid(0.5, 0.5, 1.0).mesh(0.3)),
@@ -331,6 +343,7 @@ def test_number_with_its_error(value, error, words):
     assert with_error(value, error).replace("E", "e") == words
 
 
+@examples(100)
 @given(st.floats(-1e9, 1e9), st.floats(1e-12, 1e9))
 def test_number_with_its_error_says_what_it_is(value, error):
     first, second = (Decimal(part) for part in with_error(value, error).split(" ± "))

@@ -25,16 +25,20 @@ LAYERS = (
     *(f"fem_check.{part}" for part in ("version", "scene", "mesh", "plane_stress")),
     *(f"fem_check.shell.{part}" for part in ("material", "kinematics", "effects", "statics")),
     *(f"fem_check.shell.{part}" for part in ("model", "depth", "abilities", "cycle", "stepping")),
-    *(f"fem_check.{part}" for part in ("answer", "choice", "output", "command")),
+    *(
+        f"fem_check.{part}"
+        for part in ("answer", "choice", "output", "files", "runs", "explorer", "command")
+    ),
     "fem_check",
     "figures",
     "paper",
+    "docs",
 )
 """Each imports from itself and from those before it; the first that fits a module is its layer."""
 
 
 def modules() -> Iterator[tuple[str, ast.Module]]:
-    for top in ("linear_theory", "fem_check", "figures", "paper"):
+    for top in ("linear_theory", "fem_check", "figures", "paper", "docs"):
         for path in sorted((ROOT / top).rglob("*.py")):
             name = ".".join(path.relative_to(ROOT).with_suffix("").parts).removesuffix(".__init__")
             yield name, ast.parse(path.read_text())
@@ -67,7 +71,7 @@ def imported(tree: ast.Module) -> Iterator[str]:
             yield from (name if name in MODULES else node.module for name in whole)
 
 
-TOPS = {"linear_theory", "fem_check", "figures", "paper"}
+TOPS = {"linear_theory", "fem_check", "figures", "paper", "docs"}
 
 
 @pytest.mark.parametrize("name", MODULES)

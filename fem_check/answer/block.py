@@ -15,12 +15,16 @@ from fem_check.answer.rounding import measured, plain, rounded_up
 from fem_check.answer.units import Units
 from fem_check.answer.wave_words import arrows, wave_words
 from linear_theory.growth.laws import Exp
+from linear_theory.scene.scene import Scene
 
 if TYPE_CHECKING:
     from fem_check.choice.prediction import Prediction
 
 WIDTH = 80
 """Default width of the block, in columns."""
+
+STEPPED = "stepped"
+"""The level on which friction acts back on the sheet."""
 
 LABEL = 10
 """Columns taken by the labels on the left."""
@@ -30,8 +34,15 @@ LEVEL_WORDS = {
     "first order": "small-strain theory",
     "second order": "second-order theory in alpha",
     "cycle": "a cycle of static shapes",
+    "stepped": "steps in time",
 }
-"""What a level is, by its name in `levels.LEVELS`."""
+"""What a level is, by its name in `levels.LEVELS` or `ways.WAYS`."""
+
+OWN = {
+    "cycle": "not estimated: friction is taken as too weak to deform the sheet",
+    "stepped": "0: all that the scene names is in; the error of the mesh is not estimated",
+}
+"""What the error of the model is of levels that are not compared with the nonlinear flat sheet."""
 
 Line = tuple[str, str]
 """Label on the left, and text."""
@@ -54,25 +65,38 @@ def block(
     q = found.scene
     units = units or Units.of_sheet(q.sheet.length, q.period)
     lines = [*_asked(found, units), *_answer(found, units), *_assumed(found, units, hints)]
-    return "\n".join(_wrapped(label, text, width) for label, text in lines if text)
+    return "\n".join(wrapped(label, text, width) for label, text in lines if text)
 
 
 def _asked(found: "Prediction", units: Units) -> Iterator[Line]:
-    """The sheet, its wave and its growth."""
-    q = found.scene
-    wave, sheet = arrows(q.drive, found.mean if abs(found.mean) > _error(found) else 0.0)
-    sizes = (units.of_length(size) for size in (q.sheet.length, q.sheet.width, q.sheet.thickness))
-    period = units.of_time(q.period)
-    asked = f"{' × '.join(map(plain, sizes))} {units.length}, {wave_words(q.drive)}"
-    own = units == Units.of_sheet(q.sheet.length, q.period)
-    yield wave, asked + (_own_units(units) if own else f", T = {plain(period, 6)} {units.time}")
-    most = extremes(q)
+    """The sheet, its wave and its growth, each with the way that it goes."""
+    speed = found.mean if abs(found.mean) > _error(found) else 0.0
+    yield from zip(arrows(found.scene.drive, speed), asked(found.scene, units), strict=True)
+
+
+def asked(scene: Scene, units: Units) -> tuple[str, str]:
+    """The sheet with its wave, and its growth, in words."""
+    sizes = (scene.sheet.length, scene.sheet.width, scene.sheet.thickness)
+    told = " × ".join(plain(units.of_length(size)) for size in sizes)
+    own = units == Units.of_sheet(scene.sheet.length, scene.period)
+    period = f", T = {plain(units.of_time(scene.period), 6)} {units.time}"
+    words = f"{told} {units.length}, {wave_words(scene.drive)}"
+    return words + (_own_units(units) if own else period), _growth(scene, units)
+
+
+def _growth(scene: Scene, units: Units) -> str:
+    """How much lengths grow, and with it the curvature."""
+    most = extremes(scene)
     growth = f"growth {plain(100 * most.crest)} % of length at the crest"
     if round(1e3 * most.trough):
         trough = f"{plain(100 * most.trough)} % in trough"
         growth = f"{growth.replace('the crest', 'crest')}, {trough}"
-    law = "" if q.growth.law == Exp() else f", law {q.growth.law.name!r}"
-    yield sheet, f"{growth} (alpha = {plain(q.alpha, 4)}{law})"
+    law = "" if scene.growth.law == Exp() else f", law {scene.growth.law.name!r}"
+    bent = ""
+    if scene.curvature_coupling:
+        curvature = plain(scene.curvature_coupling / units.of_length(1.0), 4)
+        bent = f"; curvature {curvature}/{units.length} c"
+    return f"{growth} (alpha = {plain(scene.alpha, 4)}{law}){bent}"
 
 
 def _own_units(units: Units) -> str:
@@ -99,9 +123,9 @@ def _missed(found: "Prediction") -> str:
     """A missed tolerance and the error, in per cent of the speed."""
     size = abs(found.mean) / 100
     asked = f"the tolerance, {plain(found.tolerance.allowed(found.mean) / size) if size else '0'} %"
-    if math.isnan(found.error):
+    if math.isnan(found.error) and found.level not in OWN:
         return f"{asked}, may not be met: the model error (distance to the nonlinear sheet) is unknown"
-    return f"{asked}, is not met: the error is {rounded_up(found.error / size) if size else 'inf'} %"
+    return f"{asked}, is not met: the error is {rounded_up(_error(found) / size) if size else 'inf'} %"
 
 
 def _accuracy(found: "Prediction", units: Units) -> str:
@@ -120,6 +144,8 @@ def _accuracy(found: "Prediction", units: Units) -> str:
 
 def _model(found: "Prediction", units: Units) -> str:
     error = found.speed.model_error
+    if math.isnan(error) and found.level in OWN:
+        return OWN[found.level]
     if math.isnan(error):
         return "unknown: the distance of this theory to the nonlinear sheet was not measured here"
     if error == 0:
@@ -143,6 +169,9 @@ def _friction(found: "Prediction", units: Units) -> str:
     if law.regularised and math.isfinite(found.speed.slip_ratio):
         share = f"{plain(100 * found.speed.slip_ratio, 2)} % of the largest sliding speed"
         where = f" (slip speed {plain(units.of_speed(law.width))} {units.speed}, {share})"
+    felt = next((effect.mu for effect in found.scene.effects if effect.mu), None)
+    if felt is not None and found.level == STEPPED:
+        return f"{regime}: coefficient {plain(felt)}, which deforms the sheet, too{where}{sticks}"
     means = {
         "dry": "the speed does not depend on the coefficient while the sheet is stiff",
         "mixed": "between dry and viscous, the speed depends on the slip speed",
@@ -165,7 +194,7 @@ def _error(found: "Prediction") -> float:
     return found.speed.error if math.isnan(found.error) else found.error
 
 
-def _wrapped(label: str, text: str, width: int) -> str:
+def wrapped(label: str, text: str, width: int = WIDTH) -> str:
     """A labelled line, with continuation lines indented to the text."""
     indent = " " * (2 + LABEL)
     filled = textwrap.fill(
@@ -191,4 +220,4 @@ def why(found: "Prediction", width: int = WIDTH) -> str:
     seen = {level for level, _, _ in rows}
     lines = [f"{level}: {text} ({_seconds(spent)})" for level, text, spent in rows]
     lines += [f"{level}: not tried" for level in LEVEL_WORDS if level not in seen]
-    return "\n".join(_wrapped("why" if i == 0 else "", line, width) for i, line in enumerate(lines))
+    return "\n".join(wrapped("why" if i == 0 else "", line, width) for i, line in enumerate(lines))

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 from fem_check.answer.block import block
 from fem_check.choice.levels import LEVELS, TARGET_EFFECTS, distance
-from fem_check.shell.abilities import left_out, require
+from fem_check.shell.abilities import left_out
 from linear_theory.common import validation
 from linear_theory.common.drawable import Drawable
 from linear_theory.common.errors import (
@@ -23,7 +23,7 @@ from linear_theory.common.threads import one_blas_thread
 from linear_theory.common.tolerance import Tolerance
 from linear_theory.friction.law import FrictionLaw
 from linear_theory.friction.load import Load
-from linear_theory.friction.regime import warn_if_viscous
+from linear_theory.friction.regime import Regime, warn_if_viscous
 from linear_theory.growth.growth import Reference
 from linear_theory.growth.laws import GrowthLaw
 from linear_theory.scene.level import THEORY
@@ -80,6 +80,16 @@ class Prediction(Drawable, Shown):
     def error(self) -> float:
         """Numerical plus model error, absolute."""
         return total_error(self.speed)
+
+    @property
+    def model_error(self) -> float:
+        """Distance of the level to the target, absolute."""
+        return self.speed.model_error
+
+    @property
+    def regime(self) -> Regime:
+        """See `CrawlSpeed.regime`."""
+        return self.speed.regime
 
     def __str__(self) -> str:
         return block(self)
@@ -152,7 +162,7 @@ def predict(
     scene = Scene.stated(
         sheet, wave, alpha, load, friction, slip_speed, growth_law=growth_law, area=area
     )
-    require(THEORY, scene)
+    THEORY.require(scene)
     tolerance = Tolerance(rtol, atol).of_speed(scene.alpha, scene.unit)
     validation.choice("method", method, METHODS)
     with watched(progress, "predict"):

@@ -2,6 +2,7 @@
 
     sheetcrawl                                    examples and a list of commands
     sheetcrawl speed --growth "12 %"              the paper's sheet and wave, to 1 %
+    sheetcrawl explore                            a page with sliders
     sheetcrawl --alpha 0.25 --width 0.2 --json    the old spelling, the same as `sheetcrawl speed ...`
 
 Exit status: 0 if the tolerance is met, 1 if it is not or the answer cannot be written, 2 for bad

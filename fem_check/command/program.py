@@ -41,7 +41,8 @@ def _run(arguments: Sequence[str]) -> int:
         _complain(f"{word!r}: must follow an option, such as --growth; see sheetcrawl speed --help")
         return BAD_ARGUMENTS
     except (CycloptsError, ValueError) as problem:
-        _complain(str(problem))
+        for line in getattr(problem, "mistakes", (str(problem),)):  # of a scene file, all of them
+            _complain(line)
         return BAD_ARGUMENTS
     return found if isinstance(found, int) else MET
 

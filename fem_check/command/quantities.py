@@ -1,15 +1,13 @@
-"""Quantities with units as typed on the command line, and the scene that they define."""
+"""The question that the options ask, in the units that their quantities are in."""
 
-import re
-from dataclasses import dataclass
-from functools import cache
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from fem_check.answer.growth import alpha_of
 from fem_check.answer.units import Units
 from fem_check.command.options import Options
+from fem_check.files.quantities import KINDS, Quantity, read
 from linear_theory.friction.contact import Contact
 from linear_theory.scene.scene import Scene
 from linear_theory.sheet.rectangle import Sheet
@@ -19,13 +17,7 @@ from linear_theory.wave.travelling import SineWave, TravellingWave
 if TYPE_CHECKING:
     import pint
 
-NUMBER = re.compile(
-    r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?|[+-]?(?:nan|inf(?:inity)?))\s*(.*?)\s*", re.I
-)
-
-EXAMPLES = {"length": "40 mm", "time": "8 s", "speed": "0.1 mm/s", "share": "12 %"}
-BASES = {"length": "m", "time": "s", "speed": "m/s", "share": "dimensionless"}
-KINDS = {
+OPTIONS = {
     "length": "length",
     "width": "length",
     "thickness": "length",
@@ -34,22 +26,6 @@ KINDS = {
     "atol": "speed",
 }
 """Dimension of each option that has one."""
-
-
-@dataclass(frozen=True)
-class Quantity:
-    """A number with its unit (None for a plain number); name and text as on the command line."""
-
-    name: str
-    text: str
-    number: float
-    unit: "pint.Unit | None"
-
-    def into(self, unit: Any) -> float:
-        """The number converted to another unit of the same dimension; a plain number unchanged."""
-        if self.unit is None:
-            return self.number
-        return float(self.number * self.unit._REGISTRY.Quantity(1.0, self.unit).to(unit).magnitude)
 
 
 class Asked(NamedTuple):
@@ -68,11 +44,11 @@ def asked(options: Options) -> Asked:
     """The question posed by the options. Raises ValueError with the option, its value and a remedy."""
     given = {
         name: quantity(name, text, kind)
-        for name, kind in KINDS.items()
+        for name, kind in OPTIONS.items()
         if (text := getattr(options, name)) is not None
     }
     names = _common_units(given)
-    numbers = {name: _in(names, KINDS[name], one) for name, one in given.items()}
+    numbers = {name: _in(names, OPTIONS[name], one) for name, one in given.items()}
     sheet = _sheet(numbers, names is not None, options.poisson)
     wave = _wave(options, numbers.get("period", 1.0))
     alpha, law = _alpha(options, wave, sheet), options.growth_law
@@ -83,21 +59,11 @@ def asked(options: Options) -> Asked:
 
 
 def quantity(name: str, text: str, kind: str) -> Quantity:
-    """A number and its unit. Raises ValueError for anything else, and for a unit of wrong dimension."""
-    option = f"--{name.replace('_', '-')}"
-    example = f"must be a {kind} such as '{EXAMPLES[kind]}'"
-    parts = NUMBER.fullmatch(text)
-    if parts is None:
-        raise ValueError(f"{option} {text!r}: {example}, or a plain number")
-    number, unit_text = float(parts[1]), parts[2]
-    if not unit_text:
-        return Quantity(option, text, number, None)
-    unit = _unit(unit_text)
-    if unit is None:
-        raise ValueError(f"{option} {text!r}: {unit_text!r} is not a known unit; {example}")
-    if not unit.is_compatible_with(_unit(BASES[kind])):
-        raise ValueError(f"{option} {text!r}: is not a {kind}; {example}")
-    return Quantity(option, text, number, unit)
+    """A number and its unit. Raises ValueError for anything else, and for a unit of something else."""
+    try:
+        return read(text, kind)
+    except ValueError as problem:
+        raise ValueError(f"{_option(name)} {text!r}: {problem}") from None
 
 
 def share(name: str, text: str) -> float:
@@ -106,21 +72,8 @@ def share(name: str, text: str) -> float:
     return found.into("dimensionless")
 
 
-@cache
-def _registry() -> "pint.UnitRegistry[Any]":
-    import pint  # here: it takes a quarter of a second, and only quantities with units need it
-
-    return pint.UnitRegistry(cache_folder=None)
-
-
-def _unit(text: str) -> "pint.Unit | None":
-    """The unit of that name; None if there is none."""
-    import pint
-
-    try:
-        return _registry().parse_units(text.replace("%", "percent"))
-    except (pint.PintError, AttributeError, ValueError, TypeError, SyntaxError, KeyError):
-        return None
+def _option(name: str) -> str:
+    return f"--{name.replace('_', '-')}"
 
 
 def _common_units(given: dict[str, Quantity]) -> "tuple[pint.Unit, pint.Unit] | None":
@@ -128,17 +81,18 @@ def _common_units(given: dict[str, Quantity]) -> "tuple[pint.Unit, pint.Unit] | 
 
     Raises ValueError if some are plain and others are not.
     """
-    named = [one for one in given.values() if one.unit is not None]
+    named = [(name, one) for name, one in given.items() if one.unit is not None]
     if not named:
         return None
-    for name, kind in KINDS.items():
+    first = f"{_option(named[0][0])} {named[0][1].text!r}"
+    for name, kind in OPTIONS.items():
         needed, one = name in ("length", "period"), given.get(name)
         if (one is None and needed) or (one is not None and one.unit is None):
-            option = f"--{name.replace('_', '-')}"
+            option = _option(name)
             what = option if one is None else f"{option} {one.text!r}"
             raise ValueError(
-                f"{what}: needs a unit beside {named[0].name} {named[0].text!r}, as in {option} "
-                f"'{EXAMPLES[kind]}'; or give plain numbers only, in units of the sheet"
+                f"{what}: needs a unit beside {first}, as in {option} '{KINDS[kind].example}'; or give "
+                "plain numbers only, in units of the sheet"
             )
     length, period = given["length"].unit, given["period"].unit
     assert length is not None

@@ -1,22 +1,25 @@
-"""`sheetcrawl speed`: calls `predict` and prints the answer in the form requested."""
+"""`sheetcrawl speed`: has the question answered, and tells the answer as the options want it."""
 
 import json
-import math
 import shutil
 import sys
 import warnings
-from typing import Any
+from functools import partial
+from pathlib import Path
 
 from fem_check.answer.block import block, why
+from fem_check.answer.record import record
 from fem_check.answer.units import Units
 from fem_check.choice.prediction import Prediction, predict
 from fem_check.command.files import check_files
 from fem_check.command.options import Options
 from fem_check.command.quantities import Asked, asked
+from fem_check.command.scenes import answered, asked_by_file
 from fem_check.command.status import MET, MISSED
 from fem_check.command.text import printable
 from fem_check.command.waiting import Waiting
 from linear_theory.common.errors import SheetcrawlError
+from linear_theory.common.progress import Report
 
 WIDEST = 100
 """Largest width of the answer, in columns."""
@@ -24,30 +27,38 @@ WIDEST = 100
 HINTS = "sheetcrawl examples", "--why"
 
 
-def speed(options: Options) -> int:
-    """Print the answer, return the exit status. Raises ValueError for bad options, before any work."""
+def speed(options: Options, path: Path | None = None) -> int:
+    """Answer the options, or a scene file; the exit status.
+
+    Raises ValueError for bad options and files, before any work.
+    """
     if options.json and options.csv:
         raise ValueError("--json: must not be combined with --csv")
     check_files(options)
-    question = asked(options)
+    if path is None:
+        question = asked(options)
+        units, solve = question.units, partial(_predicted, question, options.method)
+    else:
+        file = asked_by_file(path, options)
+        units, solve = file.units, partial(answered, file)
     with warnings.catch_warnings(record=True, action="always") as seen, Waiting() as waiting:
         try:
-            found = _predicted(question, options.method, waiting)
+            found = solve(waiting.report)
         except SheetcrawlError as problem:
             if isinstance(problem, ValueError):
                 raise
             print(f"sheetcrawl: {' '.join(str(problem).split())}", file=sys.stderr)
             return MISSED
-    print(_told(found, question.units, options))
+    print(_told(found, units, options))
     for warning in seen:
         print(f"sheetcrawl: warning: {warning.message}", file=sys.stderr)
-    _draw(found, question.units, options)
+    _draw(found, units, options)
     return MET if found.converged else MISSED
 
 
-def _predicted(question: Asked, method: str, waiting: Waiting) -> Prediction:
+def _predicted(question: Asked, method: str, report: Report) -> Prediction:
     rtol, atol = question.rtol, question.atol
-    return predict(question.scene, rtol=rtol, atol=atol, method=method, progress=waiting.report)
+    return predict(question.scene, rtol=rtol, atol=atol, method=method, progress=report)
 
 
 def _told(found: Prediction, units: Units | None, options: Options) -> str:
@@ -61,31 +72,6 @@ def _told(found: Prediction, units: Units | None, options: Options) -> str:
     if options.why:
         text = f"{text}\n{why(found, width)}"
     return printable(f"\n{text}\n", sys.stdout)
-
-
-def record(found: Prediction, units: Units | None) -> dict[str, Any]:
-    """The answer for programs, in the units of the question; unknown values are None."""
-    speed = found.speed
-    numbers = {
-        "mean": found.mean,
-        "error": found.error,
-        "numerical_error": speed.error,
-        "model_error": speed.model_error,
-        "slip_ratio": speed.slip_ratio,
-        "seconds": found.seconds,
-        "alpha": found.scene.alpha,
-    }
-    return {
-        **{name: value if math.isfinite(value) else None for name, value in numbers.items()},
-        "unit": units.speed if units else "length/time",
-        "converged": found.converged,
-        "regime": speed.regime,
-        "level": found.level,
-        "reason": found.reason,
-        "model": speed.model,
-        "left_out": list(found.left_out),
-        "reach": speed.reach,
-    }
 
 
 def table(found: Prediction, units: Units | None) -> str:

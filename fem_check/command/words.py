@@ -2,7 +2,10 @@
 
 from collections.abc import Sequence
 
-COMMANDS = ("speed", "examples")
+COMMANDS = (
+    *("speed", "run", "show", "movie", "plot", "paraview"),
+    *("new", "check", "schema", "explore", "examples"),
+)
 
 OWN = ("--help", "--version", "--install-completion")
 """Options of the program itself; any other option without a command implies `speed`."""
@@ -21,7 +24,7 @@ def tidied(arguments: Sequence[str]) -> list[str]:
     if words and words[0].startswith("--") and words[0].split("=")[0] not in OWN:
         words.insert(0, "speed")
     if words and not words[0].startswith("-") and words[0] not in COMMANDS:
-        raise ValueError(f"{words[0]!r} is not a command: must be {' or '.join(COMMANDS)}")
+        raise ValueError(f"{words[0]!r} is not a command: must be {_listed(COMMANDS)}")
     groups: list[list[str]] = [[]]
     for word in words:
         if word.startswith("--"):
@@ -29,6 +32,10 @@ def tidied(arguments: Sequence[str]) -> list[str]:
         groups[-1].append(word)
     last = {_name(group): group for group in groups}  # a repeated name replaces the earlier one
     return [word for name in _by_last(groups) for word in _attached(last[name])]
+
+
+def _listed(names: Sequence[str]) -> str:
+    return f"{', '.join(names[:-1])} or {names[-1]}"
 
 
 def _by_last(groups: list[list[str]]) -> list[str]:

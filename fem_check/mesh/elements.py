@@ -7,9 +7,10 @@ from typing import Any
 
 import numpy as np
 import skfem
+from numpy.typing import NDArray
 
 from fem_check.mesh.checks import check_fits, check_mesh
-from fem_check.mesh.shown import MeshShown
+from fem_check.mesh.shown import NAMES, MeshShown
 from linear_theory.common import validation
 from linear_theory.common.shown import Value
 from linear_theory.sheet.rectangle import Sheet
@@ -27,7 +28,7 @@ LONGEST, MOST_CELLS = 256, 100_000
 longer than wide, like the growth field. And of elements of a sheet, whose matrix factor must fit in
 memory."""
 
-CALL = re.compile(r"(Element\w+)\((\d*)\)")
+CALL = re.compile(r"(Element\w+)\((\d{0,2})\)")
 """Form of an element in plain data."""
 
 
@@ -78,17 +79,55 @@ def from_data(data: Mapping[str, Any]) -> dict[str, Any]:
     Raises ValueError for invalid data of a mesh or an element.
     """
     cells, mesh, element = (data.get(name) for name in ("cells", "mesh", "element"))
-    found = {} if cells is None else {"cells": tuple(cells)}
+    found = {} if cells is None else {"cells": cells}
     if mesh is not None:
-        vertices, elements = np.array(mesh["vertices"], float).T, np.array(mesh["elements"]).T
-        kind = skfem.MeshTri if len(elements) == 3 else skfem.MeshQuad
-        found["mesh"] = kind(np.ascontiguousarray(vertices), np.ascontiguousarray(elements))
+        found["mesh"] = _mesh(mesh)
     if element is not None:
-        called = CALL.fullmatch(str(element))
-        if called is None or not hasattr(skfem, called[1]):
-            raise ValueError(f"element = {element!r}: must be a scikit-fem element with (), as text")
-        found["element"] = getattr(skfem, called[1])(*map(int, filter(None, [called[2]])))
+        found["element"] = _element(element)
     return found
+
+
+def _mesh(data: Any) -> Any:
+    """The mesh of vertices (n, 2) and elements (m, 3 or 4), indices of vertices."""
+    named = isinstance(data, Mapping) and data.get("type") == MeshShown.__name__
+    if not named or sorted(data) != ["elements", "type", "vertices"]:
+        raise ValueError(
+            f"mesh = {validation.shown(data)}: must have vertices, elements and the type "
+            f"{MeshShown.__name__!r}, and no other keys"
+        )
+    vertices = _table("mesh.vertices", data["vertices"], (2,))
+    elements = _table("mesh.elements", data["elements"], tuple(NAMES))
+    wrong = (elements != np.floor(elements)) | (elements < 0) | (elements >= len(vertices))
+    if wrong.any():
+        raise ValueError(
+            f"mesh.elements contains {elements[wrong][0]:g}: must be indices of the {len(vertices)} "
+            f"vertices, 0 to {len(vertices) - 1}"
+        )
+    kind = skfem.MeshTri if elements.shape[1] == 3 else skfem.MeshQuad
+    parts = vertices.T, elements.T.astype(int)
+    return kind(*map(np.ascontiguousarray, parts))
+
+
+def _table(name: str, value: Any, columns: tuple[int, ...]) -> NDArray[np.float64]:
+    """Numbers in rows of one of these lengths."""
+    table = validation.real_array(name, value)
+    if table.ndim != 2 or not len(table) or table.shape[1] not in columns:
+        wanted = " or ".join(map(str, columns))
+        raise ValueError(f"{name} has shape {table.shape}: must be rows of {wanted} numbers")
+    return table
+
+
+def _element(call: Any) -> Any:
+    """The element of scikit-fem that is constructed by this call."""
+    parts = CALL.fullmatch(call) if isinstance(call, str) else None
+    kind = getattr(skfem, parts[1], None) if parts else None
+    refused = f"element = {validation.shown(call)}: must be a scikit-fem element with (), as text"
+    if parts is None or not isinstance(kind, type) or not issubclass(kind, skfem.Element):
+        raise ValueError(refused)
+    try:
+        return kind(*map(int, filter(None, [parts[2]])))
+    except (TypeError, ValueError) as error:
+        raise ValueError(f"{refused} ({error})") from None
 
 
 def default_cells(drive: Drive, planar: bool) -> tuple[int, int]:

@@ -5,7 +5,7 @@ the frame of the ground, where the centre of a speed starts at that of the undef
 """
 
 from collections.abc import Iterator
-from typing import NamedTuple, Protocol
+from typing import NamedTuple, Protocol, runtime_checkable
 
 import numpy as np
 from numpy.typing import NDArray
@@ -38,6 +38,7 @@ class Course(NamedTuple):
     shown: tuple[float, float]
 
 
+@runtime_checkable
 class Moving(Protocol):
     """The interface used by `panels` and `movies`."""
 

@@ -118,16 +118,16 @@ def plot(
     if what is None:
         if ax is not None:
             raise ValueError(f"what = None: must be one of {', '.join(panels(moving))} if ax is given")
-        return _draw_figure(panels(moving), moving, units, phase, periods)
+        return draw_figure(panels(moving), moving, units, phase, periods)
     _check_panel(moving, validation.choice("what", what, tuple(PANELS)))
     if ax is None:
-        return _draw_figure((what,), moving, units, phase, periods)[0]
+        return draw_figure((what,), moving, units, phase, periods)[0]
     validation.instance("ax", ax, Axes, "as from matplotlib's subplots()")
     _draw(ax, what, moving, units, phase, periods)
     return ax
 
 
-def _draw_figure(
+def draw_figure(
     names: tuple[str, ...], moving: Moving, units: Units, phase: float, periods: int | None
 ) -> NDArray[Any]:
     """A figure of some panels; its axes, (panels,)."""
@@ -144,6 +144,8 @@ def moving_of(result: Any) -> Moving:
         result = result.speed
     if isinstance(result, CrawlSpeed):
         return Crawling(result)
+    if isinstance(result, Moving):  # a recorded motion
+        return result
     hint = "use crawl_speed, field_speed, cycle_speed, predict or simulate"
     return Simulated(validation.instance("result", result, Trajectory, hint))
 

@@ -1,1 +1,1 @@
-"""The nonlinear sheet: a Koiter shell on scikit-fem elements, of the effects that a scene names."""
+"""The nonlinear sheet: a Koiter shell on scikit-fem elements, with the effects named by a scene."""

@@ -27,9 +27,15 @@ def _moves_in_time(scene: Scene) -> str:
     return ""
 
 
+def _rests_otherwise(scene: Scene) -> str:
+    if scene.states_contact and not any(effect.law for effect in scene.effects):
+        return "a contact that is not given by the effects Friction and Gravity or Ground"
+    return ""
+
+
 CYCLE = Level("cycle_speed(scene)", _of_a_cycle)
 
-STEPPED = Level("simulate(scene)", _of_a_step, (_moves_in_time,))
+STEPPED = Level("simulate(scene)", _of_a_step, (_moves_in_time, _rests_otherwise))
 
 LEVELS = (THEORY, CYCLE, STEPPED)
 
@@ -41,11 +47,6 @@ WORDS: Mapping[type, str] = {
     Inertia: "inertia",
 }
 """Effects besides stretching, in words for people."""
-
-
-def require(level: Level, scene: Scene) -> None:
-    """Raise ValueError where the level cannot represent part of the scene."""
-    level.require(scene, LEVELS)
 
 
 def left_out(named: Collection[type]) -> tuple[str, ...]:

@@ -1,4 +1,4 @@
-"""How deep a sheet lies in its ground before it grows."""
+"""The depth to which a sheet sinks into its ground before growth."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,9 +11,9 @@ Array = NDArray[np.float64]
 
 
 def laid_down(model: ShellModel) -> Array:
-    """Unknowns (size,) of the undeformed sheet, lowered on its ground to where that carries the weight.
+    """Unknowns (size,) of the undeformed sheet, lowered to where the ground carries its weight.
 
-    On uneven ground it follows the height at every point. Without ground: where it was made.
+    On uneven ground it follows the height at every point. Without ground it is not moved.
     """
     ground, gravity = model.find(Ground), model.find(Gravity)
     if ground is None:
@@ -22,7 +22,7 @@ def laid_down(model: ShellModel) -> Array:
 
     def jets(x: Array, y: Array) -> Array:
         out = np.zeros((6, 3, x.size))
-        if height is not None:  # its derivatives come as x, y, xx, yy, xy, as those of a surface do
+        if height is not None:  # derivatives in the order x, y, xx, yy, xy, as for a surface
             out[:, 2] = height(x, y)
         out[0, 2] -= depth
         return out

@@ -1,4 +1,4 @@
-"""What the sheet is made of."""
+"""The material of the sheet."""
 
 import math
 from dataclasses import dataclass
@@ -13,12 +13,12 @@ from linear_theory.scene.scene import Scene
 Array = NDArray[np.float64]
 
 SAME = 1e-12
-"""Difference of two descriptions of one material that is roundoff."""
+"""Relative difference below which two values of a material parameter count as equal."""
 
 
 @dataclass(frozen=True)
 class Material(Value):
-    """An isotropic sheet of Young modulus `young`, thickness h and Poisson ratio nu.
+    """An isotropic sheet with Young modulus `young`, thickness h and Poisson ratio nu.
 
     thickness in units of length, young in force per area (1 by default: the unit of stress).
     Raises ValueError for thickness or young <= 0 and for a Poisson ratio outside (-1, 1/2].
@@ -63,13 +63,13 @@ def elastic_tensor(metric: Array, poisson: float) -> Array:
 
 
 def check_materials(scene: Scene) -> None:
-    """Raise ValueError where effects of a scene have different materials, or not that of the sheet."""
+    """Raise ValueError if the materials of effects differ from each other or from the sheet."""
     materials = [effect.material for effect in scene.effects if hasattr(effect, "material")]
     for material in materials:
         if material != materials[0]:
             raise ValueError(f"effects: materials {materials[0]} and {material} must be the same")
         for name in ("thickness", "poisson"):
             mine, theirs = getattr(material, name), getattr(scene.sheet, name)
-            none = 0.0 if name == "thickness" else SAME  # a length has no size but its own
+            none = 0.0 if name == "thickness" else SAME  # a length has no natural scale
             if not math.isclose(mine, theirs, rel_tol=SAME, abs_tol=none):
-                raise ValueError(f"effects: material has {name} = {mine:g}, the sheet has {theirs:g}")
+                raise ValueError(f"effects: material has {name} = {mine:g}, must be {theirs:g} (sheet)")

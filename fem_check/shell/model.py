@@ -1,7 +1,7 @@
-"""A scene in finite elements: its mesh and unknowns, its rest state at any time, its potential.
+"""A scene in finite elements: mesh and unknowns, rest state at any time, potential.
 
-What the scene does not name is neither built nor evaluated. Where no effect needs the third component
-the model is planar: two displacement components on continuous elements and first derivatives only.
+Effects that the scene does not name are neither built nor evaluated. If no effect requires the third
+component the model is planar: two displacement components on continuous elements, first derivatives.
 """
 
 from collections.abc import Mapping, Sequence
@@ -28,7 +28,7 @@ Array = NDArray[np.float64]
 
 
 class ShellModel(Shown):
-    """What a scene is made of in finite elements; made when first asked for and kept.
+    """The finite-element model of a scene; its parts are built on first use and kept.
 
     >>> from fem_check.shell.model import ShellModel
     >>> from linear_theory import Scene, Sheet, SineWave
@@ -48,12 +48,12 @@ class ShellModel(Shown):
         return {"scene": self.scene}
 
     def find(self, kind: type) -> Any:
-        """The effect of that class, None where there is none."""
+        """The effect of that class; None if there is none."""
         return next((effect for effect in self.effects if isinstance(effect, kind)), None)
 
     @property
     def static_effects(self) -> tuple[Effect, ...]:
-        """Those that have a meaning without a velocity."""
+        """Effects that are defined without a velocity."""
         return tuple(effect for effect in self.effects if effect.is_static)
 
     @cached_property
@@ -75,7 +75,7 @@ class ShellModel(Shown):
         return np.asarray(scene.drive.value(x, y, t))
 
     def rest(self, t: float, amplitude: float = 1.0, region: Region | None = None) -> RestState:
-        """Rest state at time t of `amplitude` times the wave, at interior points unless given."""
+        """Rest state at time t for `amplitude` times the wave, by default at interior points."""
         region = self.discretisation.interior if region is None else region
         x, y = region.parameters.reshape(2, -1)
         return grown_state(region, amplitude * self.growth(t, x, y), self.scene.growth)
@@ -86,13 +86,13 @@ class ShellModel(Shown):
         step: Step | None = None,
         effects: Sequence[Effect] | None = None,
     ) -> Potential:
-        """The sum of the effects (or of some of them) with that rest state and step."""
+        """The potential of all (or the given) effects with that rest state and step."""
         chosen = self.effects if effects is None else effects
         return Potential(self.discretisation, chosen, rest, step)
 
 
 def _quadrature(mesh: Any, element: Any) -> int | None:
-    """p + 1 points along each side of a Lagrange square; otherwise the default."""
+    """Quadrature degree: p + 1 points along each side for Lagrange squares; otherwise the default."""
     if mesh.t.shape[0] != 4 or is_global(element):
         return None
     return 2 * round(float(np.sqrt(element.maxdeg))) + 1

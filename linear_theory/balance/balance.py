@@ -44,6 +44,7 @@ _MARGIN = 1.5  # mean over variation of w on a cell, above which Gauss quadratur
 _LINEAR = 1e-8  # alpha below which q_1 is the zero of a linear function
 _NEAR = 0.3  # after a Newton step s the error is some s^2 over the speed of the sheet: 10 would do
 _REST = 1e-6  # speeds below this share of the mean speed count as rest
+_VISCOUS = 1e150  # a width as good as infinite, whose square is a number
 _VELOCITY, _AREA, _RATE, _ARMS = slice(0, 2), 2, 3, slice(4, 6)
 """Channels of the values at a point: v_x, v_y, area, e; x, y from the centre if the sheet may turn;
 then v_2 and u if there are any."""
@@ -305,7 +306,7 @@ class Balance:
         spread = ((w - centre) ** 2).sum(1).max(axis=(-2, -1))
         size = (centre**2).sum(1)[..., 0, 0]
         # tanh(r/s)/r is smooth up to r = i pi s/2
-        rough = size + (np.pi / 2 * self._law.width) ** 2 < _MARGIN**2 * spread
+        rough = size + (np.pi / 2 * min(self._law.width, _VISCOUS)) ** 2 < _MARGIN**2 * spread
         across = ((w[..., 2, 1] - w[..., 0, 1]) ** 2).sum(1)
         along = ((w[..., 1, 2] - w[..., 1, 0]) ** 2).sum(1)
         which = rough.argmax(0), np.arange(w.shape[2])

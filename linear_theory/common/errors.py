@@ -8,13 +8,18 @@
       UnresolvedError           too few phases for rapidly changing shapes          ArithmeticError
       SnapshotError             a snapshot from which a run cannot be continued     ValueError
       Unidentifiable            a value that cannot be identified by its content    ValueError
+      SceneFileError            a file from which no scene can be made              ValueError
+      NotRestorable             a part of a scene that plain data cannot hold       ValueError
+      Fault                     a friction law that contradicts itself             ValueError
 
     ViscousRegimeWarning        dry friction that acts as viscous                   UserWarning
     BeyondReachWarning          growth too large for the theory                     UserWarning
 
 ConvergenceError and UnstableError are defined in `fem_check.shell.statics.equilibrium`,
 NotPeriodicError and UnresolvedError in `fem_check.shell.cycle`, SnapshotError in
-`fem_check.shell.stepping.snapshot`, all others here. Bad arguments are a plain ValueError.
+`fem_check.shell.stepping.snapshot`, SceneFileError in `fem_check.files.mistakes`, NotRestorable in
+`linear_theory.scene.data`, Fault in `linear_theory.friction.trial`, all others here. Bad
+arguments are a plain ValueError.
 """
 
 from collections.abc import Callable

@@ -28,7 +28,8 @@ class Tolerance(Value):
             object.__setattr__(self, "atol", validation.positive("atol", self.atol))
 
     def of_speed(self, alpha: float, unit: float) -> "Tolerance":
-        """The tolerance with atol = 1e-3 rtol alpha^2 L/T unless given; unit: L/T."""
+        """The tolerance with atol = 1e-3 rtol alpha^2 L/T unless given; unit: L/T, > 0."""
+        validation.positive("unit", unit)
         return Tolerance(self.rtol, validation.absolute_tolerance(self.atol, self.rtol, alpha, unit))
 
     def allowed(self, size: float) -> float:

@@ -13,6 +13,11 @@ from numpy.typing import ArrayLike, NDArray
 SMALLEST_RTOL = 1e-13
 """Smallest relative tolerance that can be verified in double precision."""
 
+LARGEST_INTEGER = 2**53
+"""Up to which all integers are exact floats."""
+
+MOST_WAVES = 10**9
+"""Waves on a sheet, so that wave numbers of all harmonics are integers of 64 bits."""
 
 DIMENSIONLESS = ("", "dimensionless", "1")
 """Names of the dimensionless unit in unit libraries."""
@@ -24,7 +29,12 @@ def shown(value: object) -> str:
     """The repr of `value` on one line, shortened, for a message."""
     if isinstance(value, type):
         return f"the class {value.__name__}"
-    text = " ".join((repr if isinstance(value, str) else reprlib.repr)(value).split())
+    try:
+        text = " ".join((repr if isinstance(value, str) else reprlib.repr)(value).split())
+    except ValueError:  # Python writes no integers of more than 4300 digits
+        return (
+            "an integer too long to be shown" if isinstance(value, int) else "numbers too long to show"
+        )
     return text if len(text) <= 100 else f"{text[:97]}..."
 
 
@@ -120,7 +130,7 @@ def poisson(value: object) -> float:
 
 
 def integer(name: str, value: object, minimum: int | None = None) -> int:
-    """`value` as an integer, at least `minimum`; 2.0 is refused, numpy integers are not."""
+    """`value` as an integer, at least `minimum`, exact as a float; 2.0 is refused, numpy's are not."""
     try:
         if isinstance(value, bool):
             raise TypeError
@@ -128,15 +138,19 @@ def integer(name: str, value: object, minimum: int | None = None) -> int:
     except TypeError:
         raise ValueError(f"{name} = {shown(value)}: must be an integer") from None
     if minimum is not None and number < minimum:
-        raise ValueError(f"{name} = {number}: must be >= {minimum}")
+        raise ValueError(f"{name} = {shown(number)}: must be >= {minimum}")
+    if abs(number) > LARGEST_INTEGER:
+        raise ValueError(f"{name} = {shown(number)}: must be at most {LARGEST_INTEGER} in size")
     return number
 
 
 def wave_count(value: object) -> int:
-    """A number of waves on the sheet: any integer but 0 (negative runs towards -y)."""
+    """A number of waves on the sheet: an integer up to MOST_WAVES, not 0 (negative runs towards -y)."""
     number = integer("count", value)
     if number == 0:
         raise ValueError("count = 0: must be a non-zero integer")
+    if abs(number) > MOST_WAVES:
+        raise ValueError(f"count = {number}: must be from -{MOST_WAVES} to {MOST_WAVES}")
     return number
 
 
@@ -165,7 +179,9 @@ def absolute_tolerance(atol: object, rtol: float, alpha: float, unit: float) -> 
 def choice(name: str, value: object, allowed: Collection[str]) -> str:
     """`value`, which must be one of the allowed names."""
     if not isinstance(value, str) or value not in allowed:
-        raise ValueError(f"{name} = {shown(value)}: must be one of {', '.join(map(repr, allowed))}")
+        raise ValueError(
+            f"{name} = {shown(value)}: must be one of {', '.join(repr(str(a)) for a in allowed)}"
+        )
     return value
 
 

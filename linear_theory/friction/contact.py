@@ -8,8 +8,10 @@ from linear_theory.friction.law import FrictionLaw
 from linear_theory.friction.laws import Coulomb, friction_law
 from linear_theory.friction.load import Load
 
+DRY = Coulomb()
 
-@dataclass(frozen=True)
+
+@dataclass(frozen=True, init=False)
 class Contact(Value):
     """The normal load, the law of friction, and the pull of a slope.
 
@@ -22,14 +24,19 @@ class Contact(Value):
     Contact(load=grown, friction=Tanh(slip_speed=0.01), slope=0)
     """
 
-    load: Load = Load.CURRENT
-    friction: FrictionLaw = Coulomb()  # noqa: RUF009 - a frozen value
-    slope: float = 0.0
+    load: Load
+    friction: FrictionLaw
+    slope: float
 
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "load", Load.named(self.load, tuple(Load)))
-        object.__setattr__(self, "friction", friction_law(self.friction))
-        object.__setattr__(self, "slope", validation.real("slope", self.slope))
+    def __init__(
+        self,
+        load: Load | str = Load.CURRENT,
+        friction: FrictionLaw | str = DRY,
+        slope: float = 0.0,
+    ) -> None:
+        object.__setattr__(self, "load", Load.named(load, tuple(Load)))
+        object.__setattr__(self, "friction", friction_law(friction))
+        object.__setattr__(self, "slope", validation.real("slope", slope))
 
     @classmethod
     def named(

@@ -1,9 +1,10 @@
 """What a law of friction is: a convex potential of the velocity against the ground.
 
 The force on a point that slides with velocity v is -mu N times the gradient of the potential, N its
-normal load. All is written over velocity vectors, so that a law may depend on direction: line, theory
-and shell ask for nothing else. The coefficient mu cancels in the balance of a sheet that friction does
-not deform.
+normal load. All is written over velocity vectors, so that a law may depend on direction: theory and
+shell ask for nothing else. A body on a line (`line_balance`) takes the laws that have names only, which
+it integrates exactly. The coefficient mu cancels in the balance of a sheet that friction does not
+deform.
 """
 
 import math
@@ -31,7 +32,9 @@ class FrictionLaw(Value, ABC):
     along the ground. Directions are those of x and y, which a sheet is taken not to turn away from by
     much. At rest potential and force are 0, and the tangent of a law that has a width is finite. A new
     law is a frozen dataclass that inherits from this class, or from `Isotropic`. name: by which it is
-    called. Raises ValueError for a slip speed that is not positive.
+    called. Where a scene takes it in, its methods are compared with each other (see `trial`), so that
+    none is wrong unnoticed: a ValueError names the method and its numbers. Raises ValueError for a slip
+    speed that is not positive.
 
     >>> import numpy as np
     >>> from linear_theory import Coulomb, FrictionLaw, Tanh, Viscous
@@ -68,6 +71,11 @@ class FrictionLaw(Value, ABC):
     def regularised(self) -> bool:
         """Whether it stands for dry friction and has a width all the same."""
         return 0 < self.width < math.inf
+
+    @property
+    def limited(self) -> bool:
+        """Whether the force is at most mu N at any speed, as for all laws but the viscous one."""
+        return self.width < math.inf
 
     @property
     def words(self) -> str:

@@ -10,8 +10,12 @@ from numpy.typing import NDArray
 from linear_theory.common import validation
 from linear_theory.friction.isotropic import Isotropic, IsotropicResponse
 from linear_theory.friction.law import FrictionLaw
+from linear_theory.friction.trial import check_law
 
 Array = NDArray[np.float64]
+
+EXTREME = 1e100
+"""Bound of the speed of viscous friction and of its inverse, so that squares of forces are numbers."""
 
 
 @dataclass(frozen=True)
@@ -53,8 +57,8 @@ class Coulomb(Isotropic):
 class Tanh(Isotropic):
     """Regularised dry friction, f = tanh(r/slip_speed) (eq. 3).
 
-    slip_speed: length per time, > 0, else ValueError. Small against the speeds it is dry friction,
-    large against them viscous.
+    slip_speed: length per time, > 0, else ValueError. Small against the speeds it is
+    dry friction, large against them viscous.
     """
 
     slip_speed: float
@@ -124,8 +128,8 @@ class Tanh(Isotropic):
 class Viscous(Isotropic):
     """f = r/speed.
 
-    speed: at which the force is mu N, length per time, > 0, else ValueError. On level ground, for a
-    sheet that friction does not deform, it does not count.
+    speed: at which the force is mu N, length per time, from 1e-100 to 1e100, else ValueError. On level
+    ground, for a sheet that friction does not deform, it does not count.
     """
 
     speed: float = 1.0
@@ -133,7 +137,10 @@ class Viscous(Isotropic):
     width: ClassVar[float] = math.inf
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "speed", validation.positive("speed", self.speed))
+        speed = validation.positive("speed", self.speed)
+        if not 1 / EXTREME <= speed <= EXTREME:
+            raise ValueError(f"speed = {speed:g}: must be from {1 / EXTREME:g} to {EXTREME:g}")
+        object.__setattr__(self, "speed", speed)
 
     def speed_at(self, share: float) -> float:
         """See FrictionLaw."""
@@ -165,23 +172,33 @@ class Viscous(Isotropic):
 FRICTION_LAWS: dict[str, type[FrictionLaw]] = {law.name: law for law in (Coulomb, Tanh, Viscous)}
 
 
+def checked_law(law: FrictionLaw, components: int, argument: str = "friction") -> FrictionLaw:
+    """The law, once its methods are tried for velocities of so many components; those here need not be.
+
+    Raises ValueError as `trial.check_law` does.
+    """
+    if type(law) not in FRICTION_LAWS.values():
+        check_law(law, components, argument)
+    return law
+
+
 def friction_law(
     friction: object = "coulomb", slip_speed: object = None, argument: str = "friction"
 ) -> FrictionLaw:
     """A law, or that of a name: "coulomb", "tanh" with its slip_speed, or "viscous".
 
-    argument: its name, for messages. Raises ValueError for anything else, and for a slip_speed that is
-    missing or of no use.
+    argument: its name, for messages. Raises ValueError for anything else, for a slip_speed that is
+    missing or of no use, and for a law of one's own whose methods contradict each other in the plane.
     """
     if isinstance(friction, FrictionLaw):
         if slip_speed is not None:
             raise ValueError(f"slip_speed = {slip_speed!r}: must be None beside {friction!r}")
-        return friction
+        return checked_law(friction, 2, argument)
     name = validation.choice(argument, friction, FRICTION_LAWS)
     if name == Tanh.name:
         if slip_speed is None:
             raise ValueError(f"slip_speed = None: must be > 0 for {argument} = 'tanh'")
-        return Tanh(validation.positive("slip_speed", slip_speed))
+        return Tanh(slip_speed)  # type: ignore[arg-type]  # checked there
     if slip_speed is not None:
         raise ValueError(f"slip_speed = {slip_speed!r}: only {argument} = 'tanh' has one")
     return Coulomb() if name == Coulomb.name else Viscous()

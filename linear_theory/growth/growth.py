@@ -25,7 +25,10 @@ class Reference(StrEnum):
         return cls(validation.choice(name, value, tuple(cls)))
 
 
-@dataclass(frozen=True)
+EXPONENTIAL = Exp()
+
+
+@dataclass(frozen=True, init=False)
 class Growth(Value):
     """Rest metric g(alpha c) A and rest curvature -beta c (eq. 4).
 
@@ -41,23 +44,38 @@ class Growth(Value):
     """
 
     alpha: float
-    law: GrowthLaw = Exp()  # noqa: RUF009 - a frozen value
-    curvature_coupling: float = 0.0
-    curvature: Reference = Reference.GROWN
-    energy_area: Reference = Reference.GROWN
+    law: GrowthLaw
+    curvature_coupling: float
+    curvature: Reference
+    energy_area: Reference
 
-    def __post_init__(self) -> None:
-        for name in ("alpha", "curvature_coupling"):
-            object.__setattr__(self, name, validation.real(name, getattr(self, name)))
-        object.__setattr__(self, "law", growth_law(self.law))
-        object.__setattr__(self, "curvature", Reference.named("curvature", self.curvature))
-        object.__setattr__(self, "energy_area", Reference.named("area", self.energy_area))
+    def __init__(
+        self,
+        alpha: float,
+        law: GrowthLaw | str = EXPONENTIAL,
+        curvature_coupling: float = 0.0,
+        curvature: Reference | str = Reference.GROWN,
+        energy_area: Reference | str = Reference.GROWN,
+    ) -> None:
+        for name, value in {"alpha": alpha, "curvature_coupling": curvature_coupling}.items():
+            object.__setattr__(self, name, validation.real(name, value))
+        object.__setattr__(self, "law", growth_law(law, "law"))
+        object.__setattr__(self, "curvature", Reference.named("curvature", curvature))
+        object.__setattr__(self, "energy_area", Reference.named("energy_area", energy_area))
 
     def metric(self, growth: ArrayLike) -> Array:
         """g at growth c, same shape. Raises ValueError where lengths would vanish."""
         c = validation.real_array("growth", growth)
         self.law.check(self.alpha, c)
-        return np.asarray(self.law.metric(self.alpha * c))
+        with np.errstate(over="ignore"):
+            found = np.asarray(self.law.metric(self.alpha * c))
+            overflow = not np.isfinite(found**2).all()
+        if overflow:
+            worst = self.alpha * c.flat[found.argmax()]
+            raise ValueError(
+                f"alpha = {self.alpha:g}: alpha c = {worst:g} stretches by more than a number can hold"
+            )
+        return found
 
     @property
     def energy_weight(self) -> float:

@@ -94,7 +94,8 @@ def _add_number(writer: Writer, value: Any) -> None:
     if writer.typed:
         writer.emit("type", type(value).__name__)
     if isinstance(value, float) or abs(int(value)) <= EXACT:
-        writer.emit("number", struct.pack("<d", float(value)))
+        number = float(value) if writer.typed else float(value) + 0.0  # -0.0 is 0.0
+        writer.emit("number", struct.pack("<d", number))
     else:
         writer.emit("integer", str(int(value)))
 

@@ -67,6 +67,11 @@ def contact_of(effects: Iterable[NamedEffect], components: int, said: Contact | 
         found = Contact(load) if said is None else replace(said, load=load)
     else:
         found = Contact(load, law, _slope(effects, rubs[0].mu))
+    if said is not None and said.slope and said.slope != found.slope:
+        raise ValueError(
+            f"slope = {said.slope:g}: must be 0 or {found.slope:g}, that of the scene's effects "
+            "(Gravity with its incline, and Friction)"
+        )
     if said is not None and said.load != load:
         raise ValueError(
             f"load = {str(said.load)!r}: must be None or {str(load)!r}, the load of the scene's effects"
@@ -100,6 +105,11 @@ def checked_effects(effects: Any) -> tuple[Any, ...]:
         if type(effect) in map(type, found[:i]):
             raise ValueError(f"effects: {type(effect).__name__} is named twice, must be named once")
     return found
+
+
+def in_order(effects: Iterable[NamedEffect]) -> list[NamedEffect]:
+    """The effects in one order, whatever theirs is: it has no meaning, but sums round differently."""
+    return sorted(effects, key=lambda e: (not e.stretches, not e.bends, type(e).__name__))
 
 
 def _is_effect(value: object) -> bool:

@@ -6,10 +6,14 @@ Effects are an open set: each states itself which part of it is beyond a level.
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from importlib import import_module
 from typing import Any
 
 from linear_theory.common.shown import Shown
 from linear_theory.scene.scene import Scene
+
+LEVELS = "fem_check.shell.abilities"
+"""The module that lists all levels, imported by name if one of them refuses a scene."""
 
 
 @dataclass(frozen=True)
@@ -31,12 +35,13 @@ class Level(Shown):
         found += [condition(scene) for condition in self.conditions]
         return [words for words in found if words]
 
-    def require(self, scene: Scene, others: "tuple[Level, ...]" = ()) -> None:
+    def require(self, scene: Scene) -> None:
         """Raise ValueError if the level cannot represent the scene, naming other levels that can."""
         objections = self.objections(scene)
         if not objections:
             return
-        able = [level.call for level in others if level is not self and not level.objections(scene)]
+        levels = import_module(LEVELS).LEVELS
+        able = [level.call for level in levels if level is not self and not level.objections(scene)]
         hint = f"{' and '.join(able)} can" if able else "no level can"
         raise ValueError(f"effects: {self.call} cannot represent {'; '.join(objections)}; {hint}")
 

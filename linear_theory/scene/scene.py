@@ -8,6 +8,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from importlib import import_module
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -19,9 +20,10 @@ from linear_theory.common.shown import Shown, in_words
 from linear_theory.friction.contact import Contact
 from linear_theory.friction.laws import friction_law
 from linear_theory.friction.load import Load
-from linear_theory.growth.growth import Growth
+from linear_theory.growth.growth import Growth, Reference
+from linear_theory.growth.laws import growth_law
 from linear_theory.identity import content_key
-from linear_theory.scene.effects import checked_effects, contact_of
+from linear_theory.scene.effects import checked_effects, contact_of, in_order
 from linear_theory.sheet.rectangle import Sheet
 from linear_theory.wave import arguments
 from linear_theory.wave.phases import phases
@@ -33,6 +35,9 @@ Array = NDArray[np.float64]
 
 ELEMENTS = "fem_check.mesh.elements"
 """The module for meshes, imported by name if a scene specifies cells, a mesh or an element."""
+
+FILES = "fem_check.files"
+"""The package that knows scene files, likewise."""
 
 GROWTH = {
     "alpha": "alpha",
@@ -109,7 +114,7 @@ class Scene(Shown):
             sheet=sheet,
             wave=wave,
             growth=_grown(growth, dict(zip(GROWTH.values(), said, strict=True))),
-            effects=tuple(effect.under(sheet) for effect in checked_effects(effects)),
+            effects=tuple(effect.under(sheet) for effect in in_order(checked_effects(effects))),
             _said=None if contact is None else validation.instance("contact", contact, Contact),
         )
         self._set(contact=contact_of(self.effects, self.components, self._said))
@@ -128,7 +133,10 @@ class Scene(Shown):
         >>> print(scene.but(alpha=0.1).growth.law)
         linear
         """
-        known = {"sheet": self.sheet, "wave": self.wave, "growth": self.growth, "contact": self._said}
+        known = {"sheet": self.sheet, "wave": self.wave, "contact": self._said}
+        if "growth" not in changes:
+            said = {name: getattr(self.growth, part) for name, part in GROWTH.items()}
+            known |= {name: changes.get(name, value) for name, value in said.items()}
         return Scene(**{**known, "effects": self.effects, **self._resolution(), **changes})
 
     def resting(
@@ -136,7 +144,8 @@ class Scene(Shown):
     ) -> "Scene":
         """The scene with the given load and friction, names or objects; None keeps its own.
 
-        Raises ValueError for unknown names, and if an effect of the scene says otherwise.
+        Raises ValueError for unknown names, and if an effect or the contact of the scene contradicts
+        them.
         """
         if load is None and friction is None and slip_speed is None:
             return self
@@ -145,6 +154,10 @@ class Scene(Shown):
         law = own.friction
         if friction is not None or slip_speed is not None:
             law = friction_law("tanh" if friction is None else friction, slip_speed)
+        if self._said is not None:
+            _check_agrees("load", asked, own.load)
+            _check_agrees("friction", law, own.friction)
+            return self
         return self.but(contact=Contact(asked, law))
 
     @property
@@ -166,6 +179,11 @@ class Scene(Shown):
     def unit(self) -> float:
         """Unit of speeds, length of the sheet per period."""
         return self.sheet.length / self.period
+
+    @property
+    def states_contact(self) -> bool:
+        """Whether its contact was given, not taken from effects or defaults."""
+        return self._said is not None
 
     @property
     def planar(self) -> bool:
@@ -239,7 +257,9 @@ class Scene(Shown):
         """The scene of a call: made from sheet, wave and alpha, or a complete scene.
 
         growth: growth_law and area; load, friction: names or objects, None for the defaults or those of
-        the scene. Raises ValueError as Scene does, and for a wave or alpha in addition to a scene.
+        the scene; a scene that states neither contact nor such effects takes those given. Raises
+        ValueError as Scene does, for a wave or alpha in addition to a scene, and for arguments that
+        contradict it.
         """
         if not isinstance(sheet, Scene):
             contact = Contact.named(load, friction, slip_speed)
@@ -251,15 +271,20 @@ class Scene(Shown):
                 raise ValueError(
                     f"{name} = {validation.shown(value)}: must be None if a scene is given"
                 )
-        named = {name: value for name, value in growth.items() if value is not None}
-        return (sheet.but(**named) if named else sheet).resting(load, friction, slip_speed)
+        for name, value in growth.items():
+            if value is not None:
+                own = getattr(sheet.growth, GROWTH[name])
+                asked = getattr(replace(sheet.growth, **{GROWTH[name]: value}), GROWTH[name])
+                _check_agrees(name, asked, own)
+        return sheet.resting(load, friction, slip_speed)
 
     @classmethod
     def from_dict(cls, data: Mapping[str, Any], **given: Any) -> "Scene":
         """The scene written by `to_dict`, also from JSON; given: arguments that replace its own.
 
-        Raises ValueError for data that are not those of a scene, and for waves and ground given by
-        functions, which cannot be stored as text: pass them, as wave=... or effects=...
+        Raises ValueError for data that differ in anything from what `to_dict` writes, and for functions
+        (waves, ground) and classes of one's own, which data cannot hold: pass the part that has them,
+        as wave=wave. Effects that are passed say what the load and the friction are.
 
         >>> import json
         >>> from linear_theory import Scene, Sheet, SineWave
@@ -267,11 +292,35 @@ class Scene(Shown):
         >>> print(Scene.from_dict(json.loads(json.dumps(scene.to_dict()))) == scene)
         True
         """
-        from linear_theory.scene.reading import arguments_of  # here: it imports this class
+        from linear_theory.scene.reading import scene_of  # here: it makes scenes
 
-        arguments, contact = arguments_of(data, given)
-        scene = cls(**{**arguments, **given})
-        return scene if contact is None or scene.contact == contact else scene.but(contact=contact)
+        return scene_of(cls, data, given)
+
+    @classmethod
+    def from_toml(cls, path: str | Path) -> "Scene":
+        """The scene of a scene file: see `sheetcrawl new`, which writes examples with comments.
+
+        Raises ValueError that lists all that is wrong in the file, each with its line, table and key.
+        """
+        scene: Scene = import_module(FILES).read(path).scene
+        return scene
+
+    def to_toml(self, path: str | Path) -> Path:
+        """Write a scene file that holds the same scene, in units of the sheet, and return its path.
+
+        Raises ValueError for a scene with functions in it, which no text holds, and OSError where the
+        file cannot be written.
+
+        >>> import tempfile
+        >>> from linear_theory import Scene, Sheet, SineWave
+        >>> scene = Scene(Sheet(width=0.3), SineWave(), alpha=0.25)
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     path = scene.to_toml(f"{folder}/strip.toml")
+        ...     print(Scene.from_toml(path) == scene)
+        True
+        """
+        written: Path = import_module(FILES).write(self, path)
+        return written
 
     def _title(self) -> str:
         effects = ", ".join(type(effect).__name__ for effect in self.effects)
@@ -326,7 +375,29 @@ def _grown(growth: Growth | None, said: dict[str, Any]) -> Growth:
     """The growth given as an object, or made from the separate arguments."""
     changes = {name: value for name, value in said.items() if value is not None}
     if growth is not None:
-        return replace(validation.instance("growth", growth, Growth), **changes)
+        validation.instance("growth", growth, Growth)
+        twice = [name for name, part in GROWTH.items() if part in changes]
+        if twice:
+            value = validation.shown(said[GROWTH[twice[0]]])
+            raise ValueError(f"{twice[0]} = {value}: must be None if growth is given")
+        return growth
     if "alpha" not in changes:
         raise ValueError("alpha = None: must be given, or growth = Growth(alpha, ...)")
+    names = {part: name for name, part in GROWTH.items()}
+    if "law" in changes:
+        changes["law"] = growth_law(changes["law"], names["law"])
+    if "energy_area" in changes:
+        changes["energy_area"] = Reference.named(names["energy_area"], changes["energy_area"])
     return Growth(**changes)
+
+
+def _check_agrees(name: str, given: object, own: object) -> None:
+    """Raise ValueError for an argument that contradicts the scene beside which it is given."""
+    if given != own:
+        raise ValueError(
+            f"{name} = {_quoted(given)}: must be None or that of the scene, {_quoted(own)}"
+        )
+
+
+def _quoted(value: object) -> str:
+    return repr(str(value)) if isinstance(value, str) else validation.shown(value)

@@ -148,15 +148,16 @@ def second_order(
     first = 0 and second is the limit of V/alpha^2. They carry no information on the range of validity
     in alpha.
 
-    sheet, wave: any wave; or a planar `Scene`, whose alpha is ignored. growth_law: the stretch, "exp"
-    exp(alpha c) by default, "linear" 1 + alpha c or "metric" (1 + 2 alpha c)^(1/2); area: reference
-    area of the elastic energy density, "grown" by default, or "undeformed"; load: normal load,
-    "current" by default, "grown" or "material" (see `Load`); friction: "coulomb" by default, "viscous",
-    or "tanh" with slip_speed. slip_speed: length per time *and unit |alpha|*, since its ratio to the
-    speeds stays fixed as alpha -> 0. `crawl_speed(order=2, alpha=a, slip_speed=s)` takes a speed and
-    uses s/|a| here. rtol: tolerance for `second`, whose error should be below max(rtol |second|, 0.01
-    rtol L/T); without mirror symmetry, for the norm of rigid_second (see `rigid.RigidNorm`). A missed
-    tolerance shows in the errors. The other coefficients are computed with the same cells and times.
+    sheet, wave: any wave; or a planar `Scene`, whose alpha only converts its slip speed. growth_law:
+    the stretch, "exp" exp(alpha c) by default, "linear" 1 + alpha c or "metric" (1 + 2 alpha c)^(1/2);
+    area: reference area of the elastic energy density, "grown" by default, or "undeformed"; load:
+    normal load, "current" by default, "grown" or "material" (see `Load`); friction: "coulomb" by
+    default, "viscous", or "tanh" with slip_speed. slip_speed: length per time *and unit |alpha|*, since
+    its ratio to the speeds stays fixed as alpha -> 0. `crawl_speed(order=2, alpha=a, slip_speed=s)`
+    takes a speed and uses s/|a| here. rtol: tolerance for `second`, whose error should be below
+    max(rtol |second|, 0.01 rtol L/T); without mirror symmetry, for the norm of rigid_second (see
+    `rigid.RigidNorm`). A missed tolerance shows in the errors. The other coefficients are computed with
+    the same cells and times.
 
     Raises ValueError for bad input.
 
@@ -175,7 +176,22 @@ def second_order(
     THEORY.require(scene)
     rtol = validation.tolerance(rtol)
     field = second_order_field(scene.sheet, scene.wave, scene.growth, field_tolerance(rtol))
-    return coefficients(field, leading_period(field, scene.contact, rtol), scene.contact, start)
+    own = isinstance(sheet, Scene) and friction is None and slip_speed is None
+    contact = _per_alpha(scene) if own else scene.contact
+    return coefficients(field, leading_period(field, contact, rtol), contact, start)
+
+
+def _per_alpha(scene: Scene) -> Contact:
+    """The contact with its friction law for speeds per unit |alpha|.
+
+    Raises ValueError for a law that has a slip speed where alpha = 0: there is no such ratio then.
+    """
+    law = scene.contact.friction
+    if scene.alpha == 0 and law.regularised:
+        raise ValueError(
+            f"alpha = 0: must not be 0 for {law.words}, whose slip speed counts per unit |alpha|"
+        )
+    return replace(scene.contact, friction=law.scaled(abs(scene.alpha) or 1.0))
 
 
 def field_tolerance(rtol: float) -> float:

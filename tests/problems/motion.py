@@ -280,7 +280,7 @@ PROBLEMS: tuple[Problem, ...] = family(
             "finer meshes, which have none",
             lambda a=alpha: cycle(a, (4, 8)),
             expected="refused",
-            limit=r"beyond the stability .* (is compressed to 0\.\d+, and wrinkles below 0\.6388)",
+            limit=r"beyond material stability .* (compressed to 0\.\d+, wrinkling starts at 0\.6388)",
             raises=UnstableError,
         )
         for percent, alpha in ((65, 0.5), (82, 0.6), (150, float(np.log(2.5))))
@@ -292,7 +292,7 @@ PROBLEMS: tuple[Problem, ...] = family(
         "shapes that repeat",
         snapping_cycle,
         expected="refused",
-        limit="snaps over",
+        limit="snap-through",
         raises=ConvergenceError,
     ),
     case(

@@ -314,7 +314,7 @@ PROBLEMS: tuple[Problem, ...] = family(
         "rectangles along the axes; triangles take any shape",
         oblique_rectangles,
         expected="refused",
-        limit="no rectangles along the axes",
+        limit="not axis-parallel rectangles",
     ),
     *(
         case(
@@ -367,7 +367,7 @@ PROBLEMS: tuple[Problem, ...] = family(
         "no point may turn inside out",
         inverted_start,
         expected="refused",
-        limit="turned inside out",
+        limit="initial state is inverted",
         raises=ConvergenceError,
     ),
     *(

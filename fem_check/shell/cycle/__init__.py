@@ -1,4 +1,4 @@
-"""Speed of a stiff sheet: static shapes of one period, then the friction balance of the theory."""
+"""Speed of a stiff sheet: static shapes over one period, then the friction balance."""
 
 from fem_check.shell.cycle.shapes import Shapes, cycle_of_shapes
 from fem_check.shell.cycle.speed import cycle_speed

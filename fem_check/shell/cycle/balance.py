@@ -1,8 +1,8 @@
-"""Friction of a cycle of shapes balanced through a period, and the errors of its mean.
+"""The friction balance of a cycle of shapes over a period, and the errors of its mean.
 
-For a sine wave V(t) is of order alpha, and its mean only of order alpha^2, because V half a period
-later is the opposite but for terms of order alpha^2. Therefore V(t) and V(t + T/2) are averaged first
-and the mean is taken over half a period.
+For a sine wave V(t) is of order alpha, but its mean only of order alpha^2, because V(t + T/2) = -V(t)
+up to terms of order alpha^2. Therefore V(t) and V(t + T/2) are averaged first, and the mean is then
+taken over half a period.
 """
 
 import math
@@ -28,30 +28,30 @@ from linear_theory.wave.protocol import PER_HARMONIC
 Array = NDArray[np.float64]
 
 TIMES_PER_PHASE = 8
-"""Most times of the grid for each phase of the cycle: V(t) has kinks where the shapes have none, but
-where more is asked for, the shapes are not resolved either."""
+"""Largest number of times per phase of the cycle: V(t) has kinks where the shapes have none, but if
+more times are needed, the shapes are not resolved either."""
 
 STATIC_NOISE = 1e-15
-"""Roundoff of V in L/T, whatever alpha: shapes are found to 1e-16 L. Measured on 2 x 4 to 8 x 16
-elements: 1e-16 to 6e-16, root mean square over the times."""
+"""Roundoff of V in L/T, independent of alpha, since shapes are accurate to 1e-16 L. Measured on 2 x 4
+to 8 x 16 elements: 1e-16 to 6e-16, root mean square over the times."""
 
 LOT = 24
-"""Times balanced together: bounds the memory."""
+"""Number of times per batch: limits the memory."""
 
 STICKING = 0.01
-"""Share of the sheet at rest that counts as sticking."""
+"""Fraction of the sheet at rest that counts as sticking."""
 
 TIME_SHARE, HIDDEN = 0.3, 0.1
-"""Share of the tolerance that the quadrature in time may take, and share of that up to which harmonics
-of the wave may go unseen by it."""
+"""Fraction of the tolerance allotted to the quadrature in time, and the fraction of that below which
+harmonics of the wave may alias."""
 
 
 class PairedPeriod(NamedTuple):
-    """Balanced motion through one period, V in length per time.
+    """Motion over one period from the friction balance, V in length per time.
 
-    grid: times of one quarter or half of the period; leading: (2, times, 3), V_x, V_y, Omega at the
+    grid: times of a quarter or half of the period; leading: (2, times, 3), V_x, V_y, Omega at the
     times of the grid and half a period later; mean, error (3,): of V_x, V_y, Omega, without the errors
-    of the phases and of the mesh; fastest: largest speed against the ground; sticks: see `CrawlSpeed`.
+    from phases and mesh; fastest: largest speed relative to the ground; sticks: see `CrawlSpeed`.
     """
 
     grid: TimeGrid
@@ -64,10 +64,10 @@ class PairedPeriod(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class CycleBalance:
-    """A cycle of shapes, its contact with the ground, and how finely friction is balanced.
+    """A cycle of shapes, its contact with the ground, and the resolution of the friction balance.
 
-    order: Gauss points per cell and direction; halvings: how often a cell is halved towards points at
-    rest; tolerance: of V, relative to the root mean square of the velocities.
+    order: Gauss points per cell and direction; halvings: of cells towards stagnation points;
+    tolerance: of V, relative to the root mean square of the velocities.
     """
 
     shapes: Shapes
@@ -79,9 +79,9 @@ class CycleBalance:
 
     @classmethod
     def of(cls, shapes: Shapes, contact: Contact, rtol: float) -> "CycleBalance":
-        """Resolved for a relative error rtol of the mean.
+        """The balance resolved for a relative error rtol of the mean.
 
-        V is alpha times smaller than the velocities: all is found alpha times better than rtol.
+        V is smaller than the velocities by a factor alpha, so the tolerance is alpha rtol.
         """
         digits = -math.log10(rtol * min(abs(shapes.scene.alpha) or 1.0, 1.0))
         order = min(max(math.ceil(1.5 + 0.9 * digits), 5), 14)
@@ -95,15 +95,15 @@ class CycleBalance:
 
     @property
     def noise(self) -> float:
-        """Differences of V below this one mean nothing, length/time."""
+        """Roundoff of V, length/time: smaller differences are not significant."""
         scene = self.shapes.scene
         return STATIC_NOISE * scene.sheet.length / scene.period
 
     @property
     def reversal_time(self) -> float | None:
-        """t_0 with V(t_0 - t) = V(t), where the wave and the sheet have that symmetry.
+        """t_0 with V(t_0 - t) = V(t), if the wave and the sheet have that symmetry.
 
-        Only in the plane, where a shape does not depend on those before; on a slope, too, since the
+        Only in the plane, where a shape does not depend on earlier ones; also on a slope, since the
         velocity along y at (y, t) is that at (-y, t_0 - t).
         """
         reversal = self.shapes.scene.drive.reversal_time
@@ -113,7 +113,7 @@ class CycleBalance:
 
     @property
     def speed_per_rate(self) -> float:
-        """Largest mean V that dc/dt of root mean square 1 makes."""
+        """Largest mean V for dc/dt of root mean square 1."""
         scene = self.shapes.scene
         opposed = scene.drive.changes_sign and self.contact.friction.even
         return scene.speed_per_rate(self.contact.slope != 0 or not opposed)
@@ -123,7 +123,7 @@ class CycleBalance:
         return replace(self, shapes=shapes, mirrored=_mirrored(shapes, self.contact))
 
     def average(self, tolerance: Tolerance) -> PairedPeriod:
-        """Mean motion over a period at as many times as the tolerance needs and the noise allows."""
+        """Mean motion over a period, with as many times as the tolerance needs and noise permits."""
         grid, most = self._first_grid(), TIMES_PER_PHASE * len(self.shapes.states)
         found = self.balance(grid.times)
         while True:
@@ -142,7 +142,7 @@ class CycleBalance:
         return PairedPeriod(grid, found.leading, mean, error, found.fastest, sticks)
 
     def balance(self, times: Array) -> RigidMotion:
-        """Motion at times and half a period later, leading and remainder (2, times, 3)."""
+        """Motion at given times and half a period later, leading and remainder (2, times, 3)."""
         later = self._with_partners(times)
         starts = track("friction balance over the period", range(0, later.size, LOT))
         lots = [self._balance(later[i : i + LOT]).solve() for i in starts]
@@ -156,7 +156,7 @@ class CycleBalance:
         )
 
     def change(self, grid: TimeGrid, leading: Array) -> Array:
-        """Change of the mean motion (3,) by one Newton step from one with other shapes or cells."""
+        """Change of the mean motion (3,) by one Newton step, from a motion on other shapes or cells."""
         times, start = self._with_partners(grid.times), leading.reshape(-1, 3)
         nothing = np.zeros((LOT, 3))
         steps = [
@@ -168,11 +168,11 @@ class CycleBalance:
         return self.mean(grid, np.concatenate(steps).reshape(leading.shape))
 
     def mean(self, grid: TimeGrid, leading: Array) -> Array:
-        """Mean V_x, V_y, Omega (3,) of motions (2, times, 3) at the times of the grid and later."""
+        """Mean V_x, V_y, Omega (3,) of motions (2, times, 3) on the grid and half a period later."""
         return grid.means(_paired(leading))[0]
 
     def whole_period(self, period: PairedPeriod) -> tuple[Array, Array]:
-        """Times (T,) of one period in rising order from about 0 on, and V_x, V_y, Omega, (3, T)."""
+        """Ascending times (T,) of one period from about 0 on, and V_x, V_y, Omega, (3, T)."""
         length = self.shapes.scene.period
         times, rigid = self._with_partners(period.grid.times), period.leading.reshape(-1, 3).T
         if self.reversal_time is not None:
@@ -184,7 +184,7 @@ class CycleBalance:
         return share[first] * length, rigid[:, first]
 
     def _finer(self, grid: TimeGrid, speeds: Array, goal: float) -> TimeGrid | None:
-        """The grid that the goal asks for; None where it is met and no harmonic of the shapes hides."""
+        """The finer grid that the goal requires; None if it is met and no harmonic aliases."""
         if grid.error(speeds) > goal:
             return grid.refined(speeds, goal)[0]
         scene = self.shapes.scene
@@ -199,7 +199,7 @@ class CycleBalance:
         return len(self.shapes.states) // 2
 
     def _first_grid(self) -> TimeGrid:
-        """Half a period, or the half of that which tells the rest where V(t_0 - t) = V(t)."""
+        """Half a period, or half of that if V(t_0 - t) = V(t) gives the rest."""
         length, reversal = self.shapes.scene.period, self.reversal_time
         if reversal is None:
             return first_grid(0.0, length / 2, 4)
@@ -232,5 +232,5 @@ def _mirrored(shapes: Shapes, contact: Contact) -> bool:
 
 
 def _paired(leading: Array) -> Array:
-    """Mean of V_x, V_y, Omega at a time and half a period later, (3, times)."""
+    """Means of V_x, V_y, Omega at each time and half a period later, (3, times)."""
     return np.asarray(leading.mean(0).T)

@@ -1,4 +1,4 @@
-"""A cycle of shapes as what pictures of its speed are made of."""
+"""A cycle of shapes, prepared for pictures of its speed."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -28,7 +28,7 @@ MOTIONS = 4
 
 
 class CycleDeformation(Shown):
-    """See `linear_theory.speed.drawn.Deformation`; the shapes are those that gave the speed."""
+    """See `linear_theory.speed.drawn.Deformation`; the shapes are those behind the speed."""
 
     def __init__(self, shapes: Shapes, contact: Contact) -> None:
         self.shapes, self._load, self.law = shapes, contact.load, contact.friction
@@ -56,7 +56,7 @@ class CycleDeformation(Shown):
         return triangles.covering(self.shapes.discretisation.mesh)
 
     def places(self, points: Array, times: Array) -> Array:
-        """See Deformation; the third component is the height over z = 0."""
+        """See Deformation; the third component is the height above z = 0."""
         return self._motion(points).places(np.asarray(times))
 
     def growth(self, points: Array, times: Array) -> Array:
@@ -84,7 +84,7 @@ class CycleDeformation(Shown):
 
 @dataclass(frozen=True, eq=False)
 class _AtPoints(CycleMotion):
-    """The motion at some points, each a cell of its own with one point of weight 1."""
+    """The motion at given points, each treated as a cell with one point of weight 1."""
 
     points: Array
 
@@ -94,7 +94,7 @@ class _AtPoints(CycleMotion):
         return self.shapes.discretisation.points(self.points)
 
     def places(self, times: Array) -> Array:
-        """In the frame of the body, (components, times, points)."""
+        """Positions in the frame of the body, (components, times, points)."""
         values, _ = time_factors(times, self.shapes.scene.period, self._highest)
         position = np.tensordot(values, self._jets[:, 0], 1).swapaxes(0, 1)
         seen, _ = self._frame.seen(times, position[:2], np.zeros_like(position[:2]))

@@ -1,13 +1,13 @@
 """The frame that moves and turns with a deforming sheet as a whole.
 
-Its origin is the centre of mass (of the undeformed area), and its axes are turned against those of the
-reference by the rotation in the mean F of the deformation gradient over that area,
+Its origin is the centre of mass (of the undeformed area), and its axes are rotated relative to those of
+the reference by the rotation of the mean deformation gradient F over that area,
 
     tan(theta) = (F_yx - F_xy)/(F_xx + F_yy),
 
-which brings F closest to the unit matrix. For small strains that is the frame of linear theory, of zero
-mean displacement and zero mean of (du_y/dx - du_x/dy)/2. The supports of a static shape fix some vertex
-and hold some slope, and so turn with the shape of the sheet there.
+which brings F closest to the unit matrix. For small strains this is the frame of linear theory, with
+zero mean displacement and zero mean of (du_y/dx - du_x/dy)/2. The supports of a static shape, in
+contrast, fix a vertex and a slope, and so rotate with the local deformation.
 """
 
 from dataclasses import dataclass
@@ -25,9 +25,9 @@ Array = NDArray[np.float64]
 
 
 def moments(discretisation: Discretisation, states: Array) -> Array:
-    """Of states (n, size) the means of x, of y, of F_xx + F_yy and of F_yx - F_xy, (n, 4).
+    """Means of x, y, F_xx + F_yy and F_yx - F_xy for states (n, size), (n, 4).
 
-    From the whole sheet, at the quadrature points of its elements.
+    By quadrature over the whole sheet.
     """
     region = discretisation.interior
     mass = region.measure / region.measure.sum()
@@ -45,7 +45,7 @@ def gyration(discretisation: Discretisation) -> float:
 
 
 def poses(discretisation: Discretisation, times: Array, states: Array) -> Poses:
-    """Of the frame at the times (n,) of states (n, size) that follow each other."""
+    """Poses of the frame at the times (n,) of consecutive states (n, size)."""
     x, y, along, across = moments(discretisation, states).T
     return Poses(times, np.stack([x, y]), np.unwrap(np.arctan2(across, along)))
 
@@ -54,7 +54,8 @@ def poses(discretisation: Discretisation, times: Array, states: Array) -> Poses:
 class BodyFrame(Shown):
     """The frame of a cycle of shapes.
 
-    moments: (2K + 1, 4), harmonics in time of the means (see `moments`); period: of the wave.
+    moments: (2K + 1, 4), harmonics in time of the means (see the function `moments`); period: of the
+        wave.
     """
 
     moments: Array
@@ -62,11 +63,11 @@ class BodyFrame(Shown):
 
     @classmethod
     def of(cls, shapes: Shapes) -> "BodyFrame":
-        """From all phases: the means are linear in the shape."""
+        """The frame from all phases, as the means are linear in the shape."""
         return cls(harmonics(moments(shapes.discretisation, shapes.states)), shapes.scene.period)
 
     def seen(self, times: Array, place: Array, velocity: Array) -> tuple[Array, Array]:
-        """Positions and velocities (2, T, points) at times (T,) as seen in the frame."""
+        """Positions and velocities (2, T, points) at times (T,), transformed to the frame."""
         values, slopes = time_factors(times, self.period, len(self.moments) // 2)
         x, y, along, across = (values @ self.moments).T[:, :, None]
         x_rate, y_rate, along_rate, across_rate = (slopes @ self.moments).T[:, :, None]

@@ -1,4 +1,4 @@
-"""The motion of a cycle of shapes on cells with Gauss points, as the friction balance reads it."""
+"""The motion of a cycle of shapes at Gauss points, in the form read by the friction balance."""
 
 from dataclasses import dataclass
 from functools import cached_property
@@ -24,14 +24,14 @@ Array = NDArray[np.float64]
 
 
 class UnresolvedError(SheetcrawlError, ArithmeticError):
-    """The shapes are too few: between them the interpolated sheet is inverted or leaves the ground."""
+    """Too few shapes: in between, the interpolated sheet is inverted or loses contact."""
 
 
 def is_mirrored(shapes: Shapes, axis: int = 0) -> bool:
-    """Whether mesh and wave make one half of the sheet move as the mirror image of the other half.
+    """Whether, by symmetry of mesh and wave, one half of the sheet mirrors the motion of the other.
 
-    axis: 0 for mirror symmetry in x, at every time; 1 for symmetry in y with time reversed. That is so
-    in the plane for waves that are known to be mirrored; a sheet in space may buckle to one side.
+    axis: 0 for mirror symmetry in x, at every time; 1 for symmetry in y with time reversed. Only in the
+    plane, for waves that are known to be mirrored; a sheet in space may buckle to one side.
     """
     scene, mesh = shapes.scene, shapes.discretisation.mesh
     mirror = np.where(np.arange(2) == axis, -1.0, 1.0)[:, None]
@@ -56,12 +56,12 @@ class CycleMotion:
     mirrored: bool
 
     def at(self, times: Array) -> Motion:
-        """Motion at times (T,) with velocities in length per time and with `area` the load per cell.
+        """Motion at times (T,), with velocities in length per time and the load as `area`.
 
-        position: (2, T, cells, n, n), of the deformed sheet. area: (T, cells, n, n), the
-        load as an area: times 1 + alpha e, e = dilation = 0, it is what the balance weighs with.
-        Positions and velocities are seen in the frame of the body, see `BodyFrame`.
-        Raises UnresolvedError where the load is negative somewhere or nothing is loaded.
+        position: (2, T, cells, n, n), of the deformed sheet. area: (T, cells, n, n), the normal load,
+        which the balance multiplies by 1 + alpha e with e = dilation = 0.
+        Positions and velocities are in the frame of the body, see `BodyFrame`.
+        Raises UnresolvedError if the load is negative somewhere or zero everywhere.
         """
         times = np.asarray(times, float)
         values, slopes = time_factors(times, self.shapes.scene.period, self._highest)
@@ -89,7 +89,7 @@ class CycleMotion:
         across = sheet.mesh.p[0, sheet.mesh.t]
         none = ROUNDOFF * np.ptp(across)
         if self.mirrored and not np.any((across.min(0) < -none) & (across.max(0) > none)):
-            elements = elements[across.mean(0) > 0]  # no element crosses x = 0: one half will do
+            elements = elements[across.mean(0) > 0]  # no element crosses x = 0: one half suffices
         points, jacobian = cell_points(sheet, self.order)
         mapping = sheet.mesh._mapping()
         density = np.abs(mapping.detDF(points, tind=elements)) * jacobian
@@ -121,7 +121,7 @@ class CycleMotion:
         return BodyFrame.of(self.shapes)
 
     def _load(self, times: Array, values: Array, position: Array) -> Array:
-        """Load of unit weight per area, times the Jacobian of the cells, (T, points)."""
+        """Normal load for unit weight per area, times the Jacobian of the cells, (T, points)."""
         region = self.region
         if self.load is Load.MATERIAL:
             return np.broadcast_to(region.measure, (times.size, region.size))
@@ -138,7 +138,7 @@ class CycleMotion:
         return model.scene.growth.metric(growth) * self.region.measure
 
     def _reaction(self, times: Array, position: Array) -> Array:
-        """Static pressure of the ground times the area in which it is counted."""
+        """Static pressure of the ground times its reference area."""
         ground = self.shapes.model.find(Ground)
         area = self._grown_area(times) if ground.load is Load.GROWN else self.region.measure
         return np.asarray(ground.stiffness * np.minimum(position[2], 0) ** 2 * area)
@@ -153,7 +153,7 @@ def _check_load(load: Array, times: Array) -> None:
 
 
 def cell_points(sheet: Discretisation, order: int) -> tuple[Array, Array]:
-    """Gauss points of the cells of an element in its local coordinates, (2, n), and Jacobians (n,)."""
+    """Gauss points of the cells of an element, (2, n) local coordinates, and Jacobians (n,)."""
     if sheet.mesh.refdom.nnodes == 3:
         points, jacobian = quadrilateral_points(order)
         return points.reshape(2, -1), jacobian.ravel()
@@ -177,5 +177,5 @@ def _centres(mesh: Any) -> Array:
 
 
 def _same_points(p: Array, q: Array) -> bool:
-    """Whether two sets of points (2, n) are the same but for their order and roundoff."""
+    """Whether two sets of points (2, n) are equal up to order and roundoff."""
     return bool(cKDTree(p.T).query(q.T)[0].max() < ROUNDOFF * np.ptp(p))

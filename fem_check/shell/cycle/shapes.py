@@ -1,7 +1,7 @@
-"""A cycle of shapes: what a sheet looks like through one period where friction does not deform it.
+"""A cycle of shapes: the static shapes over one period of a sheet that is not deformed by friction.
 
 At every phase the sheet is in static equilibrium with its growth (and its weight on the ground), so
-that a period is a closed series of minimisations, each started from the ones before. In between, and
+that a period is a closed series of minimisations, each started from the previous ones. In between, and
 for velocities, the unknowns are interpolated by the trigonometric polynomial through the phases.
 """
 
@@ -33,32 +33,33 @@ from linear_theory.scene.scene import Scene
 Array = NDArray[np.float64]
 
 TOLERANCE = 1e-10
-"""Of the static shapes, relative to the size of the sheet: the speed of a sine wave is of order
-alpha^2, and 1e-10 is 3e-7 of that at alpha = 0.02. Newton's last step costs little."""
+"""Tolerance of the static shapes relative to the size of the sheet: the speed of a sine wave is of
+order alpha^2, and 1e-10 is 3e-7 of that at alpha = 0.02. Newton's last step is cheap."""
 
 EXTRAPOLATED = 4
-"""Shapes that the start of the next one is extrapolated from."""
+"""Number of shapes from which the initial guess of the next one is extrapolated."""
 
 PUSH = 1e-3
-"""Amplitude over the length of the sheet with which a buckled shape is left along its mode."""
+"""Amplitude, relative to the length of the sheet, of the push along the mode of a buckled shape."""
 
 MOST_PERIODS = 4
 CLOSED = 1e-7
-"""A cycle is closed when the first shape is found again to this share of the size of the sheet; shapes
-that buckle may need a period to fall into step with the wave."""
+"""A cycle is closed when the first shape recurs to this fraction of the size of the sheet; shapes that
+buckle may need a period to synchronise with the wave."""
 
 
 class NotPeriodicError(ConvergenceError):
-    """The shapes did not repeat after a few periods of the wave."""
+    """The shapes did not become periodic within a few periods of the wave."""
 
 
 @dataclass(frozen=True, eq=False)
 class Shapes(Shown):
     """Static shapes of a model at equidistant phases t = 0, T/N, ... of one period T.
 
-    states: (N, size), displacement unknowns of its discretisation; iterations: of Newton's method, all
-    together; buckled: phases (of N) at which a buckled state was met and left; seconds: time spent;
-    reserve: least one of stability against short waves, see `ellipticity.Reserve`, inf in space.
+    states: (N, size), displacement unknowns of its discretisation; iterations: total number of Newton
+    iterations; buckled: phases (of N) at which a buckled state was met and left; seconds: computing
+    time; reserve: smallest stability margin against short waves, see `ellipticity.Reserve`, inf in
+    space.
     """
 
     model: ShellModel
@@ -70,7 +71,7 @@ class Shapes(Shown):
 
     @property
     def scene(self) -> Scene:
-        """What the model was made of."""
+        """The scene of the model."""
         return self.model.scene
 
     @property
@@ -127,15 +128,15 @@ def time_factors(times: ArrayLike, period: float, highest: int) -> tuple[Array, 
 
 @one_blas_thread
 def cycle_of_shapes(scene: Scene | ShellModel, count: int = 16, known: Shapes | None = None) -> Shapes:
-    """Static shapes at `count` equidistant phases of one period, growth ramped up at the first.
+    """Static shapes at `count` equidistant phases of one period, with growth ramped up at the first.
 
-    scene: or the model of one, which is then used again. count: even, >= 4. known: shapes at half as
-    many phases, which are kept and interpolated for the starts of the new ones. Friction and inertia do
-    not act on a static shape and are left out.
+    scene: a scene, or its model, which is then reused. count: even, >= 4. known: shapes at half as
+    many phases, which are kept and interpolated as initial guesses of the new ones. Friction and
+    inertia do not act on a static shape and are neglected.
 
-    Raises ValueError for an odd count, ConvergenceError (with its last state) where a shape is not
-    found, NotPeriodicError where shapes of a sheet that buckles do not repeat, UnstableError where a
-    planar sheet is compressed so much that finer meshes would not have its shape, see `ellipticity`.
+    Raises ValueError for an odd count, ConvergenceError (with its last state) if no equilibrium is
+    found, NotPeriodicError if the shapes of a buckling sheet do not repeat, UnstableError if a planar
+    sheet is compressed so much that its shape would not exist on finer meshes, see `ellipticity`.
     """
     if validation.integer("count", count, 4) % 2:
         raise ValueError(f"count = {count}: must be even")
@@ -149,7 +150,7 @@ def cycle_of_shapes(scene: Scene | ShellModel, count: int = 16, known: Shapes | 
 
 
 def _between(solver: "_Solver", count: int, known: Shapes) -> Shapes:
-    """The known shapes and new ones in the middle between them."""
+    """The known shapes and new ones halfway between them."""
     if len(known.states) * 2 != count:
         raise ValueError(f"known: has {len(known.states)} phases, must be half of count = {count}")
     states = np.empty((count, known.states.shape[1]))
@@ -162,7 +163,7 @@ def _between(solver: "_Solver", count: int, known: Shapes) -> Shapes:
 
 
 def _closed(solver: "_Solver", count: int) -> Shapes:
-    """Periods, one after another, until a shape is the same as a period before."""
+    """Shapes of consecutive periods, until a shape equals that of a period before."""
     state = solver.first()
     for _ in range(MOST_PERIODS):
         found = solver.period(count, state)
@@ -177,7 +178,7 @@ def _closed(solver: "_Solver", count: int) -> Shapes:
 
 
 class _Solver:
-    """Minimisations of one model at any time, and a count of what they took."""
+    """Minimisations of one model at given times, with a count of their cost."""
 
     def __init__(self, model: ShellModel) -> None:
         self.model, self.scene, self.discretisation = model, model.scene, model.discretisation
@@ -191,7 +192,7 @@ class _Solver:
         self.reserve = np.inf
 
     def first(self) -> Array:
-        """The shape at t = 0, growth ramped up from the undeformed sheet at its static depth."""
+        """The shape at t = 0, with growth ramped up from the undeformed sheet at its static depth."""
 
         def problem(share: float) -> Potential:
             return Potential(self.discretisation, self.effects, self.model.rest(0.0, share))
@@ -210,7 +211,7 @@ class _Solver:
         return self.shapes(np.array(states))
 
     def shapes(self, states: Array, known: Shapes | None = None) -> Shapes:
-        """The states with what they took, and what the known ones among them took."""
+        """The states as shapes, with their cost and that of the known ones among them."""
         iterations, buckled, reserve = self.iterations, self.buckled, self.reserve
         if known is not None:
             iterations, buckled = iterations + known.iterations, buckled + known.buckled
@@ -218,12 +219,12 @@ class _Solver:
         return Shapes(self.model, states, iterations, buckled, 0.0, reserve)
 
     def shape(self, t: float, guess: Array, before: Array) -> Equilibrium:
-        """The shape at time t next to a guess, or to the one before where the guess does not serve."""
+        """The shape at time t near a guess, or near the previous shape if the guess fails."""
         potential = Potential(self.discretisation, self.effects, self.model.rest(t))
         try:
             result = self._left(potential, self._found(potential, guess, before))
         except ConvergenceError as error:
-            text = f"t = {t:g}: no shape next to the one before, as where a sheet snaps over: {error}"
+            text = f"t = {t:g}: no equilibrium near the previous one (snap-through?): {error}"
             raise ConvergenceError(text, error.state, t) from error
         self._require_stable(result.state, t)
         return self._count(result)
@@ -235,7 +236,7 @@ class _Solver:
             return self.minimiser.minimise(potential, before)
 
     def _left(self, potential: Potential, result: Equilibrium) -> Equilibrium:
-        """The minimum next to a buckled shape, or the shape itself."""
+        """The minimum near a buckled shape, or the shape itself if it is a minimum."""
         if not result.buckled:
             return result
         self.buckled += 1
@@ -245,7 +246,7 @@ class _Solver:
         self._require_stable(result.state, 0.0, share)
 
     def _require_stable(self, state: Array, t: float, share: float = 1.0) -> None:
-        """Raise UnstableError where a planar shape at time t is beyond the stability of its energy."""
+        """Raise UnstableError if a planar shape at time t is unstable against short waves."""
         if self.ellipticity is None:
             return
         reserve = self.ellipticity.reserve(state, lambda r: self.model.rest(t, share, r))
@@ -254,7 +255,7 @@ class _Solver:
             return
         x, y = reserve.place
         where = f"x = {x:.3g}, y = {y:.3g}, t = {t:.3g}" + f", {share:.3g} of the growth" * (share < 1)
-        text = f"the sheet is compressed beyond the stability of its energy at {where}: {reserve.words}"
+        text = f"the sheet is compressed beyond material stability at {where}: {reserve.words}"
         raise UnstableError(text, state, t)
 
     def _count(self, result: Equilibrium) -> Equilibrium:
@@ -267,7 +268,7 @@ def _ellipticity(model: ShellModel) -> Ellipticity:
 
 
 def working_effects(model: ShellModel) -> tuple[Effect, ...]:
-    """Effects that shape the sheet; in the plane weight, the load of friction, does not."""
+    """Effects that determine the shape; in the plane weight, the normal load of friction, does not."""
     effects = model.static_effects
     return tuple(e for e in effects if not (model.planar and e.pressed_by(2)))
 

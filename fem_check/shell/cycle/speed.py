@@ -1,8 +1,8 @@
-"""The speed of a sheet that friction does not deform: a cycle of shapes and the friction balance.
+"""The speed of a sheet that is not deformed by friction: a cycle of shapes and the friction balance.
 
-The balance of linear theory is used as it is, with absolute velocities: at every time the rigid motion
-V, Omega is found for which friction of the given law carries no force and no moment (eq. 11 with the
-velocities and the area element of the nonlinear sheet).
+The balance is that of linear theory, with absolute velocities: at every time the rigid motion V, Omega
+is found for which friction exerts no net force and no net moment (eq. 11 with the velocities and the
+area element of the nonlinear sheet).
 """
 
 import math
@@ -16,7 +16,7 @@ import numpy as np
 import skfem
 from numpy.typing import NDArray
 
-from fem_check.shell.abilities import CYCLE, require
+from fem_check.shell.abilities import CYCLE
 from fem_check.shell.cycle.balance import CycleBalance, PairedPeriod
 from fem_check.shell.cycle.contact import creep, held_contact
 from fem_check.shell.cycle.deformation import CycleDeformation
@@ -31,6 +31,8 @@ from linear_theory.common.shown import Shown
 from linear_theory.common.threads import one_blas_thread
 from linear_theory.common.tolerance import Tolerance
 from linear_theory.friction.contact import Contact
+from linear_theory.friction.law import FrictionLaw
+from linear_theory.friction.load import Load
 from linear_theory.friction.regime import warn_if_viscous
 from linear_theory.scene.scene import Scene
 from linear_theory.speed.result import CrawlSpeed, Estimate, RigidSpeed
@@ -42,50 +44,50 @@ Array = NDArray[np.float64]
 FIRST_PHASES, MOST_PHASES = 16, 128
 
 PHASE_SHARE = 0.2
-"""Share of the tolerance that the interpolation between phases may take."""
+"""Fraction of the tolerance allotted to the interpolation between phases."""
 
 MESH_ORDER = 2
-"""Power of the size of the elements with which the error of V falls, at least: at square corners
-u ~ distance**2.74. The difference to a mesh r times coarser is r**2 - 1 times the error or more."""
+"""Lower bound of the convergence order of V in the element size: at square corners u ~ distance**2.74.
+The difference to a mesh r times coarser is at least r**2 - 1 times the error."""
 
 
 def cycle_speed(
     scene: Scene,
-    load: str | None = None,
-    friction: str | None = None,
+    load: Load | str | None = None,
+    friction: FrictionLaw | str | None = None,
     slip_speed: float | None = None,
     rtol: float = 1e-3,
     atol: float | None = None,
     *,
     progress: bool | Report | None = None,
 ) -> CrawlSpeed:
-    """Mean speed of a sheet so stiff that friction does not change its shape.
+    """Mean speed of a sheet too stiff for friction to change its shape.
 
-    What rests on the sheet and how it rubs is what the scene says. In the plane its Gravity has the
-    load: "current" (area of the deformed sheet), "grown" (sqrt det abar) or "material" (weight
-    conserved); a Ground has "ground", its reaction. Its Friction has tanh(v/slip_speed). A scene that
-    names none leaves them to the arguments: load, "current" unless given; friction, "coulomb"
-    unless given, "tanh" with its slip_speed (length/time), or "viscous". On an incline (Gravity in the
-    plane, with Friction) weight pulls the sheet down: the balance is that of a shifted quantile, and V
-    of first order in alpha. rtol, atol: the result is converged where error <= max(rtol |mean|, atol),
-    atol = 1e-3 rtol alpha^2 L/T unless given; of a motion that is not mirror symmetric the sizes of
-    rigid_error and rigid_mean count (see `rigid.RigidNorm`).
+    Normal load and friction law are those of the scene. In the plane, Gravity defines the load:
+    "current" (area of the deformed sheet), "grown" (sqrt det abar) or "material" (weight conserved);
+    with Ground it is "ground", its reaction. Friction has the law tanh(v/slip_speed). If the scene
+    names none of these, the arguments apply: load, "current" by default; friction, "coulomb" by
+    default, "tanh" with its slip_speed (length/time), or "viscous". On an incline (Gravity in the
+    plane, with Friction) weight pulls the sheet downhill: the balance is then at a shifted quantile,
+    and V of first order in alpha. rtol, atol: the result is converged if error <= max(rtol |mean|,
+    atol), atol = 1e-3 rtol alpha^2 L/T unless given; without mirror symmetry the norms of rigid_error
+    and rigid_mean are used (see `rigid.RigidNorm`).
 
-    Phases and times are added until they meet the tolerance. The mesh is the scene's; its error is
-    estimated from another mesh (`other_mesh`) and can leave a result unconverged. So can growth so
-    strong that finer meshes would not have the shape (UnstableError where this mesh has not either),
-    and so small that alpha^2 drowns in roundoff, 1e-15 L/T (alpha < 3e-7 at rtol = 1e-2): the way to
-    such speeds is `linear_theory.crawl_speed` with order = 2.
+    Phases and times are added until they meet the tolerance. The mesh is that of the scene; its error
+    is estimated from another mesh (`other_mesh`) and can leave a result unconverged. So can growth so
+    strong that the shape would not exist on finer meshes (UnstableError if it does not exist on this
+    mesh), or so small that alpha^2 is below roundoff, 1e-15 L/T (alpha < 3e-7 at rtol = 1e-2): for
+    such speeds use `linear_theory.crawl_speed` with order = 2.
     model_error is 0 for a scene that only stretches in the plane, which is the target: the nonlinear
-    sheet of the stated growth law, area measure and load; NaN for other scenes, such as those that name
-    Friction, which deforms the sheet a little.
+    sheet with the stated growth law, area measure and load; NaN for other scenes, such as those with
+    Friction, which deforms the sheet slightly.
     progress: True prints on stderr, a function is called with a `Progress`.
 
-    Raises ValueError for bad input, for a scene that names what a cycle of shapes cannot represent
-    (see `abilities.CYCLE`), for arguments that contradict the scene and for a slope on which the sheet
-    slides without end, ConvergenceError where a shape is not found or not stable (see
-    `cycle_of_shapes`), UnresolvedError where the shapes change too fast for the largest number of
-    phases. Warns (ViscousRegimeWarning) where friction = "tanh" acts as viscous: see
+    Raises ValueError for bad input, for a scene with effects that a cycle of shapes cannot represent
+    (see `abilities.CYCLE`), for arguments that contradict the scene and for a slope on which friction
+    cannot hold the sheet, ConvergenceError if a shape is not found or not stable (see
+    `cycle_of_shapes`), UnresolvedError if the shapes change too fast for the largest number of
+    phases. Warns (ViscousRegimeWarning) if friction = "tanh" acts as viscous: see
     `CrawlSpeed.regime`.
 
     >>> from fem_check import Material, Membrane, Scene, cycle_speed
@@ -96,7 +98,7 @@ def cycle_speed(
     >>> print(f"V = {speed.mean:.3f} L/T, converged {speed.converged}")
     V = 0.091 L/T, converged True
     """
-    hint = "its arguments are sheet, wave, alpha and effects"
+    hint = "make one by Scene(sheet, wave, alpha, effects=...)"
     scene = validation.instance("scene", scene, Scene, hint).resting(load, friction, slip_speed)
     with watched(progress, "cycle_speed"):
         found = with_wave_error(scene, Tolerance(rtol, atol), Cycle(scene).speed)
@@ -105,14 +107,14 @@ def cycle_speed(
 
 
 class Cycle(Shown):
-    """A cycle of static shapes, which does not depend on what rests on the sheet nor on friction.
+    """A cycle of static shapes, independent of the normal load and of friction.
 
-    Found when first needed and kept: speeds under several contacts share it. Raises ValueError for a
-    scene that names what it cannot represent.
+    Computed on first use and kept, so that speeds for several contacts share it. Raises ValueError for
+    a scene with effects that it cannot represent.
     """
 
     def __init__(self, scene: Scene) -> None:
-        require(CYCLE, scene)
+        CYCLE.require(scene)
         self.scene = scene
         self._shapes = KeptShapes(ShellModel(scene))
 
@@ -121,9 +123,9 @@ class Cycle(Shown):
 
     @one_blas_thread
     def speed(self, tolerance: Tolerance, contact: Contact | None = None) -> CrawlSpeed:
-        """As `cycle_speed`, but for the warning; `seconds` counts the shapes where they are found.
+        """As `cycle_speed`, without the warning; `seconds` includes the shapes if computed here.
 
-        contact: another one than that of the scene.
+        contact: replaces that of the scene.
         """
         start = time.perf_counter()
         scene = self.scene if contact is None else self.scene.but(contact=contact)
@@ -152,19 +154,19 @@ class Cycle(Shown):
 
     @cached_property
     def _compared(self) -> tuple["KeptShapes", float]:
-        """Shapes on the other mesh, and how far apart they are at least, in errors."""
+        """Shapes on the other mesh, and the smallest ratio of the difference to the error."""
         mesh, gain = other_mesh(self._shapes.model.discretisation.mesh)
         return KeptShapes(ShellModel(self.scene.but(cells=None, mesh=mesh))), gain
 
     def _mesh_error(self, balance: CycleBalance, period: PairedPeriod) -> Array:
-        """What the mesh does to the mean motion, from the speed on another mesh at the same times."""
+        """Mesh error of the mean motion, from the speed on another mesh at the same times."""
         kept, gain = self._compared
         shapes = kept.at(len(balance.shapes.states))
         other = balance.on(shapes).balance(period.grid.times)
         return np.asarray(abs(balance.mean(period.grid, other.leading) - period.mean) / gain)
 
     def _stable(self, balance: CycleBalance) -> bool:
-        """Whether finer meshes would have these shapes, from the reserve of stability on two meshes."""
+        """Whether the shapes exist on finer meshes, from the stability margin on two meshes."""
         kept, gain = self._compared
         own = balance.shapes.reserve
         change = kept.at(len(balance.shapes.states)).reserve - own
@@ -172,14 +174,14 @@ class Cycle(Shown):
 
 
 class KeptShapes:
-    """Shapes of a model at FIRST_PHASES, or that times a power of two, each found once."""
+    """Shapes of a model at FIRST_PHASES phases times powers of two, each computed once."""
 
     def __init__(self, model: ShellModel) -> None:
         self.model = model
         self._found: dict[int, Shapes] = {}
 
     def at(self, count: int) -> Shapes:
-        """At `count` phases, from those at half as many where they are known."""
+        """Shapes at `count` phases, from those at half as many if known."""
         if count not in self._found:
             self._found[count] = cycle_of_shapes(self.model, count, self._found.get(count // 2))
         return self._found[count]
@@ -188,10 +190,10 @@ class KeptShapes:
 def _with_enough_phases(
     kept: KeptShapes, contact: Contact, tolerance: Tolerance
 ) -> tuple[CycleBalance, PairedPeriod, Array]:
-    """Double the phases until the interpolation between them takes its share of the tolerance.
+    """Double the phases until the interpolation error meets its share of the tolerance.
 
-    Or until it is below the noise of the shapes, which more phases do not reduce; or at once where the
-    wave has harmonics that the most phases do not tell apart.
+    Or until it is below the noise of the shapes, which more phases do not reduce; or not at all if the
+    wave has harmonics that even the largest number of phases does not resolve.
     """
     count = FIRST_PHASES
     while True:
@@ -211,10 +213,10 @@ def _with_enough_phases(
 
 
 def _phase_error(balance: CycleBalance, period: PairedPeriod) -> Array:
-    """What the interpolation between phases does to the mean motion, (3,).
+    """Error of the mean motion from the interpolation between phases, (3,).
 
-    The change by leaving out every second phase, reduced by the ratio of the harmonics beyond the
-    phases, for which twice the highest ones stand, to those that were left out.
+    The change on omitting every second phase, times the ratio of the unresolved harmonics, estimated
+    as twice the highest ones, to those omitted.
     """
     change = abs(replace(balance, shapes=balance.shapes.thinned()).change(period.grid, period.leading))
     speeds = _speeds_of_harmonics(balance.shapes)
@@ -223,9 +225,9 @@ def _phase_error(balance: CycleBalance, period: PairedPeriod) -> Array:
 
 
 def _hidden(balance: CycleBalance, count: int) -> float:
-    """Largest V of the harmonics of the wave beyond so many phases, which take them for lower ones.
+    """Largest V from harmonics of the wave that alias to lower ones at `count` phases.
 
-    Less what `_phase_error` has for them, twice the highest ones among the phases.
+    Minus the estimate for them in `_phase_error`, twice the highest resolved ones.
     """
     rates, highest = balance.shapes.scene.drive.rates, count // 2 - 1
     seen = 2 * float(rates.sizes[max(highest - 2, 0) : highest].max(initial=0.0))
@@ -233,17 +235,17 @@ def _hidden(balance: CycleBalance, count: int) -> float:
 
 
 def _speeds_of_harmonics(shapes: Shapes) -> Array:
-    """Size of the velocity of each harmonic 1 ... K, (K,), any unit."""
+    """Magnitude of the velocity of each harmonic 1 ... K, (K,), in any unit."""
     count, sheet = len(shapes.states) // 2, shapes.discretisation
     size = np.linalg.norm(shapes.harmonics[1:] / np.repeat(sheet.units, sheet.components), axis=1)
     return np.hypot(size[:count], size[count:]) * np.arange(1, count + 1)
 
 
 def other_mesh(mesh: Any) -> tuple[Any, float]:
-    """A mesh to compare with, and the least ratio of the difference to the error.
+    """A mesh for comparison, and the smallest ratio of the difference to the error.
 
-    Of a grid of rectangles one with half as many lines, which costs a quarter; of any other mesh its
-    refinement, which costs more than the speed itself.
+    For a grid of rectangles one with half as many lines, at a quarter of the cost; for any other mesh
+    its refinement, which costs more than the speed itself.
     """
     lines = [distinct(p)[0] for p in mesh.p]
     counts = np.array([line.size - 1 for line in lines])
@@ -258,25 +260,25 @@ def other_mesh(mesh: Any) -> tuple[Any, float]:
         np.interp(np.linspace(0, count, int(few) + 1), np.arange(count + 1), line)
         for count, few, line in zip(counts, fewer, lines, strict=True)
     ]
-    # A single cell is too coarse for the difference to say how fast it vanishes.
+    # A single cell is too coarse for a convergence estimate.
     gain = float((counts / fewer).min() ** MESH_ORDER - 1) if fewer.min() > 1 else 1.0
     return skfem.MeshQuad.init_tensor(*grid), gain
 
 
 def _without_growth(scene: Scene, contact: Contact) -> CrawlSpeed:
-    """No growth, no motion; but under tanh friction a sheet creeps down a slope."""
+    """The speed without growth: 0, except that a sheet with tanh friction creeps down a slope."""
     words, slide = _words(scene, contact), creep(contact)
     return CrawlSpeed.steady(slide, words, contact.friction.slip_ratio(abs(slide)))
 
 
 def _is_target(scene: Scene) -> bool:
-    """Whether the scene is the nonlinear sheet that nothing but growth deforms."""
+    """Whether the scene is the nonlinear sheet deformed by growth alone."""
     deforming = [e for e in scene.effects if not (e.stretches or e.pressed_by(2) or e.moves)]
     return scene.planar and not deforming and not any(e.law for e in scene.effects)
 
 
 def _starts_at_second_order(scene: Scene, contact: Contact) -> bool:
-    """Whether c(t + T/2) = -c(t) is known, on level ground: the first order then has no mean."""
+    """Whether c(t + T/2) = -c(t), on level ground: the first order then has no mean."""
     drive, even = scene.drive, contact.slope == 0 and contact.friction.even
     return even and drive.series is not None and drive.changes_sign
 
@@ -285,5 +287,5 @@ def _words(scene: Scene, contact: Contact) -> str:
     where = "in the plane" if scene.planar else "in space"
     weak = friction_over_growth(scene)
     ratio = f" (its strain is {weak:.1g} of that by growth)" if 0 < weak < math.inf else ""
-    static = f"static shapes not affected by friction{ratio}"
+    static = f"static shapes not deformed by friction{ratio}"
     return model_words(f"nonlinear sheet {where}", scene.growth, contact, static)

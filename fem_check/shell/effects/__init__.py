@@ -1,4 +1,4 @@
-"""What acts on a sheet, one file per effect; a scene names those that it calls for."""
+"""The effects on a sheet, one file each; a scene names those that act."""
 
 from fem_check.shell.effects.effect import Effect
 from fem_check.shell.effects.friction import Friction
@@ -7,6 +7,7 @@ from fem_check.shell.effects.ground import Ground
 from fem_check.shell.effects.inertia import Inertia
 from fem_check.shell.effects.koiter import Bending, Membrane
 from fem_check.shell.effects.loads import DeadLoad, EdgeMoment
+from fem_check.shell.effects.terrain import Terrain
 from fem_check.shell.material import Material
 
 __all__ = [
@@ -20,4 +21,5 @@ __all__ = [
     "Inertia",
     "Material",
     "Membrane",
+    "Terrain",
 ]

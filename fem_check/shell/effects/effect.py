@@ -1,12 +1,12 @@
-"""What every effect offers.
+"""The interface of effects.
 
-An effect is a potential that is a sum over points of a density of the position and its derivatives.
-It states which derivatives (`entries`) it reads and gives, at every point, its value, its gradient and
-its Hessian with respect to them. Sums over elements and unknowns are made once for all effects.
-Nobody else asks of which class an effect is: effects are an open set.
+An effect is a potential: a sum over points of a density that depends on the position and its
+derivatives. It states which derivatives (`entries`) it reads and returns, at every point, its value,
+gradient and Hessian with respect to them. Sums over elements and unknowns are computed for all effects
+together. No other code depends on the class of an effect: effects are an open set.
 
-The Hessian is symmetric in (entry, component); stored are the blocks of the component pairs c <= d,
-in the order of `pairs.PAIRS`: block [k, l, (c, d)] belongs to component c of entry k and d of entry l.
+The Hessian is symmetric in (entry, component); the blocks of the component pairs c <= d are stored, in
+the order of `pairs.PAIRS`: block [k, l, (c, d)] belongs to component c of entry k and d of entry l.
 """
 
 from abc import ABC, abstractmethod
@@ -27,18 +27,18 @@ Array = NDArray[np.float64]
 
 
 class Effect(ABC):
-    """A potential given point by point, and what it asks of the scene that names it.
+    """A potential given point by point, and its requirements on the scene.
 
     Energies are in force times length. A new effect is a frozen dataclass that inherits from this class
-    and from `Value`: scene, potential, power balance, cycle and stepper ask it what they need to know.
+    and from `Value`: scene, potential, power balance, cycle and stepper use only this interface.
 
     entries: which of x, x_1, x_2, x_11, x_22, x_12 (0 ... 5) it reads. reads_rest: whether it needs a
-    rest state. needs_space: whether it has no meaning with two components. is_static: whether it has a
-    meaning without a velocity. moves: whether it makes a scene a motion in time. stretches, bends:
-    whether it gives the sheet a shape, with a rest curvature. damps: whether part of its force
-    dissipates. load: the area in which its force is counted, where it is one of them. incline: of the
-    ground, radians. law, mu: of friction. areal_mass: mass per undeformed area. stored_as: the entry of
-    the power balance (see `power.Works`) that its energy belongs to; None if it stores none.
+    rest state. needs_space: whether it requires three components. is_static: whether it is defined
+    without a velocity. moves: whether it makes a scene time dependent. stretches: whether it gives the
+    sheet in-plane stiffness. bends: whether it depends on a rest curvature. damps: whether part of its
+    force is dissipative. load: the reference area of its force, if any. incline: of the ground,
+    radians. law, mu: of friction. areal_mass: mass per undeformed area. stored_as: the entry of the
+    power balance (see `power.Works`) to which its energy belongs; None if it stores none.
     """
 
     entries: ClassVar[Entries]
@@ -62,7 +62,7 @@ class Effect(ABC):
 
     @abstractmethod
     def gradient(self, state: PointState) -> Array:
-        """Derivative by the entries, (entries, components, points)."""
+        """Derivative with respect to the entries, (entries, components, points)."""
 
     @abstractmethod
     def hessian(self, state: PointState) -> Array | None:
@@ -73,7 +73,7 @@ class Effect(ABC):
         return self
 
     def idle(self, components: int) -> bool:
-        """Whether it does no work in a scene of so many components."""
+        """Whether it does no work in a scene with 2 or 3 components."""
         return False
 
     def pressed_by(self, components: int) -> Load | None:
@@ -81,28 +81,28 @@ class Effect(ABC):
         return None
 
     def normal_load(self, state: PointState) -> Array:
-        """Force across the ground on each point, (points,), of an effect that presses."""
+        """Normal force between sheet and ground at each point, (points,), if it presses."""
         raise NotImplementedError
 
     @property
     def load_follows_shape(self) -> bool:
-        """Whether `normal_load` depends on where the sheet is."""
+        """Whether `normal_load` depends on the position of the sheet."""
         return self.pressed_by(3) is Load.GROUND
 
     def ground_normal(self, state: PointState) -> Array | None:
-        """Unit normal of the ground under each point, (3, points); None where it is e_z."""
+        """Unit normal of the ground under each point, (3, points); None if it is e_z."""
         return None
 
     def check_scene(self, scene: Scene) -> None:  # noqa: B027 - most need nothing
-        """Raise ValueError where the scene lacks what the effect needs or contradicts it."""
+        """Raise ValueError if the scene lacks what the effect requires or contradicts it."""
 
     def check(self, components: int, step: Step | None) -> None:  # noqa: B027
-        """Raise ValueError where a potential lacks what the effect needs."""
+        """Raise ValueError if a potential lacks what the effect requires."""
 
     def beyond_theory(self, scene: Scene) -> str:
         """The part that theories of a flat rectangle cannot represent, in words; empty if none."""
         return type(self).__name__
 
     def beyond_cycle(self, scene: Scene) -> str:
-        """What of it, in a scene, a cycle of static shapes cannot represent, in words; empty if all."""
+        """The part that a cycle of static shapes cannot represent, in words; empty if none."""
         return "" if self.is_static else type(self).__name__

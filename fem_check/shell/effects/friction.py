@@ -16,7 +16,7 @@ from linear_theory.common import validation
 from linear_theory.common.pairs import outer, pairs_among, product
 from linear_theory.common.shown import Value
 from linear_theory.friction.law import FrictionLaw
-from linear_theory.friction.laws import Tanh, friction_law
+from linear_theory.friction.laws import Tanh, checked_law, friction_law
 from linear_theory.scene.scene import Scene
 
 Array = NDArray[np.float64]
@@ -68,7 +68,10 @@ class Friction(Value, Effect):
     stored_as: ClassVar[None] = None
 
     def __init__(
-        self, coefficient: float, slip_speed: float | None = None, law: FrictionLaw | None = None
+        self,
+        coefficient: float,
+        slip_speed: float | None = None,
+        law: FrictionLaw | str | None = None,
     ) -> None:
         object.__setattr__(self, "coefficient", validation.positive("coefficient", coefficient))
         object.__setattr__(self, "law", _law(slip_speed, law))
@@ -117,7 +120,8 @@ class Friction(Value, Effect):
         return np.asarray(self.coefficient * state.step.pressed)
 
     def check_scene(self, scene: Scene) -> None:
-        """Raise ValueError for friction without load."""
+        """Raise ValueError for friction without load, and for a law that is wrong in space."""
+        checked_law(self.law, scene.components, "law")
         if not any(effect.pressed_by(scene.components) for effect in scene.effects):
             kind, where = ("Gravity", "in the plane") if scene.planar else ("Ground", "in space")
             raise ValueError(f"effects: Friction must come with {kind}, its load {where}")
@@ -144,7 +148,7 @@ class Friction(Value, Effect):
             )
 
 
-def _law(slip_speed: float | None, law: FrictionLaw | None) -> FrictionLaw:
+def _law(slip_speed: float | None, law: FrictionLaw | str | None) -> FrictionLaw:
     """That of the arguments of Friction. Raises ValueError unless they give one with a width."""
     found = friction_law(Tanh.name if law is None else law, slip_speed, "law")
     if found.width == 0:

@@ -1,13 +1,13 @@
-"""The ground: a repulsion that grows with the square of the penetration, and contact damping."""
+"""The ground: a repulsion proportional to the square of the penetration, and contact damping."""
 
-from dataclasses import InitVar, dataclass, replace
+from dataclasses import dataclass, replace
 from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from fem_check.shell.effects.effect import Effect
-from fem_check.shell.effects.gravity import Gravity, check_area
+from fem_check.shell.effects.gravity import Gravity, check_area, weighed
 from fem_check.shell.effects.terrain import Terrain
 from fem_check.shell.kinematics.point_state import PointState
 from fem_check.shell.kinematics.rates import Step
@@ -24,46 +24,54 @@ Array = NDArray[np.float64]
 FORMS = ("clipped", "printed")
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, init=False)
 class Ground(Value, Effect):
     """Pressure k g^2 - beta v on the gap g = z - f(x, y) where g <= 0 (eq. 2), as a potential.
 
     The pressure acts along the gradient of the gap, (-f_x, -f_y, 1). stiffness: k > 0, force per
     length^4. damping: beta >= 0, force times time per length^3; v is the rate of the gap. form:
-    "clipped", the pressure is never negative; "printed": as eq. 2 stands, damping pulls at a sheet
-    that leaves. load: the area in which the
-    pressure is counted, a `Load` or its name: "grown", "current" or "material"; area is its former
-    name. height: None is the plane z = 0; else a function z = f(x, y), one that returns f with its
-    derivatives, a sympy expression in x and y, or a `Terrain` of one of these, which it becomes.
+    "clipped", the pressure is never negative; "printed", as in eq. 2: damping pulls back a sheet that
+    lifts off. load: the reference area of the pressure, a `Load` or its name: "grown", "current" or
+    "material"; area is its former name. height: None for the plane z = 0; else a function z = f(x, y),
+    one that returns f with its derivatives, a sympy expression in x and y, or a `Terrain` of one of
+    these, to which the others are converted.
     Raises ValueError for a stiffness <= 0, a damping < 0, other names and as `Terrain` does.
     """
 
     stiffness: float
-    damping: float = 0.0
-    load: Load = Load.GROWN
-    height: Any = None
-    form: str = "clipped"
-    area: InitVar[Load | str | None] = None
+    damping: float
+    load: Load
+    height: Terrain | None
+    form: str
     entries: ClassVar[Entries] = (0,)
     needs_space: ClassVar[bool] = True
     stored_as: ClassVar[str] = "ground"
 
-    def __post_init__(self, area: Load | str | None) -> None:
-        validation.positive("stiffness", self.stiffness)
-        if validation.real("damping", self.damping) < 0:
-            raise ValueError(f"damping = {self.damping:g}: must be >= 0")
-        object.__setattr__(self, "load", Load.named(self.load if area is None else area))
-        validation.choice("form", self.form, FORMS)
-        if self.height is not None and not isinstance(self.height, Terrain):
-            object.__setattr__(self, "height", Terrain(self.height))
+    def __init__(
+        self,
+        stiffness: float,
+        damping: float = 0.0,
+        load: Load | str | None = None,
+        height: Any = None,
+        form: str = "clipped",
+        area: Load | str | None = None,
+    ) -> None:
+        if validation.real("damping", damping) < 0:
+            raise ValueError(f"damping = {damping:g}: must be >= 0")
+        flat = height is None or isinstance(height, Terrain)
+        object.__setattr__(self, "stiffness", validation.positive("stiffness", stiffness))
+        object.__setattr__(self, "damping", float(damping))
+        object.__setattr__(self, "load", weighed(load, area))
+        object.__setattr__(self, "height", height if flat else Terrain(height))
+        object.__setattr__(self, "form", validation.choice("form", form, FORMS))
 
     def under(self, sheet: Sheet) -> "Ground":
-        """The ground of a scene: its terrain knows the sheet and has been checked around it."""
+        """The ground for a sheet: its terrain has the length of the sheet and is checked around it."""
         return self if self.height is None else replace(self, height=self.height.under(sheet))
 
     @property
     def reads_rest(self) -> bool:  # type: ignore[override]
-        """Only the grown area belongs to a rest state."""
+        """Whether the reference area is the grown area of a rest state."""
         return self.load is Load.GROWN
 
     @property
@@ -82,7 +90,7 @@ class Ground(Value, Effect):
         return np.asarray(position[2] - self.height.values(*position[:2]))
 
     def pressure(self, state: PointState) -> Array:
-        """Minus the derivative of the potential per area by the gap, (points,)."""
+        """Minus the derivative of the potential per area with respect to the gap, (points,)."""
         gap = self.gap(state.position)
         drag, base = self._drag(state)
         pressure = np.where(gap <= 0, self.stiffness * gap**2 - drag * (gap - base), 0)
@@ -103,7 +111,7 @@ class Ground(Value, Effect):
         return np.asarray(slope / np.sqrt((slope**2).sum(0)))
 
     def energy(self, state: PointState) -> Array:
-        """See Effect. The integral of the pressure from the gap to 0 (a dissipation where damped)."""
+        """See Effect. The integral of the pressure from the gap to 0 (including dissipation)."""
         gap = np.minimum(self.gap(state.position), 0)
         drag, base = self._drag(state)
         start = np.zeros_like(gap)
@@ -146,22 +154,22 @@ class Ground(Value, Effect):
         return slope
 
     def _drag(self, state: PointState) -> tuple[float, Array]:
-        """damping * rate and the gap from which the rate of the gap is counted."""
+        """damping * rate, and the gap at the start from which its rate is computed."""
         rule = state.step.velocity
         if not self.damping or rule is None:
             return 0.0, np.zeros(state.measure.size)
         return self.damping * rule.rate, self.gap(rule.base)
 
     def check_scene(self, scene: Scene) -> None:
-        """Raise ValueError where nothing presses the sheet on the ground."""
+        """Raise ValueError if nothing presses the sheet on the ground."""
         if scene.find(Gravity) is None:
             names = ", ".join(type(e).__name__ for e in scene.effects)
             raise ValueError(
-                f"effects = {names}: Ground must come with Gravity, else nothing lies on it"
+                f"effects = {names}: Ground must come with Gravity, else there is no contact"
             )
 
     def beyond_cycle(self, scene: Scene) -> str:
-        """Ground that is uneven, damped or counted in the current area."""
+        """Uneven or damped ground, or one with pressure per current area."""
         beyond = {
             "height": self.height is not None,
             f"damping = {self.damping:g}": self.damping != 0,

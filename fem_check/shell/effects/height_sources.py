@@ -1,8 +1,8 @@
-"""Three ways to know the height of the ground with its derivatives: differences, given, symbolic."""
+"""Sources of the derivatives of the ground's height: differences, given functions, sympy."""
 
 import sys
 from collections.abc import Callable
-from typing import Any, Protocol
+from typing import Any, Protocol, runtime_checkable
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,11 +16,12 @@ ENTRIES = ("f", "f_x", "f_y", "f_xx", "f_yy", "f_xy")
 """Rows of the jets of a height."""
 
 _PROBES = 7
-"""Points for which a function is called to see what it returns: neither one, nor as many as ENTRIES."""
+"""Number of points for a trial call of a function, different from 1 and from the number of ENTRIES."""
 
 
+@runtime_checkable
 class Source(Protocol):
-    """A height; x, y and its values are (points,)."""
+    """A height; x, y and its values are (points,). An object that is one is used as it is."""
 
     def values(self, x: Array, y: Array) -> Array:
         """f, (points,)."""
@@ -33,7 +34,7 @@ class Source(Protocol):
 
 
 class Plain:
-    """A function of x and y alone, with differences of some step."""
+    """A function z = f(x, y), with derivatives by differences."""
 
     def __init__(self, function: Function, step: float | None) -> None:
         self._function, self._step = function, step
@@ -53,7 +54,7 @@ class Plain:
     def _length(self) -> float:
         if self._step is None:
             raise ValueError(
-                "height: differences of a function need the length of the sheet, of a Scene or by "
+                "height: differences of a function need the length of the sheet, from a Scene or from "
                 "Terrain(height, length=...)"
             )
         return self._step
@@ -102,13 +103,15 @@ class Symbolic:
 
 
 def is_expression(value: object) -> bool:
-    """Whether a value is one of sympy's; without importing it, which takes long."""
+    """Whether a value is a sympy expression, without importing sympy, which is slow."""
     sympy = sys.modules.get("sympy")
     return sympy is not None and isinstance(value, sympy.Basic)
 
 
-def source(function: Function, step: float | None) -> Source:
-    """Of a function, by what it returns at the origin. Raises ValueError where that is neither."""
+def source(function: Any, step: float | None) -> Source:
+    """The source for a function, by the shape that it returns. Raises ValueError for other shapes."""
+    if isinstance(function, Source):
+        return function
     origin = np.zeros(_PROBES)
     try:
         with np.errstate(all="ignore"):
@@ -131,7 +134,7 @@ def source(function: Function, step: float | None) -> Source:
 
 
 def _derivatives(expression: Any) -> tuple[Any, ...]:
-    """The six rows, in real symbols x and y. Raises ValueError for other symbols or none of them."""
+    """The six rows, in real symbols x and y. Raises ValueError for other symbols or no derivatives."""
     import sympy
 
     if not isinstance(expression, sympy.Expr):

@@ -21,10 +21,10 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Inertia(Value, Effect):
-    """Mass h rho per undeformed area times the acceleration of Newmark's rule (eq. 16).
+    """Mass h rho per undeformed area times the acceleration by Newmark's rule (eq. 16).
 
-    The acceleration at the end of the step being rate (x - base), the potential is
-    h rho rate |x - base|^2/2. density: rho > 0, mass per volume; the paper gives none, nor does this.
+    With the acceleration rate (x - base) at the end of the step, the potential is
+    h rho rate |x - base|^2/2. density: rho > 0, mass per volume; no default, as the paper gives none.
     """
 
     density: float
@@ -69,6 +69,6 @@ class Inertia(Value, Effect):
         check_materials(scene)
 
     def check(self, components: int, step: Step | None) -> None:
-        """Raise ValueError without a step that has an acceleration."""
+        """Raise ValueError for a step without an acceleration."""
         if step is None or step.acceleration is None:
-            raise ValueError("step: Inertia needs one with an acceleration; it has no static form")
+            raise ValueError("step: must have an acceleration for Inertia, which has no static form")

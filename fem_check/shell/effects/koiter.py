@@ -31,7 +31,7 @@ from linear_theory.scene.scene import Scene
 Array = NDArray[np.float64]
 
 _ENGINEERING = np.array([1.0, 1.0, 2.0])[:, None]
-"""Weights of (11, 22, 12) in a full contraction of symmetric tensors."""
+"""Weights of the components (11, 22, 12) in a full contraction of symmetric tensors."""
 
 
 def _apply(tensor: Array, strain: Array) -> Array:
@@ -134,7 +134,7 @@ class Bending(Value, Effect):
         """See Effect."""
         weights, normal, dual = self._weights(state), state.normal, state.dual
         out = self._scalar(state)[:, :, None] * outer(normal, normal)
-        # The turning of the normal: entries a_c along n, all entries along a^c.
+        # From the rotation of the normal: entries a_c along n, all entries along a^c.
         out[:2] -= outer(normal, dual)[:, None] * weights[:, None]
         out[:, :2] -= outer(dual, normal) * weights[:, None, None]
         return np.asarray(out)

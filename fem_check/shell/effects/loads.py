@@ -1,4 +1,4 @@
-"""Loads on the sheet, on an edge of it or at a point."""
+"""Loads on the sheet, on an edge or at a point."""
 
 from dataclasses import dataclass
 from typing import ClassVar
@@ -20,7 +20,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class DeadLoad(Value, Effect):
-    """A force that keeps its size and direction: per undeformed area, length of an edge, or at a point.
+    """A dead load: a constant force per undeformed area, per length of an edge, or at a point.
 
     force: as many components as the scene has. Raises ValueError if they are not finite.
     """
@@ -57,24 +57,23 @@ class DeadLoad(Value, Effect):
         self.check(scene.components, None)
 
     def beyond_cycle(self, scene: Scene) -> str:
-        """Nothing holds the sheet against it."""
+        """Any dead load, against which nothing holds the sheet."""
         return type(self).__name__
 
     def check(self, components: int, step: Step | None) -> None:
-        """Raise ValueError if the force has not as many components as the scene."""
+        """Raise ValueError if the number of components differs from that of the scene."""
         if len(self.force) != components:
             raise ValueError(f"force has {len(self.force)} components: must have {components}")
 
 
 @dataclass(frozen=True)
 class EdgeMoment(Value, Effect):
-    """A moment about the y axis on an edge, per undeformed length, that turns x towards z.
+    """A moment about the y axis on an edge, per undeformed length, that rotates x towards z.
 
-    Its work is moment times the angle theta of the tangent a_entry, (cos theta, 0, sin theta). It is
-    the moment of a conservative load that does not follow the sheet, and the true moment as long as
-    the edge stays parallel to y, which it does in the roll-up of a strip. theta is measured within pi
-    of `angle`: state one near the expected angle to go beyond half a turn. entry: 1 or 2, the
-    derivative across the edge.
+    Its work is moment times the angle theta of the tangent a_entry, (cos theta, 0, sin theta): a
+    conservative load that does not follow the sheet, equal to the true moment as long as the edge stays
+    parallel to y, as in the roll-up of a strip. theta is measured within pi of `angle`: for more than
+    half a turn choose a value near the expected angle. entry: 1 or 2, the derivative across the edge.
     """
 
     moment: float
@@ -119,6 +118,6 @@ class EdgeMoment(Value, Effect):
         return np.asarray(-scale * mixed)[None, None]
 
     def check(self, components: int, step: Step | None) -> None:
-        """Raise ValueError in the plane, where there is no axis to turn about."""
+        """Raise ValueError in the plane, where the axis of rotation does not exist."""
         if components == 2:
             raise ValueError("loads: EdgeMoment must not be named in a planar scene (components = 2)")

@@ -1,5 +1,6 @@
-"""Uneven ground: its height as a function, with or without its derivatives, or as an expression."""
+"""Uneven ground: height as a function, with or without derivatives, or as a sympy expression."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass, fields, replace
 from functools import cached_property
 from typing import Any
@@ -7,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from fem_check.shell.effects import formula
 from fem_check.shell.effects.differences import Checked, checked_jets
 from fem_check.shell.effects.height_sources import (
     ENTRIES,
@@ -18,47 +20,49 @@ from fem_check.shell.effects.height_sources import (
 )
 from linear_theory.common import validation
 from linear_theory.common.shown import Value
+from linear_theory.scene.data import NotRestorable
 from linear_theory.sheet.rectangle import Sheet
 
 Array = NDArray[np.float64]
 
 STEP = 1 / 4096
-"""Step of the differences in lengths of the sheet. Slopes of waves of a length of 1/50 of the sheet are
-right to 1e-12 of themselves, second derivatives to 1e-11; roundoff adds 1e-12 of the height over the
-length of the sheet to slopes and 1e-8 of it over the length squared to second derivatives, which the
-Newton steps alone see."""
+"""Step of the differences in lengths of the sheet. For waves of 1/50 of the sheet the relative error of
+slopes is 1e-12, of second derivatives 1e-11; roundoff adds to slopes 1e-12 of the height over the
+length of the sheet, and to second derivatives, used in Newton steps only, 1e-8 of the height over the
+length squared."""
 
 KINK = 1e-5
-"""Error of a slope by differences up to which a height counts as smooth."""
+"""Largest error of a slope by differences for a height that counts as smooth."""
 
 WRONG, SURE = 1e-4, 1e-6
-"""Shares of the largest derivative of their order: by how much those that are given may be wrong, where
-differences are sure of so much."""
+"""Largest deviation of given derivatives from differences, and largest error of the differences for
+which they are compared, relative to the largest derivative of that order."""
 
 AROUND, CHECKED = 0.25, 4096
-"""A terrain is checked at so many points, on the box of the sheet and this part of its length beyond,
-and further away taken as it is. A line along which the slope jumps meets the differences of about ten
-of them."""
+"""Number of points at which a terrain is checked, within the bounding box of the sheet and this
+fraction of its length beyond; further away it is not checked. A line along which the slope jumps
+crosses the difference stencils of about ten of them."""
 
 SHARPEST, NEARER, ZOOMS = 64, 8, 6
-"""Then so many times at NEARER points around each of the SHARPEST so far, which finds tips."""
+"""Further rounds of checks, at NEARER points around each of the SHARPEST so far, which finds tips."""
 
 
 @dataclass(frozen=True)
 class Terrain(Value):
-    """z = f(x, y), the ground under a sheet, in the coordinates of its resting place.
+    """z = f(x, y), the ground under a sheet, in the coordinates of the sheet at rest.
 
     height: a function of arrays x, y (points,) that returns z, an array of their shape or one number;
     or one that returns the rows f, f_x, f_y, f_xx, f_yy, f_xy, (6, points); or a sympy expression in
-    symbols named x and y. Derivatives of a function are differences with a step of STEP lengths of the
-    sheet, those of an expression are exact; those that are given are compared with differences.
-    name: what a function is known by in a snapshot where its code does not tell, as in `FieldWave`.
-    length: of the sheet, for the differences; a Scene knows it.
+    symbols named x and y; or a `HeightMap`. Derivatives of a function are differences with a step of
+    STEP lengths of the sheet, those of an expression and of a map are exact; given ones are compared
+    with differences.
+    name: identifies a function in a snapshot where its code cannot, as in `FieldWave`.
+    length: of the sheet, for the differences; supplied by a Scene.
 
-    Raises ValueError for a height that is none of these, for an expression with other symbols or
-    without derivatives, a length <= 0 and a name that is no text; and when a Scene is made, for a
+    Raises ValueError for any other height, for an expression with other symbols or without
+    derivatives, a length <= 0 and a name that is not text; and, when a Scene is constructed, for a
     height that fails on arrays or is not finite around the sheet, a function that is not smooth there,
-    and given derivatives that are wrong.
+    and wrong derivatives.
 
     >>> import sympy
     >>> from fem_check import Ground, Terrain
@@ -87,11 +91,33 @@ class Terrain(Value):
             )
 
     def identified_by(self) -> object:
-        """The content from which its key is computed."""
-        return self.height if self.name is None else self.name, self.length
+        """The content from which its key is computed; of symbols the names."""
+        content = self.height
+        if is_expression(content):
+            content = content.xreplace({s: type(s)(s.name) for s in content.free_symbols})
+        return content if self.name is None else self.name, self.length
+
+    def _contents(self) -> Mapping[str, Any]:
+        height = formula.text_of(self.height) if is_expression(self.height) else self.height
+        return {"height": height, "name": self.name, "length": self.length}
+
+    @classmethod
+    def from_data(cls, height: object, name: str | None, length: float | None) -> "Terrain":
+        """The terrain of what `to_dict` has written, of an expression: see `formula`.
+
+        Raises NotRestorable, a ValueError, for a function.
+        """
+        if not isinstance(height, str):
+            return cls(height, name, length)
+        try:
+            return cls(formula.parsed(height), name, length)
+        except ValueError as problem:
+            raise NotRestorable(
+                f"a Terrain cannot be restored from data, its height = {height!r} {problem}"
+            ) from None
 
     def under(self, sheet: Sheet) -> "Terrain":
-        """The same with the length of a sheet, checked around it."""
+        """The terrain with the length of a sheet, checked around it."""
         if self.__dict__.get("_checked") == sheet:
             return self
         terrain = replace(self, length=sheet.length)
@@ -118,10 +144,14 @@ class Terrain(Value):
         return source(self.height, None if self.length is None else STEP * self.length)
 
     def _check(self, sheet: Sheet) -> None:
-        """Raise ValueError where the height cannot be used around a sheet."""
+        """Raise ValueError if the height cannot be used around a sheet."""
         x, y = self._places(sheet)
         found = self(x, y)
         _refuse(~np.isfinite(found).all(axis=0), x, y, "it is not finite")
+        if getattr(
+            self._source, "exact", False
+        ):  # no differences needed, which take seconds of splines
+            return
         reference = checked_jets(self.values, x, y, STEP * sheet.length)
         if isinstance(self._source, Plain):
             kinks = reference.error[1:3].max(axis=0) > KINK
@@ -130,7 +160,7 @@ class Terrain(Value):
             _compare(found, reference, x, y)
 
     def _places(self, sheet: Sheet) -> Array:
-        """Points at which to check, (2, points): all over the box, closer and closer to tips."""
+        """Check points (2, points): distributed over the box, and accumulating near tips."""
         rng = np.random.default_rng(0)
         half = np.array([[sheet.width], [sheet.length]]) / 2 + AROUND * sheet.length
         places = half * rng.uniform(-1, 1, (2, CHECKED))
@@ -145,12 +175,12 @@ class Terrain(Value):
         return places
 
     def __getstate__(self) -> dict[str, Any]:
-        """Without what is made of an expression, which cannot be pickled."""
+        """The state without functions compiled from an expression, which cannot be pickled."""
         return {f.name: getattr(self, f.name) for f in fields(self)}
 
 
 def _compare(found: Array, reference: Checked, x: Array, y: Array) -> None:
-    """Refuse derivatives that differ from differences where those are sure."""
+    """Raise ValueError for derivatives that deviate from differences where these are reliable."""
     for order in (slice(1, 3), slice(3, 6)):
         largest = np.abs(found[order]).max()
         for k in range(6)[order]:
@@ -158,7 +188,7 @@ def _compare(found: Array, reference: Checked, x: Array, y: Array) -> None:
             size = np.maximum(largest, np.abs(expected))
             bad = (error <= SURE * size) & (np.abs(found[k] - expected) > WRONG * size)
             at = int(bad.argmax())
-            text = f"{ENTRIES[k]} is {found[k, at]:.6g}, by differences of f {expected[at]:.6g}"
+            text = f"{ENTRIES[k]} is {found[k, at]:.6g}, must be {expected[at]:.6g} by differences of f"
             _refuse(bad, x, y, text)
 
 
@@ -169,7 +199,7 @@ def _points(x: ArrayLike, y: ArrayLike) -> tuple[Array, Array]:
 
 
 def _refuse(bad: Any, x: Array, y: Array, what: str) -> None:
-    """Raise ValueError with the first of the points that are bad, (points,)."""
+    """Raise ValueError that names the first bad point; bad: (points,)."""
     if np.any(bad):
         k = int(np.argmax(bad))
         raise ValueError(f"height: at x = {x[k]:.4g}, y = {y[k]:.4g}, under or near the sheet, {what}")

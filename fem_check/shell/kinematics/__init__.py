@@ -1,1 +1,1 @@
-"""Surfaces in finite elements: positions and their derivatives at quadrature points."""
+"""Surfaces on finite elements: positions and their derivatives at quadrature points."""

@@ -1,4 +1,4 @@
-"""A sheet on a scikit-fem mesh: unknowns, quadrature and the regions that effects act on."""
+"""A sheet on a scikit-fem mesh: unknowns, quadrature and the regions on which effects act."""
 
 from collections.abc import Callable, Mapping
 from functools import cached_property
@@ -23,10 +23,10 @@ Array = NDArray[np.float64]
 Where = Callable[[Array], NDArray[np.bool_]]
 
 QUADRATURE = {"ElementQuadBFS": 7, "ElementTriArgyris": 8}
-"""Polynomial degree integrated exactly by default: 4 x 4 points of a rectangle, 16 of a triangle.
+"""Polynomial degree integrated exactly by default: 4 x 4 points per rectangle, 16 per triangle.
 
-For BFS degree 5 (3 x 3 points) is as accurate and halves the work on meshes of 2 x 2 elements or more;
-a single element then has three motions besides the rigid ones that cost no energy."""
+For BFS, degree 5 (3 x 3 points) is as accurate and halves the work on meshes of 2 x 2 elements or more;
+a single element then has three zero-energy modes besides the rigid motions."""
 
 
 class Discretisation(Shown):
@@ -39,7 +39,7 @@ class Discretisation(Shown):
 
     Unknowns u are displacements in space, (size,): the components of a scalar degree of freedom are
     neighbours. Raises ValueError for meshes that are not one sheet (see `mesh_checks`) and for
-    elements that do not fit.
+    unsuitable elements.
     """
 
     def __init__(
@@ -86,7 +86,7 @@ class Discretisation(Shown):
 
     @cached_property
     def locations(self) -> Array:
-        """Where the scalar degrees of freedom sit in the parameter domain, (2, scalars)."""
+        """Locations of the scalar degrees of freedom in the parameter domain, (2, scalars)."""
         mesh, dofs = self.mesh, self._dofs
         places = np.empty((2, self.scalars))
         for numbers, points in (
@@ -100,10 +100,10 @@ class Discretisation(Shown):
 
     @cached_property
     def units(self) -> Array:
-        """Units of the scalar degrees of freedom over that of length, (scalars,): 1, 1/size, 1/size^2.
+        """Units of the scalar degrees of freedom relative to length, (scalars,): 1, 1/size, 1/size^2.
 
-        Those of values, first and second derivatives by the parameters; size: about that of the mesh.
-        Comparisons between degrees of freedom need them, else they depend on the unit of length.
+        For values, first and second derivatives with respect to the parameters; size: about that of the
+        mesh. They make comparisons between degrees of freedom independent of the unit of length.
         """
         size = power_of_two(float(np.ptp(self.mesh.p, axis=1).max()))
         rows = [*self._dofs.nodal_dofs, *self._dofs.facet_dofs, *self._dofs.interior_dofs]
@@ -152,7 +152,7 @@ class Discretisation(Shown):
         return self._region(found, places[:, :, None], np.ones((places.shape[1], 1)))
 
     def _elements_at(self, places: Array) -> NDArray[np.int64]:
-        """Elements that hold points (2, n), (n,). Raises ValueError outside the mesh."""
+        """Elements that contain points (2, n), (n,). Raises ValueError outside the mesh."""
         if self.mesh.t.shape[0] == 3:  # scikit-fem's finder loses points on the boundary of triangles
             found, _ = self._triangles(*places)
             outside = found < 0
@@ -171,10 +171,10 @@ class Discretisation(Shown):
         return TriangleFinder(self.mesh)
 
     def facets(self, where: Where) -> NDArray[np.int64]:
-        """Indices of the boundary edges whose midpoints satisfy `where`. ValueError if none does."""
+        """Indices of boundary edges whose midpoints satisfy `where`. Raises ValueError if none does."""
         facets = self.mesh.facets_satisfying(where, boundaries_only=True)
         if not facets.size:
-            raise ValueError("where: no boundary edge of the mesh satisfies it")
+            raise ValueError("where: must be satisfied by at least one boundary edge of the mesh")
         return np.asarray(facets, np.int64)
 
     def dofs_on(self, where: Where) -> dict[str, NDArray[np.int64]]:
@@ -191,10 +191,10 @@ class Discretisation(Shown):
         return {name: np.concatenate(numbers) for name, numbers in found.items()}
 
     def dofs_values(self) -> NDArray[np.int64]:
-        """Scalar degrees of freedom that are 1 in a displacement of 1 everywhere; the others are 0.
+        """Scalar degrees of freedom that are 1 for a uniform displacement of 1; the others are 0.
 
-        Values at nodes of Lagrange elements; at vertices where the others are derivatives (BFS,
-        Argyris) or bubbles (ElementQuadP).
+        These are the nodal values of Lagrange elements, and the vertex values of elements whose other
+        degrees of freedom are derivatives (BFS, Argyris) or bubbles (ElementQuadP).
         """
         ones = np.zeros(self.scalars)
         ones[self._dofs.nodal_dofs[0]] = 1
@@ -211,10 +211,10 @@ class Discretisation(Shown):
         return dict(view.nodal)
 
     def interpolate(self, jets: Callable[[Array, Array], Array]) -> Array:
-        """Unknowns of a displacement given by its jets (6, 3, points), as a Surface gives positions.
+        """Unknowns of a displacement given by its jets (6, 3, points), in the form of a Surface.
 
-        Nodal values and derivatives are taken as they are; degrees of freedom at edges are normal
-        derivatives. Only for ElementQuadBFS and ElementTriArgyris.
+        Nodal values and derivatives are copied; degrees of freedom at edges are normal derivatives.
+        Only for ElementQuadBFS and ElementTriArgyris.
         """
         entries = {"u": 0, "u_x": 1, "u_y": 2, "u_xx": 3, "u_yy": 4, "u_xy": 5}
         u = np.zeros((self.scalars, 3))

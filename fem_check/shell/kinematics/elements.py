@@ -1,4 +1,4 @@
-"""Which elements a shell can be built on, and on which meshes."""
+"""Elements and meshes suitable for a shell."""
 
 from typing import Any
 
@@ -7,7 +7,7 @@ import numpy as np
 from fem_check.shell.kinematics.shape_functions import is_global
 
 CONFORMING = ("ElementQuadBFS", "ElementTriArgyris")
-"""scikit-fem's elements whose functions have continuous gradients (Morley's have not)."""
+"""scikit-fem elements with continuous gradients (unlike Morley's)."""
 
 
 def is_h2(element: Any) -> bool:
@@ -23,7 +23,7 @@ def require_h2(element: Any) -> None:
 
 
 def check_element(mesh: Any, element: Any) -> None:
-    """Raise ValueError if the element does not fit the mesh or has no shape functions to use here."""
+    """Raise ValueError if the element does not fit the mesh or its shape functions are unsuitable."""
     name = type(element).__name__
     if getattr(element, "refdom", None) is not mesh.refdom:
         raise ValueError(
@@ -38,7 +38,7 @@ def check_element(mesh: Any, element: Any) -> None:
 
 
 def check_rectangles(mesh: Any, element: Any) -> None:
-    """Raise ValueError for oblique elements where the element is BFS."""
+    """Raise ValueError for cells that are not axis-parallel rectangles if the element is BFS."""
     if type(element).__name__ != "ElementQuadBFS":
         return
     corners = mesh.p[:, mesh.t]
@@ -46,6 +46,6 @@ def check_rectangles(mesh: Any, element: Any) -> None:
     bad = (sides.min(0) > 1e-9 * sides.max(0)).any(0)
     if bad.any():
         raise ValueError(
-            f"mesh: {bad.sum()} of {bad.size} elements are no rectangles along the axes, as "
-            f"ElementQuadBFS needs them, first {bad.argmax()}; triangles take any shape"
+            f"mesh: {bad.sum()} of {bad.size} elements are not axis-parallel rectangles, as "
+            f"ElementQuadBFS requires, first {bad.argmax()}; for other shapes use triangles"
         )

@@ -1,4 +1,4 @@
-"""States at another time or parameter than those at which they are known."""
+"""Extrapolation of states to another time or parameter."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -10,7 +10,7 @@ Array = NDArray[np.float64]
 
 
 def extrapolated(times: ArrayLike, states: Sequence[Array] | Array, target: float) -> Array:
-    """The polynomial through states (n, size) at times (n,), at another time, (size,)."""
+    """Value (size,) at time `target` of the polynomial through states (n, size) at times (n,)."""
     places: list[Any] = np.asarray(times, float).tolist()
     weights = [
         np.prod([(target - other) / (place - other) for j, other in enumerate(places) if j != i])

@@ -1,4 +1,4 @@
-"""Which numbers of a set are the same but for roundoff, whatever the unit they are in."""
+"""Grouping of numbers that are equal up to roundoff, independent of their unit."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -7,13 +7,13 @@ Array = NDArray[np.float64]
 Integers = NDArray[np.int64]
 
 ROUNDOFF = 1e-9
-"""Share of the extent of a set, as of a sheet, below which a distance is none."""
+"""Distance, relative to the extent of a set, below which numbers count as equal."""
 
 
 def distinct(values: Array) -> tuple[Array, Integers]:
-    """The distinct ones among values (n,) in rising order, and which of them each value is, (n,).
+    """Ascending distinct numbers among values (n,), and the index of each value among them, (n,).
 
-    Of values that differ by roundoff the least stands for all.
+    Values that differ by roundoff are represented by the smallest.
 
     >>> import numpy as np
     >>> from fem_check.shell.kinematics.places import distinct

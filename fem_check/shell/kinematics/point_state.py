@@ -1,6 +1,6 @@
-"""The deformed sheet at quadrature points, as effects read it.
+"""The deformed sheet at quadrature points, in the form read by effects.
 
-Everything is computed when it is first asked for: an effect that a scene does not name costs nothing.
+All quantities are computed on first use: effects that a scene does not name cost nothing.
 Points are the last axis, so that every operation runs over contiguous memory.
 """
 
@@ -40,8 +40,8 @@ STILL = Step()
 class PointState:
     """Position jet, rest state and time step at the points of some elements of a region.
 
-    u: displacement unknowns. entries: which derivatives of the position will be read. part: which
-    elements. rest, step: of the points of that part, step one that holds nothing in statics.
+    u: displacement unknowns. entries: derivatives of the position to be read. part: slice of elements.
+    rest, step: at the points of that part; in statics the step holds nothing fixed.
     """
 
     def __init__(
@@ -119,7 +119,7 @@ class PointState:
         return self.region.weights.ravel()[self._points] * self.jacobian
 
     def area_of(self, load: Load) -> Array:
-        """Quadrature weight times the area that a load is counted in, (points,)."""
+        """Quadrature weight times the reference area of a load, (points,)."""
         if load is Load.MATERIAL:
             return self.measure
         if load is Load.GROWN:

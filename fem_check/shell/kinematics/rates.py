@@ -1,6 +1,6 @@
 """Velocity and acceleration as affine functions of the position at the end of a time step.
 
-A step as a minimisation needs no more of a time integrator than this: v = rate (x - base).
+A time step formulated as a minimisation requires only this of an integrator: v = rate (x - base).
 """
 
 from dataclasses import dataclass
@@ -27,7 +27,7 @@ class Affine(Shown):
     base: Array
 
     def __call__(self, x: Array) -> Array:
-        """Its value at positions x, (components, points)."""
+        """Velocity or acceleration at positions x, (components, points)."""
         return np.asarray(self.rate * (x - self.base))
 
     def part(self, points: slice) -> "Affine":
@@ -37,15 +37,15 @@ class Affine(Shown):
 
 @dataclass(frozen=True, eq=False)
 class Step(Shown):
-    """What a minimisation holds fixed while it looks for the position: a time step, or a lagged area.
+    """Quantities held fixed during a minimisation: the time step, and lagged load, area and normals.
 
-    velocity: of the points, from their position; None in statics. acceleration: likewise, None without
-    inertia. load (points,): normal force of each point (pressure times area) that friction is
-    proportional to. area (points,): quadrature weight times current area, in which "current" loads are
-    counted. normal (3, points): unit normal of the ground under each point, None where it is e_z.
+    velocity: of the points as a function of position; None in statics. acceleration: likewise, None
+    without inertia. load (points,): normal force at each point (pressure times area), to which friction
+    is proportional. area (points,): quadrature weight times current area, for "current" loads.
+    normal (3, points): unit normal of the ground under each point, None if it is e_z.
 
-    load, area and normal are those of the last state: as functions of the position they would not have
-    a potential. Repeat the minimisation until they no longer change.
+    load, area and normal are those of the last state, since as functions of the position they would not
+    have a potential. The minimisation is repeated until they no longer change.
     """
 
     velocity: Affine | None = None
@@ -99,8 +99,8 @@ def backward_euler(x: Array, dt: float) -> Affine:
 def two_step(x: Array, before: Array, dt: float, dt_before: float | None = None) -> Affine:
     """v at the end of a step from three positions, second order in dt (BDF2).
 
-    x, before: positions at its start and dt_before (by default dt) earlier. It is the slope of the
-    parabola through them; for equal steps (3 x_new - 4 x + x_before)/(2 dt).
+    x, before: positions at the start of the step and dt_before (by default dt) earlier. v is the slope
+    of the parabola through the positions; for equal steps (3 x_new - 4 x + x_before)/(2 dt).
     """
     dt = validation.positive("dt", dt)
     ratio = 1.0 if dt_before is None else dt / validation.positive("dt_before", dt_before)

@@ -1,8 +1,8 @@
-"""Quadrature points of a discretised sheet: its interior, an edge of it or a single point.
+"""Quadrature points of a discretised sheet: its interior, an edge or a single point.
 
 Points are numbered element by element, `points` = elements x points per element. Jets are arrays
 (entries, components, points) of the position and its derivatives in the order
-x, x_1, x_2, x_11, x_22, x_12, of which each caller names the entries that it reads.
+x, x_1, x_2, x_11, x_22, x_12; each caller states the entries that it reads.
 """
 
 from collections.abc import Mapping
@@ -23,7 +23,7 @@ Entries = tuple[int, ...]
 
 
 class Region(Shown):
-    """Points, weights, shape functions and reference geometry, computed when first asked for.
+    """Points, weights, shape functions and reference geometry, computed on first use.
 
     elements (elements,): indices in the mesh. parameters (2, elements, points per element).
     weights (elements, points per element): of the quadrature in the parameter domain.
@@ -67,7 +67,7 @@ class Region(Shown):
         return int(self.weights.shape[1])
 
     def shapes(self, entries: Entries) -> Array:
-        """Those derivatives of the shape functions, (elements or 1, points, entries, shapes).
+        """The given derivatives of the shape functions, (elements or 1, points, entries, shapes).
 
         The first axis is 1 where all elements of the mesh are translates of one another.
         Raises ValueError for second derivatives of an element that is not H2.

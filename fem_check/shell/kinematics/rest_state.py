@@ -1,4 +1,4 @@
-"""The shape that the sheet would like to have: rest metric, rest curvature, measure of area.
+"""The stress-free reference geometry: rest metric, rest curvature, measure of area.
 
 Tensors are covariant in the parameters, components (11, 22, 12) on the first axis.
 """
@@ -21,10 +21,10 @@ UNGROWN = Growth(0.0)
 
 @dataclass(frozen=True, eq=False)
 class RestState(Shown):
-    """abar and bbar of eq. 1 at the points of a region, whatever made them.
+    """abar and bbar of eq. 1 at the points of a region, of any origin.
 
-    abar, bbar: (3, points). measure (points,): quadrature weight times the area in which the energy
-    is counted; grown_area (points,): quadrature weight times sqrt(det abar).
+    abar, bbar: (3, points). measure (points,): quadrature weight times the reference area of the energy
+    density; grown_area (points,): quadrature weight times sqrt(det abar).
     Raises ValueError if abar is not finite and positive definite or bbar not finite.
     """
 
@@ -42,7 +42,7 @@ class RestState(Shown):
             raise ValueError(f"abar has determinant {determinant.min():g}: must be positive definite")
 
     def elastic_tensor(self, poisson: float) -> Array:
-        """H of appendix A.2 in the grown metric, (3, 3, points), kept for the next call."""
+        """H of appendix A.2 in the grown metric, (3, 3, points), cached."""
         if poisson not in self._tensors:
             self._tensors[poisson] = elastic_tensor(self.abar, poisson)
         return self._tensors[poisson]
@@ -59,7 +59,7 @@ class RestState(Shown):
 def tensor_state(
     region: Region, abar: ArrayLike, bbar: ArrayLike, area: Reference | str = Reference.GROWN
 ) -> RestState:
-    """Rest state of given tensors, each (3,) or (3, points); area: in which the energy is counted.
+    """Rest state with given tensors, each (3,) or (3, points); area: for the energy density.
 
     Raises ValueError for tensors that are not finite and metrics that are not positive definite.
     """
@@ -78,12 +78,12 @@ def tensor_state(
 
 
 def grown_state(region: Region, c: ArrayLike = 0.0, growth: Growth = UNGROWN) -> RestState:
-    """Rest state of a surface (A, B) in which a field c has grown metric and curvature (eq. 4).
+    """Rest state of a surface (A, B) with metric and curvature grown by a field c (eq. 4).
 
         abar = g(alpha c) A,    bbar = B - beta c abar    (or B - beta c A, see `Growth`)
 
     c: at the points, broadcast to (points,). The paper's sheet is flat, B = 0.
-    Raises ValueError for c that is not finite or by which lengths would vanish.
+    Raises ValueError for c that is not finite or for which lengths would vanish.
     """
     field = np.broadcast_to(validation.real_array("growth", c), (region.size,))
     abar = growth.metric(field) * region.metric

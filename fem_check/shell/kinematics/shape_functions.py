@@ -1,10 +1,10 @@
 """Values and derivatives of scikit-fem's shape functions at given points.
 
-scikit-fem expresses the elements of its kind `ElementGlobal` (BFS, Argyris) in monomials of the
-global coordinates and inverts the matrix of the degrees of freedom of those monomials. Far from the
-origin, relative to the size of an element, that matrix is nearly singular: on 32 x 64 elements second
-derivatives of BFS and Argyris functions keep five digits. Here the same degrees of freedom act on
-monomials that are centred and scaled per element, in units of its size, and all digits are kept.
+scikit-fem expresses elements of the class `ElementGlobal` (BFS, Argyris) in monomials of the global
+coordinates and inverts the matrix of the degrees of freedom of these monomials. Far from the origin,
+relative to the size of an element, that matrix is nearly singular: on 32 x 64 elements second
+derivatives of BFS and Argyris functions are accurate to five digits only. Here the same degrees of
+freedom act on monomials centred and scaled per element, without loss of digits.
 """
 
 from itertools import product
@@ -20,7 +20,7 @@ DERIVATIVES = ((0, 0), (1, 0), (0, 1), (2, 0), (0, 2), (1, 1))
 """Orders (d/dxi_1, d/dxi_2) of the entries of a jet: value, _1, _2, _11, _22, _12."""
 
 COUNT = (1, 3, 6)
-"""How many entries a jet of order 0, 1, 2 has."""
+"""Number of entries of a jet of order 0, 1, 2."""
 
 
 def is_global(element: Any) -> bool:
@@ -66,16 +66,16 @@ def _global_shapes(mesh: Any, element: Any, elements: Integers, points: Array, o
 
 
 def derivatives(element: Any) -> Integers:
-    """Order of the derivative that each of `element.dofnames` is: 0 of u, 1 of u_x and u_n, 2 of u_xy.
+    """Derivative order of each of `element.dofnames`: 0 for u, 1 for u_x and u_n, 2 for u_xy.
 
-    All of an element that is not defined globally are values.
+    0 for all degrees of freedom of an element that is not defined globally.
     """
     orders = [len(name.removeprefix("u").removeprefix("_")) for name in element.dofnames]
     return np.array(orders) if is_global(element) else np.zeros(len(orders), np.int64)
 
 
 def _local_derivatives(mesh: Any, element: Any) -> Integers:
-    """The same for all shape functions of an element: those of the corners, then of the edges."""
+    """Derivative orders for all shape functions of an element: of the corners, then of the edges."""
     orders, corners = derivatives(element), mesh.t.shape[0]
     ends = element.nodal_dofs, element.nodal_dofs + element.facet_dofs
     return np.concatenate([np.tile(orders[: ends[0]], corners), np.tile(orders[slice(*ends)], corners)])
@@ -106,7 +106,7 @@ def _degrees_of_freedom(
 ) -> Array:
     """Degree of freedom j of monomial i, (elements, j, i), through the element's own `gdof`.
 
-    Derivatives are by coordinates over the scale of the element: all entries are of order 1.
+    Derivatives are with respect to coordinates scaled by the element: all entries are of order 1.
     """
     edges = edge_frame(mesh, elements)
     matrix = np.empty((elements.size, len(powers), len(powers)))
@@ -133,9 +133,9 @@ def _degrees_of_freedom(
 def edge_frame(mesh: Any, elements: Integers) -> dict[str, Array]:
     """Corners v, midpoints e and normals n of the edges, as scikit-fem passes them to `gdof`.
 
-    A normal must be the same seen from both elements of an edge. As in scikit-fem it is the edge vector
-    between ascending vertex numbers turned by -90 degrees, and points outwards on the boundary: degrees
-    of freedom mean the same in both codes.
+    A normal must be the same for both elements of an edge. As in scikit-fem it is the edge vector
+    between ascending vertex numbers rotated by -90 degrees, and points outwards on the boundary, so
+    that degrees of freedom have the same meaning in both codes.
     """
     vertices = mesh.t[:, elements]
     corners = mesh.p[:, vertices].transpose(1, 0, 2)

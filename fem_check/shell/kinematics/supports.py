@@ -1,4 +1,4 @@
-"""Which unknowns are held: clamped, pinned and symmetric edges, and the anchor of a free sheet."""
+"""Supports: clamped, pinned and symmetric edges, and the anchor of a free sheet."""
 
 from collections.abc import Collection
 
@@ -13,15 +13,15 @@ Array = NDArray[np.float64]
 _ALL = (0, 1, 2)
 
 NEAR = 0.25
-"""Of the largest distance from the anchor, below which a vertex is no lever against turning."""
+"""Smallest lever arm of a vertex against rotation, relative to the largest distance from the anchor."""
 
 
 class Supports:
-    """The set of held unknowns, none at first; each method adds to it and returns the object.
+    """The set of fixed unknowns, initially empty; each method adds to it and returns the object.
 
-    Held unknowns keep the value that they have in the start of a minimisation (0 in the undeformed
-    state). Edges are named by a function of their midpoints in the parameter domain and must lie along
-    its axes, because there the degrees of freedom are values and derivatives along the axes.
+    Fixed unknowns keep their value at the start of a minimisation (0 in the undeformed state). Edges
+    are selected by a function of their midpoints in the parameter domain and must lie along its axes,
+    because the degrees of freedom there are values and derivatives along the axes.
     """
 
     def __init__(self, discretisation: Discretisation) -> None:
@@ -34,29 +34,29 @@ class Supports:
         return ~self.held.ravel()
 
     def pin(self, where: Where, components: Collection[int] = _ALL) -> "Supports":
-        """Hold the displacement of an edge, in some components."""
+        """Fix the displacement of an edge, in the given components."""
         return self._hold(where, components, across=False)
 
     def hold_slope(self, where: Where, components: Collection[int] = _ALL) -> "Supports":
-        """Hold the derivative of the displacement across an edge, in some components."""
+        """Fix the derivative of the displacement across an edge, in the given components."""
         if not is_global(self.discretisation.element):
             name = type(self.discretisation.element).__name__
-            raise ValueError(f"element = {name}: has no slopes to hold, must be BFS or Argyris")
+            raise ValueError(f"element = {name}: must be BFS or Argyris to fix a slope")
         return self._hold(where, components, across=True)
 
     def clamp(self, where: Where) -> "Supports":
-        """Hold an edge in place and keep the sheet from turning about it.
+        """Fix an edge and prevent rotation of the sheet about it.
 
-        The slope across the edge is held along the normal of the undeformed surface alone: next to a
-        clamp the sheet may be stretched and sheared, as it is where it grows. (Where the normal is
-        oblique to the axes, all components in which it has a part are held.)
+        The slope across the edge is fixed only along the normal of the undeformed surface: near a
+        clamp the sheet may still be stretched and sheared, for instance by growth. (If the normal is
+        oblique to the axes, all components in which it does not vanish are fixed.)
         """
         self.pin(where, range(self.discretisation.components))
         turning = self._along_normal(where)
         return self.hold_slope(where, turning) if turning else self
 
     def _along_normal(self, where: Where) -> tuple[int, ...]:
-        """Components in which the normal of the surface has a part, on an edge; none in the plane."""
+        """Non-zero components of the surface normal on an edge; none in the plane."""
         if self.discretisation.components == 2:
             return ()
         mesh = self.discretisation.mesh
@@ -66,18 +66,18 @@ class Supports:
         return tuple(int(c) for c in np.flatnonzero(size > 1e-9 * size.max()))
 
     def symmetric(self, where: Where, component: int) -> "Supports":
-        """Make an edge lie in a plane of mirror symmetry whose normal is the axis `component`."""
+        """Keep an edge in a plane of mirror symmetry with the axis `component` as its normal."""
         others = [c for c in range(self.discretisation.components) if c != component]
         return self.pin(where, (component,)).hold_slope(where, others)
 
     def anchor(self, xi: ArrayLike = (0.0, 0.0), motions: str = "xyz") -> "Supports":
-        """Take the rigid motions from a free sheet without straining it, at the vertex nearest to xi.
+        """Remove the rigid motions of a free sheet without straining it, at the vertex nearest to xi.
 
-        motions: "xyz" all; "xy" those in the plane z = const, for a sheet that lies on the ground or
-        for a planar scene. The support is statically determinate, so that it carries no force: that
-        vertex is held and, against turning, a slope there (BFS, Argyris) or one component of another
-        vertex. Raises ValueError where slopes are held and the parameter lines do not run along x and y
-        there (the first suffices for "xy").
+        motions: "xyz" for all; "xy" for those in the plane z = const, for a sheet on the ground or a
+        planar scene. The support is statically determinate, so that it carries no force: the vertex is
+        fixed and, against rotation, a slope there (BFS, Argyris) or one component of another vertex.
+        Raises ValueError if slopes are fixed and the parameter lines do not run along x and y there
+        (along x suffices for "xy").
         """
         if motions not in ("xy", "xyz"):
             raise ValueError(f"motions = {motions!r}: must be 'xy' or 'xyz'")
@@ -103,9 +103,9 @@ class Supports:
             )
 
     def _lever(self, xi: ArrayLike) -> tuple[NDArray[np.int64], int]:
-        """Degree of freedom of a vertex far from the anchor, and its component that stops the turning.
+        """Degree of freedom of a vertex far from the anchor, and the component that stops rotation.
 
-        The farthest on the line along x, which keeps mirror images mirror images, unless that is near;
+        The farthest vertex on the line along x, which preserves mirror symmetry, unless it is too near;
         else the farthest of all, and the component across the longer of its distances.
         """
         mesh = self.discretisation.mesh

@@ -4,8 +4,8 @@ A surface is a function of the parameters (xi_1, xi_2) that returns the six vect
 
     X, X_1, X_2, X_11, X_22, X_12          array (6, 3, *points)
 
-The unit normal is X_1 x X_2 over its length and the curvature B_ab = N . X_ab, so that a sphere
-seen from outside (N outwards) has negative curvature.
+The unit normal N is X_1 x X_2 over its length and the curvature B_ab = N . X_ab, so that a sphere
+with outward N has negative curvature.
 """
 
 from dataclasses import dataclass

@@ -1,1 +1,1 @@
-"""Minima of the sum of the effects: Newton, growth put on in steps, buckling found and followed."""
+"""Minima of the potential: Newton's method, load continuation, buckling detected and followed."""

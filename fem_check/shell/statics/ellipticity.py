@@ -1,8 +1,8 @@
-"""Whether a planar shape is beyond the stability of its energy, which a mesh of finite size may hide.
+"""Material stability of a planar shape against short waves, which a finite mesh may not resolve.
 
-Stretching costs the energy of a St Venant-Kirchhoff material in the grown metric, and that resists
-strong compression too little. A shape of the continuous sheet is a minimum only where waves that are
-short against everything cost energy (elements that are longer than these waves do not see them):
+The stretching energy is that of a St Venant-Kirchhoff material in the grown metric, which softens under
+strong compression. A shape of the continuous sheet is a minimum only if waves shorter than all other
+lengths (and than the elements, which do not resolve them) cost energy:
 
 Inside, all acoustic tensors Q(n) must be positive definite (Legendre and Hadamard). With the principal
 stretches l_1, l_2 of the grown sheet, in units of K, S_1 = (l_1^2 - 1 + nu (l_2^2 - 1))/2 and
@@ -13,12 +13,12 @@ G = (1 - nu)/2, that is
 
 On a free edge, wrinkles that decay into the sheet must cost energy (Agmon; M. A. Biot, Appl. Sci. Res.
 A 12:168, 1963, for rubber): the surface impedance (A. Mielke and Y. B. Fu, Math. Mech. Solids 9, 2004)
-must be positive definite. No force acts across the edge, so that the stretch l along it
-gives the one across, m^2 = 1 - nu (l^2 - 1), and its determinant is positive as long as
+must be positive definite. No force acts across the edge, so that the stretch l along it determines
+that across it, m^2 = 1 - nu (l^2 - 1), and the determinant of the impedance is positive as long as
 
     m (3 l^2 - 1) > (1 - l^2) sqrt(l^2 - (1 - nu^2) (1 - l^2)/2)
 
-which ends at l = 0.639 for nu = 1/2, before a bar has its largest force, at l = 0.577.
+which fails at l = 0.639 for nu = 1/2, before a bar reaches its largest force, at l = 0.577.
 """
 
 from collections.abc import Callable
@@ -39,10 +39,10 @@ RestOf = Callable[[Region], RestState]
 
 
 class Reserve(NamedTuple):
-    """How far a shape is from its least stable point; negative values are beyond the limit.
+    """Stability margin at the least stable point of a shape; negative if unstable.
 
-    value: on an edge the stretch along it less its limit, inside see `acoustic_reserve`. place (2,):
-    parameters. words: what is stretched how much, and the limit.
+    value: on an edge the stretch along it minus its limit, inside see `acoustic_reserve`. place (2,):
+    parameters of the point. words: the stretch and its limit, in words.
     """
 
     value: float
@@ -52,9 +52,9 @@ class Reserve(NamedTuple):
 
 @cache
 def edge_limit(poisson: float) -> float:
-    """Stretch along a free edge below which short wrinkles of it cost no energy.
+    """Stretch along a free edge below which it is unstable to short wrinkles.
 
-    0.627 for nu = 0.1, more on both sides of it: 0.639 for 1/2, 0.707 for -1.
+    Smallest, 0.627, for nu = 0.1; 0.639 for 1/2 and 0.707 for -1.
     """
 
     def impedance(stretch: float) -> float:
@@ -67,9 +67,9 @@ def edge_limit(poisson: float) -> float:
 
 
 def acoustic_reserve(smaller: ArrayLike, larger: ArrayLike, poisson: float) -> Array:
-    """Smallest difference of the two sides of the conditions inside, in units of K = E h/(1 - nu^2).
+    """Smallest margin in the conditions for the interior, in units of K = E h/(1 - nu^2).
 
-    smaller, larger: principal stretches, broadcast. 1 - nu over 2 of an undeformed sheet.
+    smaller, larger: principal stretches, broadcast. (1 - nu)/2 for an undeformed sheet.
     """
     low, high = np.asarray(smaller, float), np.asarray(larger, float)
     shear = (1 - poisson) / 2
@@ -94,14 +94,14 @@ def principal_stretches(state: PointState) -> tuple[Array, Array]:
 
 
 class Ellipticity:
-    """The conditions at the points of a planar sheet whose outline is free."""
+    """The stability conditions at the points of a planar sheet with free edges."""
 
     def __init__(self, discretisation: Discretisation, poisson: float) -> None:
         self.poisson, self.interior = poisson, discretisation.interior
         self.edge = discretisation.edge(lambda xi: np.ones(xi.shape[1], bool))
 
     def reserve(self, u: Array, rest: RestOf) -> Reserve:
-        """The edge's, or that of the inside where this is beyond its limit and the edge is not.
+        """Margin at the edge, or in the interior if that is unstable and the edge is not.
 
         u (size,): unknowns. rest: the rest state at the points of a region.
         """
@@ -114,7 +114,7 @@ class Ellipticity:
         weights = np.stack([first**2, second**2, 2 * first * second])
         stretch = np.sqrt((weights * state.metric).sum(0) / (weights * rest.abar).sum(0))
         limit, worst = edge_limit(self.poisson), int(stretch.argmin())
-        words = f"its edge is compressed to {stretch[worst]:.4f}, and wrinkles below {limit:.4f}"
+        words = f"its edge is compressed to {stretch[worst]:.4f}, wrinkling starts at {limit:.4f}"
         return Reserve(float(stretch[worst] - limit), _place(self.edge, worst), words)
 
     def _inside(self, u: Array, rest: RestState) -> Reserve:

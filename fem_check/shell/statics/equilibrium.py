@@ -1,4 +1,4 @@
-"""The result of a minimisation, and the failure to find one."""
+"""The result of a minimisation, and its failure."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -14,7 +14,7 @@ Array = NDArray[np.float64]
 
 
 class ConvergenceError(SheetcrawlError, RuntimeError):
-    """No minimum was found. `state` (size,): the last that was reached, at `parameter` of a ramp."""
+    """No minimum was found. `state` (size,): the last one reached, at `parameter` of a ramp."""
 
     def __init__(self, message: str, state: Array, parameter: float = 1.0) -> None:
         super().__init__(message)
@@ -22,7 +22,7 @@ class ConvergenceError(SheetcrawlError, RuntimeError):
 
 
 class UnstableError(ConvergenceError):
-    """A minimum for its mesh alone: waves too short for that mesh would lower the energy."""
+    """A minimum on its mesh only: waves too short for the mesh would lower the energy."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,11 +30,11 @@ class Equilibrium(Shown):
     """A state in which the free unknowns carry no force.
 
     state (size,): unknowns. energy: of all effects, force times length. iterations: of Newton's
-    method, all steps of a ramp together. residual: root mean square over the sheet of the last
-    correction, in units of length; what is left after it is smaller, about its square. seconds: time
-    spent. negative_curvature: lowest eigenvalue of the Hessian scaled to a unit diagonal, NaN where
-    it is positive definite. mode (size,): its direction, largest component 1 in the units of
-    `Discretisation.units`; None where there is none.
+    method, summed over a ramp. residual: root mean square over the sheet of the last correction, in
+    units of length; the remaining error is about its square. seconds: computing time.
+    negative_curvature: lowest eigenvalue of the Hessian scaled to a unit diagonal, NaN if it is
+    positive definite. mode (size,): its eigenvector, largest component 1 in the units of
+    `Discretisation.units`; None if there is none.
     """
 
     state: Array
@@ -46,11 +46,11 @@ class Equilibrium(Shown):
     mode: Array | None = field(default=None, repr=False)
 
     def _rows(self) -> Mapping[str, Any]:
-        """Without the lowest curvature where it is positive and was not computed."""
+        """All values, without the lowest curvature if positive, when it is not computed."""
         rows = {**super()._rows(), "buckled": self.buckled}
         return rows if self.buckled else {k: v for k, v in rows.items() if k != "negative_curvature"}
 
     @property
     def buckled(self) -> bool:
-        """Whether the energy falls in some direction, so that this is a saddle and no minimum."""
+        """Whether the energy decreases in some direction: a saddle, not a minimum."""
         return self.mode is not None

@@ -1,7 +1,7 @@
-"""Direct solution with the symmetric matrix of a step, and the test whether it is positive definite.
+"""Direct solution with the symmetric matrix of a step, and the test for positive definiteness.
 
-On a sheet that is long and narrow a banded Cholesky factor after reverse Cuthill-McKee beats sparse
-solvers; a wide unstructured outline goes to SuperLU.
+For a long, narrow sheet a banded Cholesky factor after reverse Cuthill-McKee numbering is faster than
+sparse solvers; a wide unstructured outline uses SuperLU.
 """
 
 from typing import Protocol
@@ -16,11 +16,11 @@ from fem_check.shell.statics.sparsity import Sparsity
 Array = NDArray[np.float64]
 
 BAND_WORK = 2e10
-"""n * half_width^2 up to which the band wins (about 4 s); its memory stays below 1 GB."""
+"""n * half_width^2 up to which the banded solver is faster (about 4 s); it needs less than 1 GB."""
 
 
 class Factor(Protocol):
-    """A factorised positive definite matrix, kept for as long as it serves."""
+    """A factorised positive definite matrix."""
 
     def solve(self, right: Array) -> Array:
         """Solution for a right-hand side (n,)."""

@@ -1,4 +1,4 @@
-"""Newton's method downhill, for the free unknowns of a discretised sheet."""
+"""Newton's method with line search, for the free unknowns of a discretised sheet."""
 
 import time
 from dataclasses import dataclass, field
@@ -19,33 +19,34 @@ from linear_theory.common.threads import one_blas_thread
 Array = NDArray[np.float64]
 
 FIRST_SHIFT = 1e-10
-"""First multiple of its diagonal that is added to a Hessian that is not positive definite."""
+"""First multiple of its diagonal added to a Hessian that is not positive definite."""
 
 SUFFICIENT_DECREASE = 1e-4
-"""Share of the decrease that the slope promises which a step must achieve (Armijo)."""
+"""Smallest decrease of a step relative to that predicted by the slope (Armijo)."""
 
 ROUNDOFF = 1e-12
-"""Relative error of an energy: smaller decreases cannot be seen in it."""
+"""Relative error of an energy: smaller decreases cannot be resolved."""
 
 UNSEEN = 1e-6
-"""Relative error of the energy of strains of 1e-10, which are differences of lengths of order 1. Where
-a step promises less, the energy may deceive, and one that halves the forces counts as downhill too."""
+"""Relative error of the energy of strains of 1e-10, which are differences of lengths of order 1. For
+smaller predicted decreases the energy is unreliable, and a step that halves the forces is accepted."""
 
 CONTRACTION = 0.2
-"""A kept factor serves as long as each correction is at most this share of the one before."""
+"""A factor is reused as long as each correction is at most this fraction of the previous one."""
 
 SMALLEST_STEP = 2.0**-30
 
 
 @dataclass(eq=False)
 class Minimiser:
-    """Newton's method with a line search; the symbolic work and, if asked, the factor are kept.
+    """Newton's method with a line search; symbolic factorisation and, optionally, the factor are
+    reused.
 
     tolerance: root mean square over the sheet of the last correction, relative to the size of the
-    sheet (the root of its area). iterations: limit per minimisation. keep_factor: use the factor of
-    an earlier iteration or minimisation while it serves, for series of similar problems.
-    check_stability: look for negative curvature at the end; if False, only where the last Hessian
-    that was factorised had one. Raises ValueError for values out of range.
+    sheet (the root of its area). iterations: limit per minimisation. keep_factor: reuse the factor of
+    an earlier iteration or minimisation while it converges, for series of similar problems.
+    check_stability: test for negative curvature at the end; if False, only if the last factorised
+    Hessian had one. Raises ValueError for values out of range.
     """
 
     supports: Supports
@@ -67,10 +68,10 @@ class Minimiser:
 
     @one_blas_thread
     def minimise(self, potential: Potential, start: Array, patience: int = 1) -> Equilibrium:
-        """The minimum next to `start` (size,), within `patience` times the usual iterations.
+        """The minimum near `start` (size,), within `patience` times the usual iterations.
 
-        Raises ConvergenceError if it is not found within the iterations or if no step downhill keeps
-        the sheet from turning inside out.
+        Raises ConvergenceError if it is not found within the iterations or if the line search fails
+        because every step inverts an element.
         """
         begin = time.perf_counter()
         search = _Search(self, potential, np.array(start, float))
@@ -97,7 +98,7 @@ class Minimiser:
         return float(np.sqrt(square @ self.region.measure / self.region.measure.sum()))
 
     def factorised(self, potential: Potential, u: Array, shift: float) -> "Factorised":
-        """The Hessian at u, with the smallest multiple of its diagonal that makes it definite."""
+        """The Hessian at u, plus the smallest multiple of its diagonal that makes it definite."""
         values = self.sparsity.assemble(potential.hessian_blocks(u))
         if not np.all(np.isfinite(values)):
             raise ConvergenceError("the Hessian is not finite", u)
@@ -108,13 +109,13 @@ class Minimiser:
         return Factorised(values, self._scale(values), used, factor)
 
     def factorised_again(self, values: Array, shift: float) -> "Factorised":
-        """Bit for bit the factor that had these entries and this shift."""
+        """The factor with these entries and this shift, reproduced bit for bit."""
         factor = factorise(self.sparsity, values if shift == 0 else self._shifted(values, shift))
         assert factor is not None
         return Factorised(values, self._scale(values), shift, factor)
 
     def _scale(self, values: Array) -> Array:
-        """What shifts of the diagonal are multiples of, (n,)."""
+        """Unit of the shifts of the diagonal, (n,)."""
         diagonal = np.abs(values[self.sparsity.diagonal]) * self.units**2
         return np.asarray(np.maximum(diagonal, 1e-12 * diagonal.max()) / self.units**2)
 
@@ -126,7 +127,7 @@ class Minimiser:
 
 @dataclass(frozen=True, eq=False)
 class Factorised:
-    """Stored entries of a Hessian and the factor of values + shift * diag(scale)."""
+    """Stored entries of a Hessian, and the factor of values + shift * diag(scale)."""
 
     values: Array
     scale: Array
@@ -135,22 +136,20 @@ class Factorised:
 
 
 class _Search:
-    """One minimisation: the state and what is known there."""
+    """One minimisation: the present state with its energy and derivatives."""
 
     def __init__(self, minimiser: Minimiser, potential: Potential, state: Array) -> None:
         self.minimiser, self.potential, self.state = minimiser, potential, state
         self.directors = minimiser.orientation.directors(state)
         if not minimiser.orientation.keeps(self.directors, self.directors):
-            raise ConvergenceError(
-                "the start is turned inside out, or shrunk to nothing, somewhere", state
-            )
+            raise ConvergenceError("the initial state is inverted, or has no area, somewhere", state)
         self.energy, gradient = potential.energy_and_gradient(state)
         self.gradient = gradient[minimiser.sparsity.order]
         self.current: Factorised | None = minimiser.kept if minimiser.keep_factor else None
         self.fresh = False
         self.correction = np.inf
         if not np.isfinite(self.energy):
-            raise ConvergenceError("the energy of the start is not finite", state)
+            raise ConvergenceError("the energy of the initial state is not finite", state)
 
     def advance(self) -> float:
         """Make one correction; returns its root mean square."""
@@ -159,9 +158,7 @@ class _Search:
             self._factorise()
             size = self._correct()
         if size is None:
-            raise ConvergenceError(
-                "no step downhill keeps the sheet from turning inside out", self.state
-            )
+            raise ConvergenceError("line search failed: every step inverts an element", self.state)
         if not self.minimiser.keep_factor:
             self.current = None
         self.correction, self.fresh = size, False
@@ -173,7 +170,7 @@ class _Search:
         self.minimiser.kept, self.fresh = self.current, True
 
     def _correct(self) -> float | None:
-        """Correct with the factor at hand; None if it is of no use (any longer)."""
+        """Correct with the present factor; None if it does not converge (any longer)."""
         assert self.current is not None
         step = -self.current.factor.solve(self.gradient)
         change = np.zeros_like(self.state)
@@ -204,7 +201,7 @@ class _Search:
         return True
 
     def _relaxed(self, force: Array, slope: float) -> bool:
-        """Whether a step at the bottom of the energy halves the forces."""
+        """Whether a step within the noise of the energy halves the forces."""
         assert self.current is not None
         flat = self.current.shift == 0 and -slope <= UNSEEN * abs(self.energy)
         after, before = ((f**2 / self.current.scale).sum() for f in (force, self.gradient))
@@ -212,11 +209,11 @@ class _Search:
 
     @property
     def shifted(self) -> bool:
-        """Whether the last Hessian that was factorised was not positive definite."""
+        """Whether the last factorised Hessian was not positive definite."""
         return self.minimiser.kept is not None and self.minimiser.kept.shift > 0
 
     def negative_curvature(self) -> tuple[float, Array | None]:
-        """Lowest scaled eigenvalue of the Hessian here and its direction, (NaN, None) if positive."""
+        """Lowest scaled eigenvalue of the Hessian here and its eigenvector, (NaN, None) if positive."""
         sparsity = self.minimiser.sparsity
         if sparsity.size == 0:
             return np.nan, None

@@ -1,9 +1,9 @@
-"""Whether a state turns the sheet inside out at some point.
+"""Detection of local inversion of the sheet.
 
-Koiter's energy depends on metric and curvature alone and does not notice a point where the sheet is
-folded over. In the plane the determinant of the deformation gradient tells. In space a sheet may turn
-over as a whole, so each state is compared with the one before: in one step no normal may turn by a
-right angle or more.
+Koiter's energy depends only on metric and curvature and does not detect a point where the sheet is
+folded over. In the plane the sign of the determinant of the deformation gradient shows it. In space a
+sheet may turn over as a whole, so each state is compared with the previous one: in one step no normal
+may rotate by a right angle or more.
 """
 
 import numpy as np
@@ -15,7 +15,7 @@ from fem_check.shell.kinematics.region import Region
 Array = NDArray[np.float64]
 
 SMALLEST_AREA = 1e-3
-"""Share of its undeformed area to which a point may shrink: below it the sheet is about to invert."""
+"""Smallest ratio of deformed to undeformed area: below it the sheet is about to invert."""
 
 
 class Orientation:
@@ -27,11 +27,11 @@ class Orientation:
         self._scale = 1 / np.sqrt(a11 * a22 - a12**2)
 
     def directors(self, u: Array) -> Array:
-        """(3, points); (1, points) in the plane, the determinant of the deformation gradient."""
+        """Directors (3, points); in the plane the deformation gradient's determinant, (1, points)."""
         return np.asarray(PointState(self._region, u, (1, 2)).director * self._scale)
 
     def keeps(self, before: Array, after: Array) -> bool:
-        """Whether no point is turned inside out between two states given by their directors."""
+        """Whether no point is inverted between two states given by their directors."""
         if not np.all(np.isfinite(after)):
             return False
         size = np.sqrt(dot(after, after))

@@ -1,4 +1,4 @@
-"""The sum of the effects of a scene as a function of the unknowns."""
+"""The potential: the sum of the effects of a scene as a function of the unknowns."""
 
 from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
@@ -13,6 +13,7 @@ from fem_check.shell.kinematics.point_state import PointState
 from fem_check.shell.kinematics.rates import Step
 from fem_check.shell.kinematics.region import Entries, Region
 from fem_check.shell.kinematics.rest_state import RestState
+from fem_check.shell.statics.meter import asked
 from linear_theory.common.pairs import PAIRS
 from linear_theory.common.shown import Shown
 
@@ -22,11 +23,11 @@ SECOND = 2
 """Entries of a jet beyond this one are second derivatives."""
 
 POINTS_AT_ONCE = 1024
-"""Points whose Hessians are formed together: enough to hide Python, few enough to stay in the cache."""
+"""Points per batch of Hessians: enough to hide Python's overhead, few enough to stay in the cache."""
 
 
 class Load(NamedTuple):
-    """An effect on a part of the sheet: an edge or a point."""
+    """An effect on part of the sheet: an edge or a point."""
 
     region: Region
     effect: Effect
@@ -40,7 +41,7 @@ class Group(NamedTuple):
 
 
 class Part(NamedTuple):
-    """Some elements of a region with what their points need."""
+    """Some elements of a region, with the rest state and step at their points."""
 
     elements: slice
     rest: RestState | None
@@ -59,9 +60,9 @@ class Blocks(Shown, _Blocks):
 class Potential(Shown):
     """Energy, gradient and Hessian of the sum of some effects.
 
-    effects act on the whole sheet, loads on the region that they name. rest is needed by elastic
-    effects, step by inertia, friction and damping. Raises ValueError where either is missing, where
-    effects contradict each other and where the elements do not suit an effect.
+    effects act on the whole sheet, loads on their region. rest is needed by elastic effects, step by
+    inertia, friction and damping. Raises ValueError if either is missing, if effects contradict each
+    other and if the elements are unsuitable for an effect.
     """
 
     def __init__(
@@ -104,7 +105,7 @@ class Potential(Shown):
         return out
 
     def energy_and_gradient(self, u: Array) -> tuple[float, Array]:
-        """Both at once, which spares the kinematics of one of them."""
+        """Both at once, with the kinematics computed once."""
         out = np.zeros(self.discretisation.size)
         return sum(term.add_gradient(u, out) for term in self._terms), out
 
@@ -144,11 +145,11 @@ class Term:
         total = 0.0
         for part in self.parts:
             state = self.state(u, part)
-            total += sum(float(e.energy(state).sum()) for g in self.groups for e in g.effects)
+            total += sum(float(asked(e, "energy", state).sum()) for g in self.groups for e in g.effects)
         return total
 
     def add_gradient(self, u: Array, out: Array) -> float:
-        """Add the gradient to `out`; returns the energy, whose ingredients are at hand."""
+        """Add the gradient to `out`; returns the energy, available at little cost."""
         count, total = self.region.components, 0.0
         nodal = out.reshape(-1, count)
         for part in self.parts:
@@ -157,8 +158,8 @@ class Term:
             for group in self.groups:
                 density = np.zeros((len(group.entries), count, state.measure.size))
                 for effect in group.effects:
-                    density[_rows(group, effect)] += effect.gradient(state)
-                    total += float(effect.energy(state).sum())
+                    density[_rows(group, effect)] += asked(effect, "gradient", state)
+                    total += float(asked(effect, "energy", state).sum())
                 forces += self._integrated(group, density, part)
             dofs = self.region.dofs[part.elements].ravel()
             for c in range(count):
@@ -200,10 +201,10 @@ class Term:
 
 
 def grouped(effects: Sequence[Effect], components: int) -> list[Group]:
-    """Effects sorted into groups: one joins a larger one that reads all of its derivatives.
+    """Effects sorted into groups: an effect joins a larger one that reads all of its derivatives.
 
-    Effects that read the position alone stay together and apart, because adding the position to the
-    five derivatives of a shell would cost them all. Effects that do no work are left out.
+    Effects that read only the position form a separate group, because adding the position to the five
+    derivatives of a shell would slow all of them. Effects that do no work are omitted.
     """
     effects = [effect for effect in effects if not effect.idle(components)]
     groups: list[Group] = []
@@ -218,7 +219,7 @@ def grouped(effects: Sequence[Effect], components: int) -> list[Group]:
 
 
 def _rows(group: Group, effect: Effect) -> slice:
-    """Where the entries of an effect stand among those of its group (they are neighbours)."""
+    """Slice of the entries of an effect among those of its group."""
     start = group.entries.index(effect.entries[0])
     assert group.entries[start : start + len(effect.entries)] == tuple(effect.entries)
     return slice(start, start + len(effect.entries))
@@ -227,7 +228,7 @@ def _rows(group: Group, effect: Effect) -> slice:
 def _summed_hessian(group: Group, state: PointState) -> Array | None:
     total: Array | None = None
     for effect in group.effects:
-        density = effect.hessian(state)
+        density = asked(effect, "hessian", state)
         if density is None:
             continue
         if total is None and len(effect.entries) == len(group.entries):

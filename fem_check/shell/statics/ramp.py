@@ -1,8 +1,8 @@
-"""Equilibria under growth and loads: put on in steps that adapt, buckling followed on request.
+"""Equilibria under growth and loads: continuation in adaptive increments, with optional buckling.
 
-Koiter's energy has minima with inverted elements, and saddles where a sheet buckles. Full growth from
-the flat state can end in either. Therefore growth and loads are ramped, no step may turn the sheet
-inside out (`orientation`), and a saddle is reported as such or left along its falling direction.
+Koiter's energy has minima with inverted elements, and saddles where a sheet buckles. Applying the full
+growth to the flat state can end in either. Therefore growth and loads are ramped, no step may invert
+the sheet (`orientation`), and a saddle is reported as such or left along its unstable direction.
 """
 
 import time
@@ -21,13 +21,13 @@ from linear_theory.common import validation
 Array = NDArray[np.float64]
 
 SMALLEST_INCREMENT = 1e-4
-"""Ramps give up below this share of the whole."""
+"""Smallest increment of the load factor, below which a ramp fails."""
 
 PATIENCE = 5
-"""A sheet that buckles goes a long way: so many times the usual iterations are allowed."""
+"""Factor on the usual iterations for a buckling sheet, which moves far."""
 
 ATTEMPTS = 5
-"""How many saddles in a row are left."""
+"""Largest number of consecutive saddles that are left."""
 
 FEW, MANY = 10, 20
 """Newton iterations below which an increment grows and above which it shrinks."""
@@ -42,15 +42,15 @@ def ramp(
     follow: float = 0.0,
     report: Callable[[float, Equilibrium], None] | None = None,
 ) -> Equilibrium:
-    """The equilibrium of problem(1), reached from `start`, that of problem(0), by increments.
+    """The equilibrium of problem(1), continued from `start`, that of problem(0), in increments.
 
-    problem: the potential at a parameter in (0, 1], for instance with growth and loads times it.
-    first: the first increment. An increment is halved when its minimisation fails and grows when it
-    was easy; each starts from the extrapolation of up to three. follow: if > 0, a buckled state is
-    left by this amplitude (length) along its mode, see `follow_mode`. report is called after each
-    increment.
+    problem: the potential at a load factor in (0, 1], for instance with growth and loads times it.
+    first: the first increment. An increment is halved when its minimisation fails and enlarged when it
+    converges fast; each starts from an extrapolation of up to three states. follow: if > 0, a buckled
+    state is left by a push of this amplitude (length) along its mode, see `follow_mode`. report is
+    called after each increment.
 
-    Raises ConvergenceError, with the last state and its parameter, when increments become too small.
+    Raises ConvergenceError, with the last state and its load factor, when increments become too small.
     """
     begin = time.perf_counter()
     done, increment, state = 0.0, _share("first", first), np.array(start, float)
@@ -68,7 +68,7 @@ def ramp(
             increment = (target - done) / 2
             if increment < SMALLEST_INCREMENT:
                 raise ConvergenceError(
-                    f"stuck at {done:.4g} of the ramp: {error}", state, done
+                    f"continuation failed at load factor {done:.4g}: {error}", state, done
                 ) from error
             continue
         iterations += result.iterations
@@ -83,7 +83,7 @@ def ramp(
 
 
 def _increment(minimiser: Minimiser, potential: Potential, guess: Array, state: Array) -> Equilibrium:
-    """From the extrapolated state, or from the last one if that does not lie on the way."""
+    """The minimum from the extrapolated state, or from the last one if that fails."""
     orientation = minimiser.orientation
     if not orientation.keeps(orientation.directors(state), orientation.directors(guess)):
         guess = state
@@ -93,13 +93,13 @@ def _increment(minimiser: Minimiser, potential: Potential, guess: Array, state: 
 def follow_mode(
     minimiser: Minimiser, potential: Potential, buckled: Equilibrium, amplitude: float
 ) -> Equilibrium:
-    """The minimum on one side of a saddle: pushed along its falling direction, then minimised again.
+    """The minimum on one side of a saddle: pushed along its unstable direction, then minimised again.
 
     amplitude: root mean square of the push over the sheet, in units of length; its sign selects the
     side. Raises ValueError if the state is not buckled, ConvergenceError as `Minimiser.minimise`.
     """
     if buckled.mode is None:
-        raise ValueError("buckled.mode = None: the state is a minimum, there is nothing to follow")
+        raise ValueError("buckled.mode = None: must be a mode; the state is a minimum, not a saddle")
     size, result = validation.real("amplitude", amplitude), buckled
     for _ in range(ATTEMPTS):
         if result.mode is None:

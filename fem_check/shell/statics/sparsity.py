@@ -1,4 +1,4 @@
-"""Where element Hessians go in the matrix of the free unknowns: worked out once, used at every step."""
+"""Places of element Hessians in the matrix of the free unknowns, computed once for all steps."""
 
 from functools import cached_property
 from typing import Any
@@ -19,7 +19,7 @@ Integers = NDArray[np.int64]
 
 
 class Sparsity:
-    """Numbering of the free unknowns along the sheet and the lower triangle of their matrix.
+    """Numbering of the free unknowns and the lower triangle of their matrix.
 
     free: (size,) which unknowns may move. order (n,): the free unknowns after a reverse Cuthill-McKee
     numbering of the scalar degrees of freedom. rows, columns: places of the stored entries of the
@@ -51,7 +51,7 @@ class Sparsity:
 
     @cached_property
     def diagonal(self) -> Integers:
-        """Where the diagonal is among the stored entries, (n,)."""
+        """Indices of the diagonal among the stored entries, (n,)."""
         return np.flatnonzero(self.rows == self.columns)
 
     @cached_property
@@ -87,7 +87,7 @@ class Sparsity:
             target = np.searchsorted(self._stored, keys[source])
             ones = np.ones(source.size)
             shape = (self._stored.size, keys.size)
-            # The region is kept with its map so that its id cannot be given to another one.
+            # The region is kept with its map so that its id cannot be reused for another one.
             self._maps[id(region)] = region, sp.csr_array((ones, (target, source)), shape=shape)
         return self._maps[id(region)][1]
 
@@ -98,17 +98,17 @@ class Sparsity:
         rows = self.place[dofs[:, :, None, None] + first[:, None]]
         columns = self.place[dofs[:, None, None, :] + second[:, None]]
         rows, columns = np.broadcast_arrays(rows, columns)
-        # Pairs c < d stand for themselves and for their mirror image; c = d come twice.
+        # Pairs c < d represent themselves and their transpose; c = d appear twice.
         wanted = (rows >= 0) & (columns >= 0) & ((rows >= columns) | (first != second)[:, None])
         low, high = np.minimum(rows, columns), np.maximum(rows, columns)
         return np.where(wanted, high * self.size + low, -1).ravel(), dofs
 
 
 def _narrowest(dofs: Integers, places: Array) -> Integers:
-    """The best of three numberings of the scalar degrees of freedom: the one with the narrowest band.
+    """The numbering of the scalar degrees of freedom with the narrowest band, out of three.
 
-    On a rectangle sorting along its longer side beats reverse Cuthill-McKee, which starts at a corner
-    and walks along diagonals.
+    On a rectangle, sorting along its longer side is better than reverse Cuthill-McKee, which starts at
+    a corner and proceeds along diagonals.
     """
     shapes, count = dofs.shape[1], places.shape[1]
     rows, columns = np.repeat(dofs, shapes, axis=1).ravel(), np.tile(dofs, (1, shapes)).ravel()

@@ -10,15 +10,15 @@ from fem_check.shell.statics.sparsity import Sparsity
 Array = NDArray[np.float64]
 
 NEUTRAL = 1e-10
-"""Eigenvalues closer to 0 than this are rigid motions and roundoff, not buckling."""
+"""Magnitude below which eigenvalues are due to rigid motions and roundoff, not buckling."""
 
 
 def lowest_mode(sparsity: Sparsity, factor: Factor, shift: float, scale: Array) -> tuple[float, Array]:
     """Lowest eigenvalue and eigenvector of H x = lambda diag(scale) x.
 
     factor: of H + shift diag(scale), positive definite. scale (n,). The eigenvector (n,) of the free
-    unknowns has any size and sign. Lanczos iteration on the inverse of the shifted matrix, from a fixed
-    start, so that results repeat.
+    unknowns has arbitrary norm and sign. Lanczos iteration on the inverse of the shifted matrix, from a
+    fixed start vector, so that results are reproducible.
     """
     root = np.sqrt(scale)
     inverse = LinearOperator(

@@ -1,1 +1,1 @@
-"""Scenes in time: one minimisation per step, error control, balance of power, restart."""
+"""Time integration of scenes: one minimisation per step, error control, energy balance, restart."""

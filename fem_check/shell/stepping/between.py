@@ -1,8 +1,8 @@
-"""Shapes between the kept ones, and how far they are from those that were not kept.
+"""Shapes interpolated between the kept ones, and the error of this interpolation.
 
-The states of most steps may be dropped, but the positions of a few points, the probes, are known at all
-of them. Interpolated from the times of the kept states alone, the probes show what the interpolation of
-a state misses, also where the kept times are too far apart to see the motion at all.
+The states of most steps may be dropped, but the positions of a few points, the probes, are kept at all
+steps. Interpolating the probes from the times of the kept states shows the error of interpolated
+states, even if the kept times are too far apart to resolve the motion.
 """
 
 from typing import Any
@@ -17,24 +17,24 @@ from fem_check.shell.kinematics.region import Region
 Array = NDArray[np.float64]
 
 NEIGHBOURS = 4
-"""States that a shape between them is interpolated from."""
+"""Number of states from which a shape is interpolated."""
 
 PROBES = 16
-"""Points whose positions are kept at every step."""
+"""Number of points whose positions are kept at every step."""
 
 MARGIN = 2
-"""The error is at most this multiple of what the probes show: elsewhere on the sheet it is up to 1.2
-times as large, and of the motion between two steps only differences of interpolations are known."""
+"""Bound of the ratio of the error to that at the probes: elsewhere on the sheet it is up to 1.2 times
+as large, and between two steps the motion is known only through differences of interpolations."""
 
 
 def probe_region(discretisation: Discretisation) -> Region:
-    """Vertices that are spread over the sheet, the corners first."""
+    """Vertices distributed over the sheet, corners first."""
     mesh = discretisation.mesh
     return discretisation.points(_spread(mesh.p[:, np.unique(mesh.t)], PROBES))
 
 
 def _spread(points: Array, count: int) -> Array:
-    """Of points (2, n) those that are far from each other, (2, count or n)."""
+    """A subset of points (2, n) that are far from each other, (2, count or n)."""
     middle = points.mean(1, keepdims=True)
     chosen = [int(np.hypot(*(points - middle)).argmax())]
     distance = np.full(points.shape[1], np.inf)
@@ -46,12 +46,12 @@ def _spread(points: Array, count: int) -> Array:
 
 
 def between(times: Array, values: Any, t: float, count: int = NEIGHBOURS) -> Array:
-    """Values (n, ...) at times (n,), at another time by the polynomial through the `count` nearest."""
+    """Values (n, ...) at times (n,), interpolated to time t by a polynomial through `count` of them."""
     return _through(times, values, t, int(np.searchsorted(times, t)) - count // 2, count)
 
 
 def _through(times: Array, values: Any, t: float, begin: int, count: int) -> Array:
-    """The polynomial through `count` values from `begin` on, or the nearest that there are."""
+    """The polynomial through `count` values from `begin` on, shifted to the available ones."""
     count = min(count, times.size)
     begin = int(np.clip(begin, 0, times.size - count))
     near = slice(begin, begin + count)
@@ -62,10 +62,11 @@ def _through(times: Array, values: Any, t: float, begin: int, count: int) -> Arr
 def interpolation_error(
     times: Array, probes: Array, snaps: NDArray[np.bool_], kept: Array, t: float
 ) -> float:
-    """Largest distance, anywhere on the sheet, between a shape by `between` and the true one at time t.
+    """Largest distance, anywhere on the sheet, between a shape from `between` and the true one at time
+    t.
 
-    times (n,), probes (n, points, components): of all steps. snaps (n,): whether the sheet snapped over
-    in the step that ended then. kept: times of the kept states.
+    times (n,), probes (n, points, components): of all steps. snaps (n,): whether the sheet snapped
+    through in the step that ended then. kept: times of the kept states.
     """
     if np.any(kept == t):
         return 0.0
@@ -74,8 +75,8 @@ def interpolation_error(
 
 
 def _step_error(times: Array, probes: Array, snaps: NDArray[np.bool_], t: float) -> float:
-    """Of the cubic through neighbouring steps: what two more of them change and by how much parabolas
-    that lean to either side differ. Within a snap nothing is known but its ends."""
+    """Error of the cubic through neighbouring steps: the change with two more steps, and the difference
+    of the parabolas on either side. Within a snap-through only its ends are known."""
     if np.any(times == t):
         return 0.0
     after = int(np.searchsorted(times, t))
@@ -86,7 +87,7 @@ def _step_error(times: Array, probes: Array, snaps: NDArray[np.bool_], t: float)
 
 
 def motion_around(times: Array, probes: Array, t: float, width: float) -> float:
-    """How far the probes move within the time `width` around t, length: diagonal of their boxes."""
+    """Motion of the probes within the time `width` around t, length: diagonal of bounding boxes."""
     near = probes[np.abs(times - t) <= width / 2]
     return float(np.sqrt((np.ptp(near, axis=0) ** 2).sum(-1)).max()) if len(near) else 0.0
 

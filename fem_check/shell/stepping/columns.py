@@ -1,4 +1,4 @@
-"""The table of a trajectory: what is known at the end of each step, with units, and its positions."""
+"""The table of a trajectory: quantities at the end of each step, with units, and positions."""
 
 from typing import TYPE_CHECKING
 
@@ -26,7 +26,7 @@ ENERGIES = {
 
 
 def columns(trajectory: "Trajectory") -> list[Column]:
-    """At the end of each step, times first."""
+    """Columns at the ends of the steps, times first."""
     table, works = trajectory.table, trajectory.power
     places = [
         Column(f"centre_{axis}", row, f"centre of mass, {AXES[axis]}", LENGTH)
@@ -40,16 +40,18 @@ def columns(trajectory: "Trajectory") -> list[Column]:
         Column("time", trajectory.times, "time", TIME),
         *places,
         *energies,
-        Column("residual", works.residual, "what the balance of energy lacks", ENERGY),
+        Column("residual", works.residual, "residual of the energy balance", ENERGY),
         Column("fastest", table["fastest"], "largest speed along the ground", SPEED),
         Column("linear", table["linear"], "share of the load slower than the slip speed", NUMBER),
         Column("iterations", table["iterations"], "Newton iterations of the step", NUMBER),
-        Column("buckled", trajectory.buckled, "negative curvature of the energy was met", NUMBER),
+        Column(
+            "buckled", trajectory.buckled, "whether a negative curvature of the energy was met", NUMBER
+        ),
     ]
 
 
 def positions(trajectory: "Trajectory") -> list[Column]:
-    """Of the vertices of the mesh at the stored times, and where they are in the undeformed sheet."""
+    """Positions of the mesh vertices at the stored times, and in the undeformed sheet."""
     model = trajectory.model
     vertices = model.discretisation.mesh.p
     region = model.discretisation.points(vertices)

@@ -1,14 +1,14 @@
-"""Where the work of growth goes: elastic and other energies, friction, damping, kinetic energy.
+"""The energy balance: work of growth against stored and kinetic energy, friction and damping.
 
-Growth does work on the sheet by changing its rest state. Over a step from (x0, r0) to (x1, r1), r the
-rest state, the potential energy U of the sheet, its weight and the ground changes by
+Growth does work on the sheet by changing its rest state. Over a step from (x0, r0) to (x1, r1), with r
+the rest state, the potential energy U of the sheet, its weight and the ground changes by
 
     U(x1, r1) - U(x0, r0) = growth + motion,
     growth = [U(x1, r1) - U(x1, r0) + U(x0, r1) - U(x0, r0)]/2
 
-exactly, growth being the trapezoidal rule for the integral of dU/dr dr: no derivative by the rest state
-is needed. Forces that dissipate count with the mean of both ends times the way. What is left of the sum
-is of second order in the step.
+exactly, where growth is the trapezoidal rule for the integral of dU/dr dr, so that no derivative with
+respect to the rest state is needed. The work of dissipative forces is the mean of both ends times the
+displacement. The residual of the balance is of second order in the step.
 """
 
 from dataclasses import dataclass
@@ -42,13 +42,13 @@ class Works(Shown, _Works):
     """Energies in force times length; per step, or summed up to some times (arrays).
 
     growth: work of growth on the sheet. elastic, weight, ground, kinetic: increase of the energies
-    (weight: with dead loads). friction, damping: what is dissipated. The balance is
+    (weight: with dead loads). friction, damping: dissipated energies. The balance is
     growth = elastic + weight + ground + kinetic + friction + damping + residual.
     """
 
     @property
     def residual(self) -> Array:
-        """What the balance lacks: the error of the sums over steps."""
+        """Residual of the balance: the error of the sums over steps."""
         return np.asarray(self.growth - sum(self[1:]))
 
 
@@ -58,7 +58,7 @@ STORES = ("elastic", "weight", "ground")
 
 @dataclass(frozen=True, eq=False)
 class Moment:
-    """The sheet at the end of a step as the balance needs it.
+    """The sheet at the end of a step, with the quantities of the energy balance.
 
     velocity (size,): of the unknowns, for the kinetic energy; None without inertia. drag,
     sliding (points,) and (components, points): forces of damping and of friction.
@@ -89,17 +89,17 @@ class Ledger:
         self.friction: Friction | None = model.find(Friction)
 
     def moment(self, u: Array, rest: RestState, step: Step, velocity: Array | None) -> Moment:
-        """Forces and positions at the end of a step (before the first: with a step at rest)."""
+        """Forces and positions at the end of a step (before the first one: of a step at rest)."""
         state = PointState(self.region, u, (0,), rest, step)
         force = None if self.friction is None else self.friction.force(state)
         speed = velocity if self.areal_mass else None
         return Moment(u, rest, step.area, state.position, force, self._drag(u, state), speed)
 
     def works(self, before: Moment, after: Moment) -> Works:
-        """Of the step between two moments."""
+        """Works of the step between two moments."""
         area = None
         if before.area is not None and after.area is not None:
-            # Weight per current area has no potential; over a step its mean area counts.
+            # Weight per current area has no potential; the mean area over the step is used.
             area = (before.area + after.area) / 2
         old, new = before.rest, after.rest
         first, last = self._energies(before.state, old, area), self._energies(after.state, new, area)
@@ -114,7 +114,7 @@ class Ledger:
         return Works(*(np.asarray(value) for value in values))
 
     def _energies(self, u: Array, rest: RestState, area: Array | None) -> Array:
-        """Elastic energy, energy of the weight, of the ground."""
+        """Elastic energy, and energies of the weight and of the ground."""
         state = PointState(self.region, u, self.entries, rest, Step(area=area))
         out = np.zeros(3)
         for slot, effect in self.stored:
@@ -137,7 +137,7 @@ class Ledger:
 
 
 def _loss(before: Array | None, after: Array | None, way: Array) -> float:
-    """Minus the work of a force along a way."""
+    """Minus the work of a force along a displacement."""
     if before is None or after is None:
         return 0.0
     return -float(((before + after) * way).sum()) / 2

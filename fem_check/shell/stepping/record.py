@@ -1,4 +1,4 @@
-"""What is kept of every accepted step."""
+"""The record of every accepted step."""
 
 from dataclasses import dataclass, field
 
@@ -17,16 +17,16 @@ COLUMNS = (
     *("fastest", "linear", "step_x", "step_y", "slip_x", "slip_y"),
     *("iterations", "repeats", "buckled"),
 )
-"""time and centre at the end of the step; what the step adds to each of `power.Works`;
+"""time and centre at the end of the step; increments of each of `power.Works`;
 `sliding.Sliding` at its end; Newton iterations, minimisations, whether negative curvature was met."""
 
 
 @dataclass
 class Record:
-    """Rows of COLUMNS, one per accepted step and one for the start, and some of the states.
+    """Rows of COLUMNS, one for the start and one per accepted step, and some of the states.
 
-    probes: positions (points, components) of a few points, one for each row. times, states: kept states
-    and when. rejected: steps that were repeated, for their error or because no minimum was found.
+    probes: positions (points, components) of a few points, for each row. times, states: of the kept
+    states. rejected: steps repeated because of their error or because no minimum was found.
     """
 
     rows: list[Array] = field(default_factory=list)
@@ -44,7 +44,7 @@ class Record:
         probes: Array,
         counts: tuple[int, int, bool],
     ) -> None:
-        """One more row; centre (components,)."""
+        """Append a row; centre (components,)."""
         place = np.zeros(3)
         place[: centre.size] = centre
         numbers = [slide.fastest, slide.linear, *slide.step, *slide.slip, *counts]
@@ -52,12 +52,12 @@ class Record:
         self.probes.append(np.array(probes))
 
     def keep(self, time: float, state: Array) -> None:
-        """One more state."""
+        """Append a state."""
         self.times.append(time)
         self.states.append(state)
 
     def cut(self, rows: int, kept: int) -> None:
-        """Drop what is beyond so many rows and kept states."""
+        """Drop everything beyond `rows` rows and `kept` states."""
         for entries, count in (
             (self.rows, rows),
             (self.probes, rows),

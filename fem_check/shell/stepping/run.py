@@ -1,4 +1,4 @@
-"""A simulation under way: everything that the next step depends on, saved, resumed and rewound."""
+"""A running simulation: its full state, which can be saved, resumed and rewound."""
 
 import time
 from collections.abc import Callable
@@ -32,15 +32,15 @@ from linear_theory.scene.scene import Scene
 Array = NDArray[np.float64]
 
 SNAP, PATIENCE = 3, 10
-"""After so many failures in a row a step may take so many times the usual iterations: a sheet that
-snaps over goes a long way however short the step is."""
+"""Number of consecutive failures after which a step may take this multiple of the usual iterations: a
+sheet that snaps through moves far however short the step is."""
 
 CHECKED = 8
-"""Of so many steps one is checked for negative curvature at its end, which costs a Hessian: a kept
-factor, and symmetry, can hide it from the minimisations."""
+"""Interval, in steps, of checks for negative curvature at the end of a step, which cost a Hessian: a
+reused factor, or symmetry, can hide it from the minimisations."""
 
 MOMENT = ("area", "sliding", "drag", "velocity")
-"""Arrays of a Moment that not every scene has."""
+"""Arrays of a Moment that only some scenes have."""
 
 
 class _Progress(NamedTuple):
@@ -57,7 +57,7 @@ class Progress(Shown, _Progress):
 
 
 class Target(NamedTuple):
-    """Where snapshots go: file, fingerprint of the run, steps between two of them."""
+    """Destination of snapshots: file, fingerprint of the run, steps between two of them."""
 
     path: Path
     owner: str
@@ -65,10 +65,10 @@ class Target(NamedTuple):
 
 
 class Landing(NamedTuple):
-    """The run after an accepted step: what the next one depends on, and how much was recorded.
+    """State of the run after an accepted step, and the length of the record.
 
-    sizes: of the next step and the largest velocity so far. counts: rejected steps, rows and kept
-    states of the record. factor: kept by the minimiser.
+    sizes: next step and largest velocity so far. counts: rejected steps, rows and kept states of the
+    record. factor: kept by the minimiser.
     """
 
     history: History
@@ -79,7 +79,7 @@ class Landing(NamedTuple):
 
 
 class Run:
-    """A scene on its way through time."""
+    """The time integration of a scene."""
 
     @one_blas_thread
     def __init__(self, scene: Scene, settings: Settings) -> None:
@@ -99,12 +99,12 @@ class Run:
 
     @property
     def steps(self) -> int:
-        """Accepted so far."""
+        """Number of accepted steps so far."""
         return len(self.record.rows) - 1
 
     @one_blas_thread
     def finish(self, target: Target | None, report: Callable[[Progress], None] | None) -> None:
-        """Steps to the end, with a snapshot after every so many if there is a target for them."""
+        """Step to the end, with snapshots at regular intervals if there is a target for them."""
         begin, before = time.perf_counter(), self.history.time
         if target is not None and self._remaining() > 0:
             check_writable(target.path)
@@ -119,7 +119,7 @@ class Run:
                 report(Progress(now, end, self.steps, self.record.rejected, spent, left))
 
     def trajectory(self) -> Trajectory:
-        """What has been found so far."""
+        """The trajectory so far."""
         record = self.record
         return Trajectory(
             self.model,
@@ -134,13 +134,13 @@ class Run:
         )
 
     def _remaining(self) -> float:
-        """Time to the next end of a period (or of the ramp); 0 at the end."""
+        """Time to the next end of a period (or of the ramp); 0 at the end of the run."""
         tolerance = LANDED * self.scene.period
         ahead = self.marks[self.marks > self.history.time + tolerance]
         return float(ahead[0] - self.history.time) if ahead.size else 0.0
 
     def _advance(self) -> None:
-        """One accepted step."""
+        """Make one accepted step."""
         failures, check = 0, len(self.record.rows) % CHECKED == 0
         while True:
             dt = self.size.within(self._remaining())
@@ -160,7 +160,7 @@ class Run:
     def _shorten(self, dt: float, error: ConvergenceError, last: bool) -> None:
         self.record.rejected += 1
         if not self.size.halve(dt) and last:
-            text = f"no step from t = {self.history.time:g}, however short: {error}"
+            text = f"no time step from t = {self.history.time:g} converges, however short: {error}"
             raise ConvergenceError(text, self.history.state, self.history.time) from error
 
     def _accept(self, result: StepResult, dt: float, wrong: Array, velocity: Affine) -> None:
@@ -176,7 +176,7 @@ class Run:
     def _note(
         self, state: Array, works: Works, slide: Sliding, counts: tuple[int, int, bool] = (0, 0, False)
     ) -> None:
-        """A row of the record for the state at this time."""
+        """Append a row to the record for the state at this time."""
         centre, probes = self._centre(state), self.probes.position(state, (0,))[0].T
         self.record.add(self.history.time, centre, works, slide, probes, counts)
 
@@ -189,7 +189,7 @@ class Run:
         return sliding(friction, state, error, self.region.measure)
 
     def _first_moment(self) -> Moment:
-        """Of the start, which is also the first row of the record."""
+        """The moment at the start, which is also the first row of the record."""
         history, rest = self.history, self.stepper.rest(0.0)
         moving = history.velocity
         velocity = np.zeros_like(history.state) if moving is None else moving
@@ -218,7 +218,7 @@ class Run:
         return Landing(self.history, self.moment, (size.dt, size.scale), counts, factor)
 
     def rewind(self) -> None:
-        """Back to the end of the last accepted step, from anywhere in the next one."""
+        """Return to the end of the last accepted step, from any point in the next one."""
         landing = self.landing
         self.history, self.moment = landing.history, landing.moment
         self.size.dt, self.size.scale = landing.sizes
@@ -227,11 +227,11 @@ class Run:
         self.stepper.minimiser.kept = landing.factor
 
     def save(self, target: Target) -> None:
-        """Write a snapshot, at the end of a step."""
+        """Write a snapshot at the end of a step."""
         save_snapshot(target.path, self._arrays(), target.owner)
 
     def _arrays(self) -> dict[str, Array]:
-        """All that the next step depends on and all that was recorded."""
+        """The full state of the run and its record."""
         size, record, history = self.size, self.record, self.history
         found: dict[str, Any] = {
             "past_times": history.times,
@@ -252,7 +252,7 @@ class Run:
         return {name: value for name, value in found.items() if value is not None}
 
     def resume(self, target: Target) -> float:
-        """Go on from a snapshot, if there is one; returns its time, else NaN."""
+        """Resume from a snapshot, if there is one; returns its time, else NaN."""
         if not target.path.exists():
             return np.nan
         found = load_snapshot(target.path, target.owner)

@@ -1,4 +1,4 @@
-"""What a run is asked for, checked once and in one form."""
+"""Settings of a run, checked and normalised."""
 
 from dataclasses import dataclass
 
@@ -12,9 +12,9 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, eq=False)
 class Settings:
-    """Arguments of `simulate` that its numbers depend on; numpy's numbers become plain ones.
+    """Arguments of `simulate` that determine its results; numpy numbers become plain ones.
 
-    rtol and steps: at most one of them; without both rtol is 1e-2. velocity: array or None.
+    rtol and steps: at most one of them; by default rtol is 1e-2. velocity: array or None.
     Raises ValueError for values out of range.
     """
 
@@ -37,9 +37,7 @@ class Settings:
             self._set("rtol", validation.tolerance(1e-2 if self.rtol is None else self.rtol))
             return
         if self.rtol is not None:
-            raise ValueError(
-                f"steps = {self.steps!r}: must be None where rtol = {self.rtol!r} is given"
-            )
+            raise ValueError(f"steps = {self.steps!r}: must be None if rtol = {self.rtol!r} is given")
         self._set("steps", validation.integer("steps", self.steps, 4))
 
     def _set(self, name: str, value: object) -> None:

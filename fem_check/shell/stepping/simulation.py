@@ -1,4 +1,4 @@
-"""A scene stepped through time: growth ramped up from rest, then whole periods of its wave."""
+"""Time integration of a scene: growth ramped up from rest, then whole periods of its wave."""
 
 import os
 import sys
@@ -22,8 +22,8 @@ from linear_theory.scene.scene import Scene
 Array = NDArray[np.float64]
 
 MESH_MARGIN = 2
-"""The mesh's error is this multiple of the difference to a mesh 1.5 times coarser. The elastic part is
-far below it; in dry friction it is the quadrature of a force that jumps, which falls unevenly."""
+"""Mesh error relative to the difference to a mesh 1.5 times coarser. The elastic part is far smaller;
+with dry friction the quadrature of a discontinuous force dominates, which converges irregularly."""
 
 
 def simulate(
@@ -42,26 +42,25 @@ def simulate(
 ) -> Trajectory:
     """The motion of a scene from the ungrown sheet at rest, through a ramp of growth and `periods`.
 
-    rtol: error of the velocities by which steps are chosen (1e-2 unless given), about the relative
-    error of V; steps: instead, so many equal steps per period. ramp: periods in which growth rises to
-    its full size. velocity (components,): of the sheet at the start; with Inertia only.
-    snapshot: file that is written after every `snapshot_every` steps, at the end, and when Ctrl-C stops
-    the run. If it exists the run goes on from it, and ends with the same numbers, bit for bit, as one
-    that was not interrupted (one thread, same machine). keep_every: states of so many steps are kept in
-    the trajectory; see `Trajectory.shape_error`. mesh_error: estimate the error of the mesh from a
-    second run on a coarser one. progress: True prints, a function is called after each step.
+    rtol: error of the velocities, which controls the steps (1e-2 by default) and is about the relative
+    error of V; steps: instead, number of equal steps per period. ramp: periods over which growth rises
+    to its full amplitude. velocity (components,): of the sheet at the start; with Inertia only.
+    snapshot: file written after every `snapshot_every` steps, at the end, and when Ctrl-C interrupts
+    the run. If it exists, the run resumes from it, and the results are bit for bit those of an
+    uninterrupted run (one thread, same machine). keep_every: interval, in steps, of states kept in the
+    trajectory; see `Trajectory.shape_error`. mesh_error: estimate the mesh error from a second run on a
+    coarser mesh. progress: True prints, a function is called after each step.
 
-    Steps are short enough to see the harmonics in time of the wave that matter, many where they are
-    high.
+    Steps are short enough to resolve the significant harmonics in time of the wave.
 
-    A scene without Friction and Inertia has no motion in time; use `cycle_speed.cycle_speed`.
-    Raises ValueError for such scenes, for values out of range, for `steps` too few to see the wave and
-    for a wave that does not repeat after its period; SnapshotError, a ValueError, for a snapshot that
-    is damaged or of another scene or run, for a place where none can be written, and for a wave or
-    ground whose function can be known again neither by its content nor by a name; ConvergenceError
-    (with the last state and its time as `parameter`) where steps become too small; KeyboardInterrupt
-    after Ctrl-C, with a line that says what is kept. Warns (ViscousRegimeWarning) where Friction,
-    regularised dry friction, acts as viscous: see `CrawlSpeed.regime`.
+    A scene without Friction and Inertia is not time dependent; use `cycle_speed.cycle_speed`.
+    Raises ValueError for such scenes, for values out of range, for too few `steps` to resolve the wave
+    and for a wave that does not repeat after its period; SnapshotError, a ValueError, for a snapshot
+    that is damaged or belongs to another scene or run, for a path that cannot be written to, and for a
+    wave or ground whose function has neither identifiable content nor a name; ConvergenceError (with
+    the last state and its time as `parameter`) if steps become too small; KeyboardInterrupt after
+    Ctrl-C, with a line that says what is kept. Warns (ViscousRegimeWarning) if Friction, regularised
+    dry friction, acts as viscous: see `CrawlSpeed.regime`.
 
     >>> from fem_check import Friction, Gravity, Material, Membrane, Scene, simulate
     >>> from linear_theory import Sheet, SineWave
@@ -72,7 +71,7 @@ def simulate(
     V = 0.016 L/T, friction is dry
     """
     begin, run, target = time.perf_counter(), None, None
-    hint = "its arguments are sheet, wave, alpha and effects"
+    hint = "make one by Scene(sheet, wave, alpha, effects=...)"
     scene = validation.instance("scene", scene, Scene, hint)
     if not (progress is None or isinstance(progress, bool) or callable(progress)):
         raise ValueError(f"progress = {validation.shown(progress)}: must be True, False or a function")
@@ -91,8 +90,8 @@ def simulate(
     except KeyboardInterrupt:
         if progress is True:
             print(file=sys.stderr)
-        # Not a class of its own, for which Python would not end as a process ends that was interrupted;
-        # from None, since where in a step it struck tells the user nothing.
+        # Not a subclass, for which Python would not exit with the status of an interrupted process;
+        # from None, since the traceback into a step does not help the user.
         raise KeyboardInterrupt(_interrupted(run, target)) from None
     found = replace(
         run.trajectory(),
@@ -105,7 +104,7 @@ def simulate(
 
 
 def _target(path: Path, scene: Scene, settings: Settings, every: int) -> Target:
-    """Where the snapshots of a run go; refused before the work where there can be none."""
+    """Destination of the snapshots of a run; raises, before any work, if they cannot be written."""
     check_path(path)
     if not os.path.exists(path):
         check_writable(path)
@@ -113,7 +112,7 @@ def _target(path: Path, scene: Scene, settings: Settings, every: int) -> Target:
 
 
 def _mesh_error(run: Run) -> float:
-    """Of the mean speed, from the same run on a coarser mesh."""
+    """Mesh error of the mean speed, from the same run on a coarser mesh."""
     coarse = Run(coarser(run.scene), run.settings)
     coarse.finish(None, None)
     difference = coarse.trajectory().period_speeds[-1] - run.trajectory().period_speeds[-1]
@@ -121,31 +120,31 @@ def _mesh_error(run: Run) -> float:
 
 
 def _interrupted(run: Run | None, target: Target | None) -> str:
-    """What is left of a run that was stopped, in one line; its snapshot is written first."""
+    """Message on what is kept of an interrupted run, after writing its snapshot."""
     if run is None:
-        return "simulate was stopped before its first step"
+        return "simulate was interrupted before its first step"
     run.rewind()
     now, end = run.history.time, float(run.marks[-1])
-    text = f"simulate was stopped at t = {now:g} of {end:g}, after {run.steps} steps"
+    text = f"simulate was interrupted at t = {now:g} of {end:g}, after {run.steps} steps"
     if target is None:
-        return f"{text}, which are lost; with snapshot='run.npz' it could be resumed by the same call"
+        return f"{text}, which are lost; with snapshot='run.npz' the same call would resume the run"
     try:
         run.save(target)
     except OSError as error:
-        return f"{text}; {target.path} could not be written ({error}) and holds what it held before"
-    return f"{text}, all kept in {target.path}; the same call goes on from there"
+        return f"{text}; {target.path} could not be written ({error}) and is unchanged"
+    return f"{text}, all kept in {target.path}; the same call resumes from there"
 
 
 def coarser(scene: Scene) -> Scene:
-    """The scene on a mesh whose elements are about 1.5 times as long.
+    """The scene on a mesh with elements about 1.5 times as long.
 
-    Raises ValueError for a mesh that cannot be made coarser: of the scene's own, or of a single row.
+    Raises ValueError for a mesh that cannot be coarsened: a given one, or one with a single row.
     """
     if scene.mesh is not None:
-        raise ValueError("mesh_error = True: must be False for a scene with a mesh of its own")
+        raise ValueError("mesh_error = True: must be False for a scene with its own mesh")
     across, along = scene.cells or default_cells(scene.drive, scene.planar)
     if min(across, along) < 2:
-        raise ValueError(f"cells = {scene.cells}: must be at least 2 each way where mesh_error = True")
+        raise ValueError(f"cells = {scene.cells}: must both be >= 2 if mesh_error = True")
     return scene.but(cells=(round(across / 1.5), round(along / 1.5)))
 
 

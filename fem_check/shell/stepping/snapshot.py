@@ -1,4 +1,4 @@
-"""Snapshots of a run: plain npz files, written atomically, refused when they are not what they were."""
+"""Snapshots of a run: plain npz files, written atomically, with a checksum."""
 
 import contextlib
 import hashlib
@@ -30,28 +30,28 @@ _DAMAGED = (
     *(zipfile.BadZipFile, zlib.error, struct.error, UnicodeDecodeError),
     *(ValueError, EOFError, OSError, KeyError, RuntimeError, AttributeError, SyntaxError),
 )
-"""What numpy and zipfile raise for files that are not what they should be."""
+"""Exceptions of numpy and zipfile for damaged files."""
 
 _LABELS = ("version", "checksum", "fingerprint", "python")
 
 _PHASES = (0.0, 0.1234, 0.5678)
-"""Of the period; no usual wave repeats itself there."""
+"""Phases, in periods, at which functions are sampled; incommensurate with common waves."""
 
 
 class SnapshotError(SheetcrawlError, ValueError):
-    """A snapshot that cannot be written, or not be gone on from: damaged, altered or of another run."""
+    """A snapshot that cannot be written or resumed from: damaged, altered or of another run."""
 
 
 def check_path(path: Path) -> None:
-    """Raise SnapshotError if there can be no snapshot at a path."""
+    """Raise SnapshotError if a snapshot cannot be at this path."""
     if os.path.isdir(path):  # not path.is_dir(), which fails for names that are too long
         raise SnapshotError(f"snapshot = {path}: must be a file, is a folder")
     if not os.path.isdir(path.parent):
-        raise SnapshotError(f"snapshot = {path}: must be in a folder that exists; make {path.parent}")
+        raise SnapshotError(f"snapshot = {path}: must be in an existing folder; create {path.parent}")
 
 
 def check_writable(path: Path) -> None:
-    """Raise SnapshotError if the snapshot cannot be written, found out by writing next to it."""
+    """Raise SnapshotError if the snapshot cannot be written, by writing a file next to it."""
     temporary = _temporary(path)
     try:
         temporary.touch()
@@ -64,7 +64,7 @@ def check_writable(path: Path) -> None:
 
 
 def save_snapshot(path: Path, arrays: dict[str, Array], owner: str) -> None:
-    """Write arrays and the fingerprint of their run; always the old or the new file is there."""
+    """Write arrays and the fingerprint of their run, atomically."""
     labels = {
         "version": np.array(VERSION),
         "fingerprint": np.array(owner),
@@ -87,7 +87,7 @@ def _temporary(path: Path) -> Path:
 
 
 def load_snapshot(path: Path, owner: str) -> dict[str, Array]:
-    """Arrays of a snapshot. Raises SnapshotError, saying why, if they are not to be trusted."""
+    """Arrays of a snapshot. Raises SnapshotError, with the reason, if they cannot be trusted."""
     try:
         contents = io.BytesIO(path.read_bytes())
     except OSError as error:
@@ -100,15 +100,15 @@ def load_snapshot(path: Path, owner: str) -> dict[str, Array]:
     version = found.get("version")
     if version is not None and not np.array_equal(version, VERSION):
         raise SnapshotError(
-            f"snapshot {path}: has version {version}, this program reads {VERSION}; remove the "
+            f"snapshot {path}: has version {version}, must be {VERSION} for this program; remove the "
             "file, or name another one, to start from the beginning"
         )
     missing = [name for name in _LABELS if name not in found]
     if missing:
-        raise SnapshotError(f"snapshot {path}: is no snapshot of a simulation (no {missing[0]})")
+        raise SnapshotError(f"snapshot {path}: is not a snapshot of a simulation (no {missing[0]})")
     _, stored, fingerprint, python = (found.pop(name) for name in _LABELS)
     if str(stored) != checksum(found, str(fingerprint)):
-        raise SnapshotError(f"snapshot {path}: was altered, its checksum does not fit its contents")
+        raise SnapshotError(f"snapshot {path}: was altered, its checksum does not match its contents")
     if str(fingerprint) != owner:
         raise SnapshotError(f"snapshot {path}: {_differences(str(fingerprint), owner, str(python))}")
     return found
@@ -125,9 +125,9 @@ def checksum(arrays: dict[str, Array], owner: str) -> str:
 
 
 def fingerprint(scene: Scene, settings: Settings) -> str:
-    """All that determines a run, as JSON: the key of the content of each part by its name.
+    """Everything that determines a run, as JSON: the content key of each part by its name.
 
-    Values of the functions belong to it too: a name that stands for another one shall not pass.
+    Sampled values of the functions are included: reusing a name for another function is detected.
     Raises Unidentifiable for a function without content or name.
     """
     model = ShellModel(scene)
@@ -141,7 +141,7 @@ def fingerprint(scene: Scene, settings: Settings) -> str:
         **{name: getattr(scene, name) for name in PARTS if name != "elements"},
         **{f.name: getattr(settings, f.name) for f in fields(settings)},
         "mesh": (type(mesh).__name__, mesh.doflocs, mesh.t, discretisation.degree),
-        # An element object fills up with tables; its functions are what tells it apart.
+        # An element object caches tables; it is identified by its functions.
         "element": (type(discretisation.element), discretisation.interior.shapes((0,))[0]),
         "values of the wave": values,
         "values of the ground": None if hill is None else hill.values(x, y),
@@ -150,28 +150,28 @@ def fingerprint(scene: Scene, settings: Settings) -> str:
 
 
 def run_fingerprint(path: Path, scene: Scene, settings: Settings) -> str:
-    """The same for a run with a snapshot. Raises SnapshotError, saying what to do, without one."""
+    """`fingerprint` of a run with a snapshot. Raises SnapshotError, with a remedy, if there is none."""
     try:
         return fingerprint(scene, settings)
     except Unidentifiable as error:
         raise SnapshotError(
-            f"snapshot = {path}: must be None unless the run can be known again, and {error}; give the "
+            f"snapshot = {path}: must be None if the run cannot be identified, and {error}; give the "
             "function a name: FieldWave(..., name=...), Terrain(..., name=...)"
         ) from error
 
 
 def _differences(theirs: str, mine: str, python: str) -> str:
-    """What two fingerprints do not share, as the end of a sentence."""
+    """The differences between two fingerprints, as the end of a sentence."""
     text = "belongs to another scene or to a run with other settings"
     try:
         old, new = json.loads(theirs), json.loads(mine)
         names = sorted(name for name in old.keys() | new.keys() if old.get(name) != new.get(name))
-    except (ValueError, AttributeError):  # no fingerprint of this program
+    except (ValueError, AttributeError):  # not a fingerprint of this program
         return text
-    text += f": other {', '.join(names)}"
+    text += f": different {', '.join(names)}"
     if python != platform.python_version():
         text += (
-            f" (it was written by Python {python}; functions are known by their compiled code, which "
-            "is not the same in all versions)"
+            f" (it was written by Python {python}; functions are identified by their compiled code, "
+            "which depends on the version)"
         )
     return text

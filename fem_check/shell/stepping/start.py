@@ -1,4 +1,4 @@
-"""The state that a simulation starts from: the ungrown sheet at rest, or in uniform motion."""
+"""The initial state of a simulation: the ungrown sheet at rest, or in uniform motion."""
 
 from dataclasses import replace
 
@@ -19,20 +19,20 @@ Array = NDArray[np.float64]
 
 
 def translation(discretisation: Discretisation, shift: ArrayLike) -> Array:
-    """Unknowns (size,) of the same displacement (components,) everywhere."""
+    """Unknowns (size,) of a uniform displacement (components,)."""
     vertices = np.zeros(discretisation.scalars)
     vertices[discretisation.dofs_values()] = 1
     return np.multiply.outer(vertices, validation.real_array("shift", shift)).ravel()
 
 
 def resting_state(stepper: Stepper) -> Array:
-    """The ungrown sheet, (size,): as it was made, or sunk into the ground under its weight."""
+    """The ungrown sheet, (size,): undeformed, or sunk into the ground under its weight."""
     model, state = stepper.model, laid_down(stepper.model)
     if model.find(Ground) is None:
         return state
     rest = stepper.rest(0.0)
     minimiser = Minimiser(Supports(model.discretisation).anchor(motions="xy"))
-    for _ in range(3):  # a weight per current area is that of the state before
+    for _ in range(3):  # a weight per current area lags one state behind
         step = Step(area=stepper.area(state)) if stepper.holds_area else None
         potential = model.potential(rest, step, model.static_effects)
         state = minimiser.minimise(potential, state).state
@@ -42,16 +42,15 @@ def resting_state(stepper: Stepper) -> Array:
 
 
 def first_history(stepper: Stepper, dt: float, velocity: ArrayLike | None) -> History:
-    """The past before the first step: at rest, or (with inertia) in motion with `velocity`.
+    """The history before the first step: at rest, or (with inertia) moving with `velocity`.
 
-    velocity: (components,), length per time. Raises ValueError for one without inertia, which alone
-    keeps it.
+    velocity: (components,), length per time. Raises ValueError for a velocity without inertia.
     """
     model = stepper.model
     history = History.at_rest(resting_state(stepper), dt)
     if not any(effect.areal_mass for effect in model.effects):
         if velocity is not None:
-            raise ValueError(f"velocity = {velocity!r}: must be None without Inertia, which keeps it")
+            raise ValueError(f"velocity = {velocity!r}: must be None without Inertia")
         return history
     wanted = np.zeros(model.components) if velocity is None else velocity
     speed = validation.real_array("velocity", wanted)
@@ -63,9 +62,9 @@ def first_history(stepper: Stepper, dt: float, velocity: ArrayLike | None) -> Hi
 
 
 def first_acceleration(stepper: Stepper, state: Array, velocity: Array) -> Array:
-    """That by which the forces at the start are balanced, (size,)."""
+    """Initial acceleration, which balances the forces at the start, (size,)."""
     rest, minimiser = stepper.rest(0.0), stepper.minimiser
-    # Any rate will do: v = rate (x - base) with the base that gives the velocity at this x.
+    # Any rate works: v = rate (x - base) with the base that gives the velocity at this x.
     moving = stepper.at_points(Affine(1.0, state - velocity))
     at_rest = stepper.at_points(Affine(1.0, state))
     step = stepper.held(Step(moving, at_rest), state, rest)

@@ -1,4 +1,4 @@
-"""The past of a time integration, what it predicts, and the size of the next step."""
+"""The history of a time integration, its extrapolation, and the size of the next step."""
 
 from dataclasses import dataclass, replace
 
@@ -16,26 +16,26 @@ GROWTH = 1.6
 """Largest ratio of neighbouring steps; the two-step rule is stable up to 1 + sqrt 2."""
 
 LANDED = 1e-9
-"""Share of the period within which two times are one: ends of steps, of periods and those asked for."""
+"""Fraction of the period below which two times count as equal."""
 
 SAFETY = 0.9
 
 DEADBAND = 1.15
-"""Steps that could grow by less stay as they are, so that a kept factor goes on to serve."""
+"""Smallest increase of a step; steps are otherwise left unchanged, so that the factor can be reused."""
 
 SHORTEST = 32
-"""Share of the step that a sine wave needs below which steps are not shortened for their error: a sheet
-that snaps over jumps however short they are, and shorter steps make damping stiff."""
+"""Fraction of the step for a sine wave below which steps are not shortened for their error: a sheet
+that snaps through jumps however short they are, and shorter steps make damping stiff."""
 
 SHORT_HARMONIC = 8
-"""The highest harmonic of the wave up to which steps so short serve."""
+"""Highest harmonic of the wave resolved by such short steps."""
 
 FEWEST, GIVEN_SHARE = 4, 0.1
-"""Steps to the period of a harmonic, at least, where their number is given, and the share of the rate
-of growth that may lie in higher ones."""
+"""Smallest number of steps per period of a harmonic, if their number is given, and the fraction of the
+growth rate that may lie in higher harmonics."""
 
 SINE = Spectrum(np.ones(1), 0.0)
-"""A wave that is a sine in time."""
+"""Spectrum of a wave that is a sine in time."""
 
 NEWMARK_ERROR = 1 / 12
 """|beta - 1/6|: error of Newmark's rule in x is this times dt^2 (a_new - a), for beta = 1/4."""
@@ -43,7 +43,7 @@ NEWMARK_ERROR = 1 / 12
 
 @dataclass(frozen=True, eq=False)
 class History:
-    """States at the last three times, the latest first, of a sheet that was at rest before the start.
+    """States at the last three times, the latest first; before the start the sheet is at rest.
 
     times (3,); states (3, size): unknowns. velocity, acceleration (size,): of the unknowns at the
     latest time, None without inertia.
@@ -56,7 +56,7 @@ class History:
 
     @classmethod
     def at_rest(cls, state: Array, dt: float, start: float = 0.0) -> "History":
-        """A sheet that has not moved during the steps of length dt before the start."""
+        """The history of a sheet at rest during the steps of length dt before the start."""
         times = np.asarray(start - dt * np.arange(3), float)
         return cls(times, np.tile(state, (3, 1)))
 
@@ -71,13 +71,13 @@ class History:
         return np.asarray(self.states[0])
 
     def prediction(self, dt: float) -> Array:
-        """State after dt: the parabola through the past, or Newmark's with constant acceleration."""
+        """Predicted state after dt: parabolic, or Newmark's with constant acceleration."""
         if self.velocity is not None and self.acceleration is not None:
             return np.asarray(self.state + dt * self.velocity + dt**2 / 2 * self.acceleration)
         return extrapolated(self.times, self.states, self.time + dt)
 
     def rules(self, dt: float) -> tuple[Affine, Affine | None]:
-        """Velocity and (with inertia) acceleration of the unknowns at the end of a step."""
+        """Velocity and (with inertia) acceleration of the unknowns at the end of a step, as rules."""
         if self.velocity is not None and self.acceleration is not None:
             return newmark(self.state, self.velocity, self.acceleration, dt)
         return two_step(self.state, self.states[1], dt, self.times[0] - self.times[1]), None
@@ -85,13 +85,13 @@ class History:
     def velocity_error(self, state: Array, dt: float) -> Array:
         """Estimated error of the velocity (size,) at the end of a step that led to `state`.
 
-        Two-step rule: v = x' + x''' dt (dt + d)/6, d the step before; the third derivative comes from
-        the distance to the prediction. Newmark's rule: error of the position over the step.
+        Two-step rule: v = x' + x''' dt (dt + d)/6, d the previous step; the third derivative follows
+        from the deviation from the prediction. Newmark's rule: error of the position over the step.
         """
         _, acceleration = self.rules(dt)
         if acceleration is not None and self.acceleration is not None:
             return NEWMARK_ERROR * dt * (acceleration(state) - self.acceleration)
-        # x - prediction = x'''/6 dt (dt + d) (dt + d + d'), d' the step before d.
+        # x - prediction = x'''/6 dt (dt + d) (dt + d + d'), d' the step before d
         return (state - self.prediction(dt)) / (self.time + dt - self.times[2])
 
     def advanced(self, state: Array, dt: float) -> "History":
@@ -109,11 +109,11 @@ class History:
 
 @dataclass
 class StepSize:
-    """Length of the next step: given, or such that the velocity is right to `rtol`.
+    """Length of the next step: given, or chosen so that the velocity error meets `rtol`.
 
-    dt: proposed next, in (smallest, largest]. rtol: error of the velocity over the largest velocity
+    dt: next step, in (smallest, largest]. rtol: error of the velocity relative to the largest velocity
     so far (`scale`), both as root mean square over the sheet; None: the step is given and only
-    shortened where a minimisation fails.
+    shortened if a minimisation fails.
     """
 
     dt: float
@@ -123,12 +123,12 @@ class StepSize:
     scale: float = 0.0
 
     def within(self, remaining: float) -> float:
-        """The next step, such that equal steps end at the end of what remains."""
+        """The next step, adjusted so that equal steps fill the remaining time."""
         count = int(np.ceil(remaining / self.dt * (1 - 1e-9)))
         return remaining / max(count, 1)
 
     def judge(self, dt: float, error: float, speed: float) -> bool:
-        """Whether a step of length dt is accepted; proposes the next (or the next attempt)."""
+        """Whether a step of length dt is accepted; sets the next step (or attempt)."""
         self.scale = max(self.scale, speed)
         if self.rtol is None:
             self.dt = min(self.largest, GROWTH * dt)
@@ -141,44 +141,44 @@ class StepSize:
         return accepted
 
     def halve(self, dt: float) -> bool:
-        """After a failure; False if the step cannot be shorter."""
+        """Halve the step after a failure; False if it cannot be shorter."""
         self.dt = max(dt / 2, self.smallest)
         return dt > (1 + 1e-9) * self.smallest
 
 
 def step_size(period: float, rtol: float | None, steps: int | None, rates: Spectrum = SINE) -> StepSize:
-    """Step of period/steps, or one that adapts to rtol and starts with an eighth of what a sine needs.
+    """Fixed steps of period/steps, or adaptive ones that start with an eighth of the step for a sine.
 
-    rates: harmonics in time of the rate of growth; each that matters is met by PER_HARMONIC steps to
-    its period at least, since what falls between the steps is in no error of theirs.
-    Raises ValueError for steps too few, or a wave too rough, for them to see how it grows.
+    rates: spectrum of the growth rate in time; each significant harmonic is resolved by at least
+    PER_HARMONIC steps per period, since the step error does not detect unresolved harmonics.
+    Raises ValueError for too few steps, or a wave too rough to be resolved.
     """
     if steps is not None:
         needed = FEWEST * _harmonic(rates, GIVEN_SHARE)
         if steps < needed:
             raise ValueError(
-                f"steps = {steps}: must be >= {needed}, {FEWEST} to the period of harmonic "
-                f"{needed // FEWEST} of the wave, beyond which is less than {GIVEN_SHARE:.0%} of its "
+                f"steps = {steps}: must be >= {needed}, {FEWEST} per period of harmonic "
+                f"{needed // FEWEST} of the wave, beyond which lies less than {GIVEN_SHARE:.0%} of its "
                 "rate"
             )
         return StepSize(period / steps, period / steps / 1024, period / steps)
     assert rtol is not None
     harmonic = _harmonic(rates, rtol)
-    # The slope of a sine of this period is right to (2 pi dt/period)^2/3.
+    # The relative error of the slope of a sine of this period is (2 pi dt/period)^2/3.
     natural = period * np.sqrt(3 * rtol) / (2 * np.pi)
     shortest = natural / SHORTEST / max(harmonic / SHORT_HARMONIC, 1)
     return StepSize(natural / 8 / harmonic, shortest, period / max(12, PER_HARMONIC * harmonic), rtol)
 
 
 def _harmonic(rates: Spectrum, share: float) -> int:
-    """The harmonic beyond which dc/dt has no more than that share, or ten times it if that is unknown.
+    """The harmonic beyond which at most that fraction of dc/dt lies, or ten times it if unknown.
 
-    Raises ValueError where even a tenth of dc/dt is beyond what is known: growth that jumps in time.
+    Raises ValueError if even ten times the fraction is unresolved: growth that jumps in time.
     """
     known = [h for h in (rates.highest(s) for s in (share, 10 * share, GIVEN_SHARE)) if h < np.inf]
     if not known:
         raise ValueError(
-            f"wave: must be resolved by its harmonics in time, of which {rates.sizes.size} have less "
-            f"than {1 - GIVEN_SHARE:.0%} of its rate; growth that jumps cannot be stepped through"
+            f"wave: must be resolved by its harmonics in time, of which {rates.sizes.size} contain "
+            f"less than {1 - GIVEN_SHARE:.0%} of its rate; growth that jumps cannot be stepped in time"
         )
     return int(known[0])

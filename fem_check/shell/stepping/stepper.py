@@ -2,9 +2,9 @@
 
     elastic(x) + ground(x) + weight(x) + dt integral mu N v0 log cosh(|v|/v0) + (damping) + (inertia)
 
-with v = rate (x - base) of the two-step rule (second order), or of Newmark's where the scene has
+with v = rate (x - base) from the two-step rule (second order), or from Newmark's if the scene has
 inertia. The load N, areas and normals of the ground are those of the predicted state, and then of the
-state that was found, until they no longer change.
+last solution, until they no longer change.
 """
 
 from dataclasses import dataclass, field, replace
@@ -12,7 +12,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from fem_check.shell.abilities import STEPPED, require
+from fem_check.shell.abilities import STEPPED
 from fem_check.shell.effects.effect import Effect
 from fem_check.shell.kinematics.point_state import PointState
 from fem_check.shell.kinematics.rates import Affine, Step
@@ -29,21 +29,21 @@ from linear_theory.friction.load import Load
 Array = NDArray[np.float64]
 
 LOAD_TOLERANCE = 1e-3
-"""Relative change of the load, summed over the sheet, that is left between two minimisations of a step:
-it moves V by far less than itself, because V does not change when all loads change alike."""
+"""Largest relative change of the load, summed over the sheet, between the last two minimisations of a
+step: it changes V by far less, because V is independent of a common factor of all loads."""
 
 MOST_REPEATS = 12
-"""Minimisations of one step until the load no longer changes; beyond them the step is too long."""
+"""Largest number of minimisations of one step for a converged load; the step is else too long."""
 
 PUSH = 0.01
-"""Root mean square of the push that leaves a saddle, in thicknesses."""
+"""Root mean square of the push off a saddle, in thicknesses."""
 
 
 @dataclass(frozen=True, eq=False)
 class StepResult:
-    """The end of a step: unknowns, what was held fixed, its rest state and the cost.
+    """The end of a step: unknowns, quantities held fixed, rest state and cost.
 
-    buckled: whether negative curvature was met, on the way or at a saddle that was then left.
+    buckled: whether negative curvature was met during the step or at a saddle that was then left.
     """
 
     state: Array
@@ -57,7 +57,7 @@ class StepResult:
 
 @dataclass(eq=False)
 class WatchedMinimiser(Minimiser):
-    """Counts the Hessians that were not positive definite (`shifts`)."""
+    """A minimiser that counts the Hessians that were not positive definite (`shifts`)."""
 
     shifts: int = field(init=False, default=0)
 
@@ -69,16 +69,16 @@ class WatchedMinimiser(Minimiser):
 
 
 class Stepper:
-    """Makes steps of a model; keeps the symbolic work and the factor between them.
+    """Makes time steps of a model; reuses symbolic factorisation and factor.
 
-    Growth is multiplied by a smooth function of time that rises from 0 to 1 over `ramp`. shortest: step
-    for which the minimisations are to be accurate.
-    Raises ValueError for a scene that names what steps in time cannot represent, see
-    `abilities.STEPPED`, among it one that has neither friction nor inertia.
+    Growth is multiplied by a smooth function of time that rises from 0 to 1 over `ramp`. shortest:
+    shortest step, which sets the accuracy of the minimisations.
+    Raises ValueError for a scene that time steps cannot represent, see `abilities.STEPPED`, including
+    one with neither friction nor inertia.
     """
 
     def __init__(self, model: ShellModel, ramp: float, shortest: float) -> None:
-        require(STEPPED, model.scene)
+        STEPPED.require(model.scene)
         self.model, self.ramp = model, ramp
         self.region = model.discretisation.interior
         self.minimiser = self._minimiser(shortest)
@@ -86,14 +86,14 @@ class Stepper:
         self.bearer = self._bearer()
 
     def _bearer(self) -> Effect | None:
-        """The effect whose load friction is proportional to; None without friction."""
+        """The effect that gives the normal load of friction; None without friction."""
         effects, components = self.model.effects, self.model.components
         if not any(effect.law for effect in effects):
             return None
         return next(effect for effect in effects if effect.pressed_by(components))
 
     def _minimiser(self, shortest: float) -> WatchedMinimiser:
-        """Corrections are to move the sheet at much less than the slip speed within a step."""
+        """A minimiser so accurate that errors over a step are far below the slip speed."""
         tolerance, size = 1e-8, np.sqrt(self.region.measure.sum())
         for law in (effect.law for effect in self.model.effects if effect.law):
             tolerance = min(tolerance, max(1e-3 * law.width * shortest / size, 1e-12))
@@ -102,11 +102,11 @@ class Stepper:
 
     @property
     def shape_changes_load(self) -> bool:
-        """Whether load, area or normals depend on where the sheet is."""
+        """Whether load, area or normals depend on the position of the sheet."""
         return self.holds_area or (self.bearer is not None and self.bearer.load_follows_shape)
 
     def amplitude(self, t: float) -> float:
-        """Share of the growth at time t: rises with two continuous derivatives."""
+        """Fraction of the growth at time t, a ramp with two continuous derivatives."""
         return amplitude(t, self.ramp)
 
     def rest(self, t: float) -> RestState:
@@ -116,9 +116,9 @@ class Stepper:
     def attempt(
         self, history: History, dt: float, patience: int = 1, check: bool = False
     ) -> StepResult:
-        """One step of length dt, within `patience` times the usual iterations.
+        """Try one step of length dt, within `patience` times the usual iterations.
 
-        check: look for negative curvature at its end even where no Hessian on the way had any.
+        check: test for negative curvature at its end even if no Hessian during the step had any.
 
         Raises ConvergenceError if no minimum is found.
         """
@@ -142,7 +142,7 @@ class Stepper:
         raise ConvergenceError(f"the load still changes after {MOST_REPEATS} repetitions", guess)
 
     def _start(self, history: History, dt: float) -> Array:
-        """The predicted state, or the last one where that is turned inside out."""
+        """The predicted state, or the last one if the prediction is inverted."""
         orientation, guess = self.minimiser.orientation, history.prediction(dt)
         before, after = orientation.directors(history.state), orientation.directors(guess)
         return guess if orientation.keeps(before, after) else history.state
@@ -154,12 +154,12 @@ class Stepper:
         return follow_mode(self.minimiser, potential, result, PUSH * self.model.scene.sheet.thickness)
 
     def at_points(self, rule: Affine) -> Affine:
-        """A rule for the unknowns as one for the positions of the points."""
+        """A rule for the unknowns converted to one for the positions of the points."""
         base = self.region.displacement(rule.base, (0,))[0]
         return Affine(rule.rate, base + self.region.reference[0])
 
     def held(self, moving: Step, u: Array, rest: RestState) -> Step:
-        """What a step holds fixed, for the sheet at u: rules with area, load and normals."""
+        """Quantities held fixed in a step, for the sheet at u: rules with area, load and normals."""
         area = self.area(u) if self.holds_area else None
         step = replace(moving, area=area)
         if self.bearer is None:
@@ -180,14 +180,14 @@ def amplitude(t: float, ramp: float) -> float:
 
 
 def change(before: Step, after: Step) -> float:
-    """Largest relative change of what two steps hold fixed, summed over the points."""
+    """Largest relative change of the quantities held fixed in two steps, summed over the points."""
     pairs = [(before.load, after.load), (before.area, after.area), (before.normal, after.normal)]
     changes = [_relative(old, new) for old, new in pairs if old is not None and new is not None]
     return max(changes, default=0.0)
 
 
 def _relative(before: Array, after: Array) -> float:
-    """Sum of the changes over the sum of the sizes after them; 0 where nothing changes."""
+    """Sum of absolute changes over the sum of absolute new values; 0 if nothing changes."""
     moved, size = float(np.abs(after - before).sum()), float(np.abs(after).sum())
     if moved == 0:
         return 0.0

@@ -1,4 +1,4 @@
-"""The result of a simulation: how the sheet moved, where its energy went, how fast it crawls."""
+"""The result of a simulation: motion, energy balance and speed of the sheet."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
@@ -29,18 +29,18 @@ from linear_theory.speed.words import model_words
 Array = NDArray[np.float64]
 
 SEEN = 1e-2
-"""Error of a shape between kept ones that is accepted unless another is asked for, as a share of the
-way that points of the sheet move in a period."""
+"""Default of the largest accepted error of an interpolated shape, as a fraction of the distance that
+points of the sheet move in a period."""
 
 ROUNDOFF = 1e-8
-"""Error of any shape, in sizes of the sheet: what the minimisations leave (see `Minimiser`)."""
+"""Error of any shape from the minimisations, relative to the size of the sheet (see `Minimiser`)."""
 
 MARGIN, UNCERTAIN = 1.25, 0.1
-"""The step's error is this multiple of its estimate, which leaves out higher orders, and this share of
-its mean size, which counts where the mean over the period is 0 by chance."""
+"""Safety factor of the step error, whose estimate neglects higher orders, and fraction of its mean
+absolute value, for the case that its mean over the period is 0 by chance."""
 
 DRY = 0.3
-"""Slip ratio up to which the distance to dry friction is estimated."""
+"""Largest slip ratio for which the distance to dry friction is estimated."""
 
 
 class _Errors(NamedTuple):
@@ -53,11 +53,11 @@ class _Errors(NamedTuple):
 class SpeedErrors(Shown, _Errors):
     """Estimated errors of the mean speed, absolute, length per time.
 
-    step: of the time integration. spread: difference between the last two periods, NaN if there is one.
-    mesh: from a run on a coarser mesh where it was asked for, else NaN. slip_speed: distance to dry
-    friction, twice the change when the slip speed is halved (it falls at least in proportion), NaN
-    where the slip ratio is above 0.3 and friction far from dry; not part of the error of the speed at
-    the slip speed that is simulated.
+    step: of the time integration. spread: difference between the last two periods, NaN if there is only
+    one. mesh: from a run on a coarser mesh if requested, else NaN. slip_speed: distance to dry
+    friction, twice the change on halving the slip speed (it decreases at least proportionally), NaN if
+    the slip ratio is above 0.3 and friction far from dry; not part of the error of the speed at the
+    given slip speed.
     """
 
 
@@ -65,16 +65,16 @@ class SpeedErrors(Shown, _Errors):
 class Trajectory(Drawable, Tabular):
     """A simulated motion.
 
-    `speed` is the answer, `centre` and `path` are where the sheet was at `times`, `positions(t)` is its
-    shape, and `power` where the work of growth went: work and energies (force times length), each
-    summed up from the start to `times`, which balance; their slopes in time are powers. `to_dataframe`
-    and `to_xarray` have it all as tables, `fem_check.write_paraview` writes a film for ParaView.
+    `speed` is the mean speed with its errors, `centre` and `path` are the positions of the sheet at
+    `times`, `positions(t)` is its shape, and `power` the energy balance: work and energies (force times
+    length), each summed from the start to `times`; their time derivatives are powers. `to_dataframe`
+    and `to_xarray` export tables, `fem_check.write_paraview` writes a film for ParaView.
 
-    model: the scene in finite elements. start: when the first counted period begins, after the ramp of
-    growth. table: columns of `record.COLUMNS`. stored_times (n,), states (n, size): kept states. probes
-    (steps + 1, points, components): positions of a few points at all `times`. rejected: repeated steps.
-    resumed_at: time of the snapshot that the run went on from, NaN if none. mesh_error: see
-    `SpeedErrors`. seconds: spent, in this process.
+    model: the finite-element model of the scene. start: start of the first counted period, after the
+    ramp of growth. table: columns of `record.COLUMNS`. stored_times (n,), states (n, size): kept
+    states. probes (steps + 1, points, components): positions of a few points at all `times`. rejected:
+    repeated steps. resumed_at: time of the snapshot from which the run resumed, NaN if none.
+    mesh_error: see `SpeedErrors`. seconds: computing time in this process.
 
     >>> from fem_check import Friction, Gravity, Material, Membrane, Scene, simulate
     >>> from linear_theory import Sheet, SineWave
@@ -99,7 +99,7 @@ class Trajectory(Drawable, Tabular):
 
     @property
     def scene(self) -> Scene:
-        """What was simulated."""
+        """The simulated scene."""
         return self.model.scene
 
     @property
@@ -115,16 +115,17 @@ class Trajectory(Drawable, Tabular):
 
     @property
     def power(self) -> Works:
-        """Energies up to each of `times` since the start, each (n,), force times length: see `Works`.
+        """Energies accumulated from the start to each of `times`, each (n,), force times length.
 
-        Work of growth = what elasticity, weight and ground store + kinetic energy + what friction and
-        damping dissipate + residual. Despite its name no rate: `numpy.gradient(w, times)` is the power.
+        See `Works`: work of growth = increase of elastic energy, weight, ground and kinetic energy +
+        dissipation by friction and damping + residual. Despite its name not a rate:
+        `numpy.gradient(w, times)` is the power.
         """
         return Works(*(np.cumsum(self.table[name]) for name in Works._fields))
 
     @property
     def buckled(self) -> NDArray[np.bool_]:
-        """Ends of steps on whose way the energy was found to fall in some direction, (n,): buckling."""
+        """Whether a negative curvature of the energy was met in the step, (n,): buckling."""
         return self.table["buckled"] > 0
 
     @property
@@ -150,27 +151,27 @@ class Trajectory(Drawable, Tabular):
 
     @property
     def linear_share(self) -> float:
-        """Share of the load, mean over the last period, that moves slower than the slip speed."""
+        """Fraction of the load that moves slower than the slip speed, mean over the last period."""
         return self._mean("linear")
 
     def amplitude(self, t: float) -> float:
-        """Share of the growth at time t: below 1 during the ramp."""
+        """Fraction of the growth at time t: below 1 during the ramp."""
         return amplitude(t, self.start)
 
     def shape_error(self, t: float) -> float:
-        """Estimated error of the positions at time t from interpolation, length; 0 at kept times.
+        """Estimated interpolation error of the positions at time t, length; 0 at kept times.
 
-        The largest over the sheet, of a cubic through kept states against the motion by all steps; the
-        error of the steps themselves is that of `errors`. Raises ValueError outside of the kept times.
+        The largest deviation over the sheet of a cubic through kept states from the motion of all
+        steps; for the error of the steps see `errors`. Raises ValueError outside of the kept times.
         """
         t = self._within(t)
         return interpolation_error(self.times, self.probes, self.buckled, self.stored_times, t)
 
     def shape(self, t: float, rtol: float | None = SEEN) -> Array:
-        """Unknowns (size,) at time t: those of a kept state, or by a cubic through the four nearest.
+        """Unknowns (size,) at time t: of a kept state, or from a cubic through the four nearest.
 
-        rtol: largest `shape_error` as a share of the way that points move in the period around t; None
-        for any. Raises ValueError where it is larger, and outside of the kept times.
+        rtol: largest `shape_error` as a fraction of the distance that points move in the period around
+        t; None for any. Raises ValueError if it is larger, and outside of the kept times.
         """
         t = self._within(t)
         exact = np.flatnonzero(self.stored_times == t)
@@ -186,15 +187,15 @@ class Trajectory(Drawable, Tabular):
         size = np.sqrt(self.model.discretisation.interior.measure.sum())
         if error > rtol * motion + ROUNDOFF * size:
             raise ValueError(
-                f"t = {t:g}: lies between kept states; there positions are known to {error:.2g}, more "
-                f"than rtol = {rtol:g} of the motion, {motion:.2g}. Take one of stored_times, or a "
+                f"t = {t:g}: lies between kept states, where the error of positions, {error:.2g}, is "
+                f"above rtol = {rtol:g} of the motion, {motion:.2g}. Use one of stored_times or a "
                 "larger rtol, or simulate with a smaller keep_every or smaller steps"
             )
 
     def _within(self, t: float) -> float:
-        """A time at which shapes are known: a kept one where it is as good as that, or between them.
+        """A time with known shapes: snapped to a kept time if equal within roundoff.
 
-        Raises ValueError for others.
+        Raises ValueError for times outside of the kept ones.
         """
         t, kept = validation.real("t", t), self.stored_times
         nearest = float(kept[np.abs(kept - t).argmin()])
@@ -209,7 +210,7 @@ class Trajectory(Drawable, Tabular):
     def positions(self, t: float, points: ArrayLike | None = None, rtol: float | None = SEEN) -> Array:
         """Positions (components, n) at time t of points (2, n) of the sheet; by default the vertices.
 
-        rtol: as of `shape`. Raises ValueError outside the sheet and the kept times, and where the shape
+        rtol: as for `shape`. Raises ValueError outside the sheet and the kept times, and if the shape
         is not known to rtol.
         """
         discretisation, u = self.model.discretisation, self.shape(t, rtol)
@@ -250,9 +251,9 @@ class Trajectory(Drawable, Tabular):
     def speed(self) -> CrawlSpeed:
         """Mean velocity of the last period.
 
-        error: of step, mesh (where asked for) and spread between periods together; model_error:
-        distance to dry friction, see `SpeedErrors`. Where the sheet snaps over in that period the
-        error is a lower bound, since steps of different length take different ways: never converged.
+        error: sum of the errors of step, mesh (if requested) and spread between periods; model_error:
+        distance to dry friction, see `SpeedErrors`. If the sheet snaps through in that period the
+        error is a lower bound, since the path depends on the step lengths: never converged.
         """
         last, errors = self._last(1), self.errors
         snaps = bool(self.buckled[last].any())
@@ -310,15 +311,15 @@ class Trajectory(Drawable, Tabular):
         return columns.positions(self)
 
     def _at(self, period: int) -> int:
-        """Row at the end of so many counted periods."""
+        """Row at the end of counted period number `period`."""
         return int(np.abs(self.times - self.start - period * self.scene.period).argmin())
 
     def _last(self, periods: int) -> slice:
-        """Rows of the last periods without the one at their start."""
+        """Rows of the last `periods` periods, without the one at their start."""
         return slice(self._at(self.periods - periods) + 1, self.times.size)
 
     def _mean(self, name: str, size: bool = False) -> float:
-        """Mean over the last period in time of a column (or of its absolute value)."""
+        """Time average over the last period of a column (or of its absolute value)."""
         last = self._last(1)
         steps = np.diff(self.times)[last.start - 1 :]
         values = self.table[name][last]

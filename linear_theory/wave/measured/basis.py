@@ -93,8 +93,8 @@ def _range(values: Array) -> Range:
 def _legendre(values: ArrayLike, within: Range, degree: int) -> Array:
     low, high = within
     local = (2 * np.asarray(values, float) - low - high) / (high - low)
-    size = np.sqrt(2 * np.arange(degree + 1) + 1)
-    return np.asarray(np.polynomial.legendre.legvander(local, degree) * size)
+    found = np.polynomial.legendre.legvander(local, degree) * np.sqrt(2 * np.arange(degree + 1) + 1)
+    return np.asarray(found.reshape(*local.shape, degree + 1))
 
 
 def _harmonics(angle: Array, count: int) -> Array:

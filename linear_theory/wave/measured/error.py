@@ -1,11 +1,12 @@
 """How far the wave of a fit may be from the true one, as waves that fit the samples as well."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import solve_triangular
 
 from linear_theory.common.shown import Shown
 from linear_theory.wave.measured.fit import Fit
@@ -32,6 +33,10 @@ class FitUncertainty(Shown):
     size: float
     period_error: float
 
+    def _rows(self) -> Mapping[str, Any]:
+        functions = {"basis": self.wave.basis, "larger": self.larger.basis}
+        return {"share": self.share, "noise": self.noise, "samples": self.count, **functions}
+
     @property
     def share(self) -> float:
         """Root mean square of the error of c over that of c, at the samples."""
@@ -45,6 +50,8 @@ class FitUncertainty(Shown):
 
     def _shifts(self, count: int) -> Array:
         """Errors of the coefficients and, last, of the period, (count, size + 1)."""
+        from scipy.linalg import solve_triangular  # here: scipy takes long to import
+
         size = self.larger.basis.size
         normal = np.random.default_rng(SEED).standard_normal((count, size + 1))
         coefficients = self.noise * solve_triangular(self.larger.factor, normal[:, :-1].T)

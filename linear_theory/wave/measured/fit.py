@@ -5,8 +5,8 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import solve_triangular
 
+from linear_theory.common.shown import Shown
 from linear_theory.wave.measured.basis import Basis
 from linear_theory.wave.measured.samples import Samples
 
@@ -16,13 +16,7 @@ BLOCK = 4096
 """Samples taken together."""
 
 
-class Fit(NamedTuple):
-    """coefficients (*basis.shape); residual: root mean square over the samples.
-
-    noise: standard deviation of one sample, from the residual. factor: R (size, size), the coefficients
-    having the covariance noise^2 (R^T R)^-1 where the errors of the samples are independent.
-    """
-
+class _Fit(NamedTuple):
     basis: Basis
     coefficients: Array
     residual: float
@@ -30,8 +24,18 @@ class Fit(NamedTuple):
     factor: Array
 
 
+class Fit(Shown, _Fit):
+    """coefficients (*basis.shape); residual: root mean square over the samples.
+
+    noise: standard deviation of one sample, from the residual. factor: R (size, size), the coefficients
+    having the covariance noise^2 (R^T R)^-1 where the errors of the samples are independent.
+    """
+
+
 def fitted(samples: Samples, basis: Basis) -> Fit:
     """Raises ValueError where the samples do not tell the functions of the basis apart."""
+    from scipy.linalg import solve_triangular  # here: scipy takes long to import
+
     both: Array = np.zeros((0, basis.size + 1))
     for start in range(0, samples.size, BLOCK):
         some = samples.take(slice(start, start + BLOCK))

@@ -10,7 +10,6 @@ import math
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import minimize_scalar
 
 from linear_theory.wave.measured.basis import Basis
 from linear_theory.wave.measured.samples import Samples
@@ -81,6 +80,8 @@ class _Left:
 
 
 def _refined(left: _Left, factor: float, step: float) -> tuple[float, float]:
+    from scipy.optimize import minimize_scalar  # here: scipy takes long to import
+
     bounds = factor - step, factor + step
     found = minimize_scalar(left, bounds=bounds, method="bounded", options={"xatol": 1e-6 * step})
     return float(found.x), float(found.fun)

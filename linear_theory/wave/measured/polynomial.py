@@ -1,7 +1,8 @@
 """The smooth wave of a fit: a polynomial of x and y times harmonics in time, and its drive."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -25,6 +26,9 @@ class PolynomialWave(Shown):
 
     def __init__(self, basis: Basis, coefficients: Array, margins: Sequence[float]) -> None:
         self.basis, self.coefficients, self.margins = basis, coefficients, tuple(margins)
+
+    def _contents(self) -> Mapping[str, Any]:
+        return {"basis": self.basis, "coefficients": self.coefficients, "margins": self.margins}
 
     @property
     def period(self) -> float:

@@ -66,7 +66,7 @@ class Sources:
 
         >>> import numpy as np, tempfile, pathlib
         >>> from linear_theory import SampledWave
-        >>> rows = [(y, t, np.sin(6.28318 * (y - t))) for y in np.linspace(-0.5, 0.5, 20)
+        >>> rows = [(y, t, np.sin(2 * np.pi * (y - t))) for y in np.linspace(-0.5, 0.5, 20)
         ...         for t in np.arange(10) / 10]
         >>> with tempfile.TemporaryDirectory() as folder:
         ...     path = pathlib.Path(folder, "wave.csv")

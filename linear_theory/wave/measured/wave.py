@@ -1,6 +1,6 @@
 """A wave of growth from measured samples, as smooth as their noise asks for."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import cached_property
 from typing import Any
 
@@ -170,7 +170,7 @@ class SampledWave(Sources, Shown):
         return hash((self._period, self._count, self.noise))
 
     def _contents(self) -> Mapping[str, Any]:
-        return {**self._given, "asked": self._asked, **self._rows()}
+        return {**self._given, "asked": list(self._asked.values()), **self._rows()}
 
     def _rows(self) -> Mapping[str, Any]:
         words = " x ".join(map(str, self._given["c"].shape))
@@ -179,10 +179,12 @@ class SampledWave(Sources, Shown):
         return {**found, "degree": self.degree, "noise": self.noise, "dropped": self.dropped}
 
     @classmethod
-    def from_data(cls, asked: Mapping[str, Any], **data: Any) -> "SampledWave":
-        """The wave of what `to_dict` has written."""
-        options: dict[str, Any] = {n: tuple(v) if isinstance(v, list) else v for n, v in asked.items()}
-        return cls(*(data[name] for name in (*NAMES, "c") if name in data), **options)
+    def from_data(cls, asked: Sequence[Any], **data: Any) -> "SampledWave":
+        """The wave of what `to_dict` has written; asked: period, harmonics and degree."""
+        period, harmonics, degree = asked
+        named = [name for name in (*NAMES, "c") if name in data]
+        samples = [validation.real_array(name, data[name]) for name in named]
+        return cls(*samples, period=period, harmonics=harmonics, degree=degree)
 
 
 def _chosen_basis(data: Samples, period: float, wanted: tuple[int | None, ...]) -> Basis:

@@ -1,0 +1,1 @@
+"""Pages of the documentation, and `docs.site`, which makes them one site."""

@@ -1,0 +1,81 @@
+"""What the site has: its pages in the order of the navigation, and the files that they come from."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from linear_theory.common.shown import Value
+
+ROOT = Path(__file__).resolve().parents[2]
+
+EXAMPLES = ROOT / "figures" / "examples"
+
+API = (
+    *("linear_theory", "linear_theory.friction.law", "linear_theory.friction.isotropic"),
+    *("fem_check", "fem_check.output", "fem_check.shell.effects", "fem_check.shell.effects.effect"),
+    "fem_check.shell.material",
+)
+"""Modules of the API reference, and those that the index of equations names."""
+
+
+@dataclass(frozen=True)
+class Page(Value):
+    """A page: its section, its title in the navigation, its file, and its path in the site."""
+
+    section: str
+    title: str
+    source: Path
+    target: str
+
+    @property
+    def up(self) -> str:
+        """The way from the page to the root of the site."""
+        return "../" * self.target.count("/")
+
+
+HOWTO = {
+    "own_sheet": "A sheet in millimetres",
+    "own_wave": "A wave of your own",
+    "own_friction_law": "A friction law of your own",
+    "outline": "Another outline",
+    "slope": "A slope",
+    "movie": "A movie",
+    "many_scenes": "Many scenes",
+}
+"""Files of docs/howto and their titles, one for each wish."""
+
+REFERENCE = {
+    "conventions": "Conventions",
+    "equations": "Equations of the paper",
+    "hard_cases": "Hard cases",
+}
+
+
+def scripts() -> dict[str, Path]:
+    """The examples by name, the first speed first."""
+    found = sorted(path for path in EXAMPLES.glob("*.py") if path.stem != "__init__")
+    return {path.stem: path for path in sorted(found, key=lambda path: path.stem != "first_speed")}
+
+
+def pages() -> list[Page]:
+    """All pages but those of the API."""
+    docs = ROOT / "docs"
+    start = [
+        Page("Start", "sheetcrawl", ROOT / "README.md", "index.html"),
+        Page("Start", "Tutorial", docs / "tutorial.md", "tutorial.html"),
+    ]
+    howto = [
+        Page("How to", title, docs / "howto" / f"{name}.md", f"howto/{name}.html")
+        for name, title in HOWTO.items()
+    ]
+    examples = [
+        Page("Examples", "All examples", EXAMPLES / "__init__.py", "examples/index.html"),
+    ]
+    examples += [
+        Page("Examples", name.replace("_", " ").capitalize(), path, f"examples/{name}.html")
+        for name, path in scripts().items()
+    ]
+    reference = [
+        Page("Reference", title, docs / f"{name}.md", f"{name}.html")
+        for name, title in REFERENCE.items()
+    ]
+    return [*start, *howto, *examples, *reference]

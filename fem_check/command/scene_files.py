@@ -1,0 +1,145 @@
+"""`sheetcrawl new`, `check` and `schema`: scene files written, checked and described."""
+
+import json
+import shutil
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from fem_check.command.status import MET
+from fem_check.command.text import printable
+from fem_check.files import gallery
+
+if TYPE_CHECKING:
+    from fem_check.files.parts.scene_file import SceneFile
+
+WIDEST = 100
+"""Columns of what is said of a scene, at the most."""
+
+WAYS = {
+    "predict": "predict: the cheapest theory or cycle of shapes that is known to meet the tolerance",
+    "cycle": "cycle: static shapes through one period, then the balance of friction on them",
+    "stepped": "stepped: in time, with friction that acts back on the shape",
+}
+"""How a scene is answered, in words."""
+
+
+def new(name: str | None, path: Path | None) -> int:
+    """Write a scene of the gallery to a file that is not there yet; list them without a name."""
+    if name is None:
+        from fem_check.command.screens import listed
+
+        print("\n".join(listed()))
+        return MET
+    target = path or Path(f"{name}.toml")
+    texts = {target.parent / file: text for file, text in gallery.tables(name).items()}
+    _write_all({**texts, target: gallery.text(name)}, name)
+    also = f" (and {', '.join(map(str, texts))})" if texts else ""
+    print(f"{target} written{also}; next: sheetcrawl check {target}")
+    return MET
+
+
+def _write_all(texts: dict[Path, str], name: str) -> None:
+    """All files or none."""
+    written: list[Path] = []
+    try:
+        for path, text in texts.items():
+            _write_new(text, path)
+            written.append(path)
+    except BaseException as problem:
+        for done in written:
+            done.unlink()
+        if isinstance(problem, FileExistsError):
+            raise ValueError(
+                f"{path}: is there already; give another name or folder, as in {_other(name)}"
+            ) from None
+        if isinstance(problem, OSError):
+            raise type(problem)(f"{path}: {problem.strerror or problem}") from None
+        raise
+
+
+def _other(name: str) -> str:
+    where = "mine" if not gallery.tables(name) else "folder/mine"
+    return f"sheetcrawl new {name} {where}.toml"
+
+
+def _write_new(text: str, path: Path) -> None:
+    """Whole or not at all, and never over another file."""
+    with open(path, "x", encoding="utf-8") as file:
+        try:
+            file.write(text)
+            file.flush()
+        except BaseException:
+            path.unlink()
+            raise
+
+
+def check(path: Path) -> int:
+    """Print what would be simulated; the exit status. Raises SceneFileError for mistakes."""
+    from fem_check.answer.block import wrapped
+    from fem_check.files.reading import read
+
+    rows = _said(read(path))
+    width = min(shutil.get_terminal_size((WIDEST, 0)).columns, WIDEST)
+    lines = [f"{path} is a scene", *(wrapped(label, text, width) for label, text in rows.items())]
+    print(printable("\n".join(lines), sys.stdout))
+    return MET
+
+
+def _said(found: "SceneFile") -> dict[str, str]:
+    """The scene, the level that answers it, and its cost."""
+    from fem_check.choice.ways import expected_seconds, way_of
+    from fem_check.files.mistakes import SceneFileError
+
+    run = found.run
+    try:
+        way = way_of(found.scene, run.level)
+    except ValueError as problem:
+        raise SceneFileError(f"{found.path}: {problem}") from None
+    seconds = expected_seconds(found.scene, way, run.rtol, run.periods, run.steps)
+    accuracy = f"{run.steps} steps a period" if run.steps else f"to {100 * (run.rtol or 0):g} %"
+    periods = f", {run.periods} periods after a ramp" if way == "stepped" else ""
+    most = "at most " if way == "predict" else ""
+    units = f"in {found.units.length} and {found.units.time}" if found.units else "plain, of the sheet"
+    return {
+        "units": units,
+        **dict(_scene_rows(found)),
+        "answer": f"{WAYS[way]}; {accuracy}{periods}",
+        "cost": f"{most}about {_rounded(seconds)} on one core, to a factor of 5",
+        "next": f"sheetcrawl speed {found.path}",
+    }
+
+
+def _scene_rows(found: "SceneFile") -> list[tuple[str, str]]:
+    """What the scene consists of, in words."""
+    from fem_check.answer.block import asked
+    from fem_check.answer.units import Units
+
+    scene = found.scene
+    units = found.units or Units.of_sheet(scene.sheet.length, scene.period)
+    sheet, growth = asked(scene, units)
+    effects = ", ".join(type(effect).__name__ for effect in scene.effects) or "stretching alone"
+    mesh = "a rectangle" if scene.mesh is None else f"an outline of {scene.mesh.nelements} elements"
+    contact = f"{scene.contact.friction.words}, load {scene.contact.load}"
+    return [
+        ("sheet", sheet),
+        ("growth", growth),
+        ("body", mesh),
+        ("effects", effects),
+        ("ground", contact),
+    ]
+
+
+def _rounded(seconds: float) -> str:
+    """One digit, with its unit."""
+    if seconds >= 90:
+        return f"{float(f'{seconds / 60:.1g}'):g} min"
+    return f"{float(f'{seconds:.1g}'):g} s"
+
+
+def schema() -> int:
+    """Print the JSON Schema."""
+    from fem_check.files.schema import schema as made
+
+    print(json.dumps(made(), indent=1))
+    return MET

@@ -1,0 +1,8 @@
+"""What `fem_check.files` offers: read by `lazy_loader` as it runs, and by type checkers."""
+
+from .mistakes import SceneFileError
+from .parts.scene_file import RunSettings, SceneFile
+from .reading import read
+from .writing import write
+
+__all__ = ["RunSettings", "SceneFile", "SceneFileError", "read", "write"]

@@ -1,0 +1,108 @@
+"""From the tables of a file to its scene and its run, part by part, so that all mistakes are found."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from fem_check.answer.units import Units
+from fem_check.files.fields import Table
+from fem_check.files.mistakes import Mistakes
+from fem_check.files.parts.effects import effects_of, with_contact
+from fem_check.files.parts.outlines import mesh_of, sheet_of
+from fem_check.files.parts.waves import growth_of, wave_of
+from fem_check.files.system import System, system_of
+from fem_check.files.tables import RunTable
+from fem_check.mesh.elements import from_data
+from linear_theory.common import validation
+from linear_theory.common.shown import Shown, Value
+from linear_theory.scene.scene import Scene
+
+
+@dataclass(frozen=True)
+class RunSettings(Value):
+    """How a scene is to be answered: see the table [run]; rtol is None beside steps."""
+
+    level: str = "auto"
+    rtol: float | None = 1e-2
+    periods: int = 2
+    steps: int | None = None
+
+
+@dataclass(frozen=True)
+class SceneFile(Shown):
+    """What a scene file says. units: of its numbers, None for plain ones. path: of the file."""
+
+    scene: Scene
+    run: RunSettings
+    units: Units | None
+    path: Path
+
+
+def built(tables: Mapping[str, Table], path: Path, mistakes: Mistakes) -> SceneFile | None:
+    """The scene of tables that are right, each for itself; None where mistakes were found."""
+    system = system_of(tables, mistakes)
+    if system is None:
+        return None
+    run = _run(tables["run"], system, mistakes) if "run" in tables else None
+    scene = _scene(tables, system, path.parent, mistakes)
+    if mistakes or scene is None or run is None:
+        return None
+    return SceneFile(scene, run, system.units, path)
+
+
+def _scene(tables: Mapping[str, Any], system: System, folder: Path, mistakes: Mistakes) -> Scene | None:
+    """As far as it can be made; None where a part is missing that others need."""
+    sheet = wave = growth = None
+    if "sheet" in tables:
+        with mistakes.under("sheet"):
+            sheet = sheet_of(tables["sheet"], tables.get("outline"), system)
+    if "wave" in tables:
+        with mistakes.under("wave"):
+            wave = wave_of(tables["wave"], system, folder)
+    if "growth" in tables and sheet is not None and wave is not None:
+        with mistakes.under("growth"):
+            growth = growth_of(tables["growth"], system, sheet, wave)
+    if sheet is None:
+        return None
+    effects = effects_of(tables, system, sheet, folder, mistakes)
+    if mistakes or wave is None or growth is None:
+        return None
+    scene = None
+    with mistakes.under():  # parts that contradict each other, which the message names
+        scene = Scene(sheet, wave, growth=growth, effects=effects)
+    if scene is not None:
+        with mistakes.under("friction"):
+            scene = with_contact(scene, tables.get("friction"), system)
+        scene = _with_elements(scene, tables, system, folder, mistakes)
+    return scene
+
+
+def _with_elements(
+    scene: Scene, tables: Mapping[str, Any], system: System, folder: Path, mistakes: Mistakes
+) -> Scene:
+    """With the mesh of its outline, and with the elements that [run] asks for."""
+    run, outline = tables.get("run"), tables.get("outline")
+    if outline is not None:
+        with mistakes.under("outline"):
+            mesh = mesh_of(outline, system, scene.sheet, scene.drive, scene.planar, folder)
+            scene = scene.but(mesh=mesh)
+    if run is not None:
+        with mistakes.under("run"):
+            said = {"cells": run.cells, "element": run.element}
+            if any(said.values()):
+                scene = scene.but(**from_data(said))
+    return scene
+
+
+def _run(table: Any, system: System, mistakes: Mistakes) -> RunSettings | None:
+    """Settings of the answer, checked as the levels check them."""
+    assert isinstance(table, RunTable)
+    with mistakes.under("run"):
+        if table.steps is not None and table.rtol is not None:
+            raise ValueError(f"steps = {table.steps}: must be left out where rtol is given")
+        rtol = (
+            None if table.steps is not None else validation.tolerance(system.number(table.rtol, 1e-2))
+        )
+        return RunSettings(table.level, rtol, table.periods, table.steps)
+    return None

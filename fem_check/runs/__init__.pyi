@@ -1,0 +1,8 @@
+"""What `fem_check.runs` offers: read by `lazy_loader` as it runs, and by type checkers."""
+
+from .capture import recorded
+from .finished import Finished, finished
+from .recording import Recording
+from .running import run
+
+__all__ = ["Finished", "Recording", "finished", "recorded", "run"]

@@ -1,0 +1,136 @@
+"""Recordings as netCDF files, which any tool for labelled arrays reads, and back again.
+
+The time series of the result stand beside the recorded motion, each variable with its unit and its long
+name. The format is netCDF 3, for which xarray needs no further library.
+"""
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fem_check.output.files import replacing
+from fem_check.output.moving import Course
+from fem_check.runs.recording import Recording
+from linear_theory.common.extras import optional
+from linear_theory.common.tables import LENGTH, NUMBER, RADIANS, SPEED, TIME, Column
+from linear_theory.speed.result import CrawlSpeed, Estimate
+
+Array = NDArray[np.float64]
+
+USE = "a run, which keeps its motion as netCDF,"
+
+PLACES = ("frame", "axis", "point")
+
+COLUMNS = (
+    ("frame", "times", "times of the recorded shapes", TIME, ("frame",)),
+    ("sheet_place", "place", "position of a point of the sheet in space", LENGTH, PLACES),
+    ("sheet_wave", "wave", "the wave c at the points", NUMBER, ("frame", "point")),
+    ("sheet_growth", "growth", "growth alpha c at the points", NUMBER, ("frame", "point")),
+    ("body_centre", "centre", "centre of mass", LENGTH, ("frame", "plane")),
+    ("body_heading", "heading", "heading of the sheet, anticlockwise", RADIANS, ("frame",)),
+    ("point_place", "points", "the points in the undeformed sheet", LENGTH, ("plane", "point")),
+    ("middle", "middle", "centre of mass of the undeformed sheet", LENGTH, ("plane",)),
+    ("triangle", "triangles", "points at the corners of triangles", NUMBER, ("cell", "corner")),
+    ("arrow_place", "tails", "points with known friction", LENGTH, ("plane", "arrow")),
+    ("sheet_friction", "arrows", "friction over mu weight", NUMBER, ("frame", "plane", "arrow")),
+    ("floor_x", "floor_x", "places on the ground, across", LENGTH, ("floor_x",)),
+    ("floor_y", "floor_y", "places on the ground, along", LENGTH, ("floor_y",)),
+    ("floor", "floor", "height of the ground", LENGTH, ("floor_x", "floor_y")),
+)
+"""Names in the file and in a Recording, long names, units and dimensions."""
+
+FLOATS = {"sheet_place", "sheet_wave", "sheet_growth", "sheet_friction"}
+"""Large arrays, kept in single precision: a millionth of the sheet is enough to draw."""
+
+
+def require_netcdf() -> None:
+    """Raise ModuleNotFoundError, with what to install, without xarray."""
+    optional("xarray", "tables", USE)
+
+
+def write(recording: Recording, result: Any, path: Path) -> None:
+    """The recording and the time series of its result to a file, which appears when it is whole."""
+    dataset = result.to_xarray()
+    for name, attribute, words, unit, dims in COLUMNS:
+        values = getattr(recording, attribute)
+        values = values.astype(np.float32) if name in FLOATS else values
+        dataset[name] = (dims, values, Column(name, values, words, unit).attributes)
+    course = recording.course()
+    dataset["course_time"] = (("course",), course.times, {"long_name": "time", "units": TIME})
+    words = "velocity of the centre along y"
+    dataset["course_velocity"] = (("course",), course.velocity, {"long_name": words, "units": SPEED})
+    dataset.attrs = _attributes(recording)
+    with replacing(path) as part:
+        dataset.to_netcdf(part, engine="scipy", format="NETCDF3_64BIT")
+
+
+def _attributes(recording: Recording) -> dict[str, Any]:
+    speed, course = recording.speed, recording.course()
+    return {
+        "mean": speed.mean,
+        "error": speed.error,
+        "model_error": speed.model_error,
+        "converged": int(speed.converged),
+        "seconds": speed.seconds,
+        "slip_ratio": speed.slip_ratio,
+        "regime": speed.regime,
+        "model": speed.model,
+        "words": recording.words,
+        "period": recording.period,
+        "length": recording.length,
+        "direction": recording.direction,
+        "periods": recording.periods,
+        "repeats": int(recording.repeats),
+        "counted": np.array(course.counted),
+        "shown": np.array(course.shown),
+    }
+
+
+def read(path: Path) -> Recording:
+    """The recording in a file. Raises ValueError for a file that holds none."""
+    xarray = optional("xarray", "tables", "a run, read from its netCDF file,")
+    try:
+        with xarray.open_dataset(path, engine="scipy") as dataset:
+            return _recording(dataset.load())
+    except (KeyError, TypeError, ValueError, EOFError) as problem:
+        raise ValueError(f"{path}: is not the trajectory of a run, or is damaged ({problem})") from None
+
+
+def _recording(dataset: Any) -> Recording:
+    known = dataset.attrs
+    arrays = {attribute: np.array(dataset[name].values) for name, attribute, *_ in COLUMNS}
+    arrays = {n: v.astype(np.int64 if n == "triangles" else np.float64) for n, v in arrays.items()}
+    course = Course(
+        np.array(dataset["course_time"].values),
+        np.array(dataset["course_velocity"].values),
+        _interval(known["counted"]),
+        _interval(known["shown"]),
+    )
+    speed = CrawlSpeed(
+        Estimate(float(known["mean"]), float(known["error"])),
+        float(known["model_error"]),
+        bool(known["converged"]),
+        course.times,
+        course.velocity,
+        float(known["seconds"]),
+        str(known["model"]),
+        float(known["slip_ratio"]),
+    )
+    return Recording(
+        speed=speed,
+        period=float(known["period"]),
+        length=float(known["length"]),
+        words=str(known["words"]),
+        direction=int(known["direction"]),
+        periods=int(known["periods"]),
+        repeats=bool(known["repeats"]),
+        course_shown=course,
+        **arrays,
+    )
+
+
+def _interval(values: Any) -> tuple[float, float]:
+    first, last = (float(t) for t in values)
+    return first, last

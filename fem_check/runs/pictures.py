@@ -1,0 +1,92 @@
+"""Pictures and films of a recording, written to the folder of a run."""
+
+from collections.abc import Callable
+from importlib.util import find_spec
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from fem_check.answer.units import Units
+from fem_check.output import writers
+from fem_check.output.files import replacing
+from fem_check.output.look import styled
+from fem_check.output.movies import movie
+from fem_check.output.pictures import checked_units, draw_figure, panels, plot
+from fem_check.runs.recording import Recording
+
+KYMOGRAPHS = ("kymograph", "displacement", "height")
+
+
+def kymographs(recording: Recording, units: Units | None = None) -> Any:
+    """A figure of those that the recording has; its axes."""
+    names = tuple(name for name in panels(recording) if name in KYMOGRAPHS)
+    return draw_figure(names, recording, checked_units(recording, units), 0.0, None)
+
+
+KINDS: dict[str, Callable[[Recording, Units | None], Any]] = {
+    "motion": lambda recording, units: plot(recording, units=units),
+    "kymograph": kymographs,
+}
+"""Pictures by the names of their files, each a function that returns axes."""
+
+SUFFIXES = (".png", ".pdf")
+
+METADATA: dict[str, dict[str, Any]] = {
+    ".pdf": {"CreationDate": None},
+    ".svg": {"Date": None},
+    ".png": {"Software": None},
+}
+"""Nothing that changes from one writing to the next."""
+
+DPI = 150
+
+PERIODS, PER_PERIOD = 2, 24
+"""Length of a film of a motion that repeats, in periods, and its frames to a period."""
+
+FILMS = tuple(writers.WRITERS)
+
+Report = Callable[[int, int], object]
+
+
+def write_pictures(recording: Recording, folder: Path, units: Units | None = None) -> list[Path]:
+    """Every picture as PNG and PDF; their paths."""
+    targets = {kind: [folder / f"{kind}{suffix}" for suffix in SUFFIXES] for kind in KINDS}
+    for kind, paths in targets.items():
+        save(recording, paths, units, kind)
+    return [path for paths in targets.values() for path in paths]
+
+
+def save(recording: Recording, paths: list[Path], units: Units | None, kind: str) -> None:
+    """Draw one of KINDS, and write it to files of the types that their names say."""
+    import matplotlib.pyplot as plt  # here: it selects a backend
+
+    figure = np.atleast_1d(KINDS[kind](recording, units))[0].figure
+    try:
+        for path in paths:
+            with styled(), replacing(path) as part:
+                figure.savefig(part, dpi=DPI, metadata=METADATA[path.suffix.lower()])
+    finally:
+        plt.close(figure)
+
+
+def possible_films() -> list[str]:
+    """Suffixes of films that can be written here: .gif, and .mp4 where there is an encoder."""
+    return [suffix for suffix in FILMS if suffix != ".mp4" or find_spec(writers.MODULE) is not None]
+
+
+def write_films(
+    recording: Recording, folder: Path, units: Units | None = None, report: Report | None = None
+) -> list[Path]:
+    """motion.gif, and motion.mp4 where it can be written; their paths. report: as in `movie`."""
+    periods = PERIODS if recording.most_periods is None else None
+    targets = [folder / f"motion{suffix}" for suffix in possible_films()]
+    for target in targets:
+        movie(
+            *(recording, target),
+            periods=periods,
+            frames=PER_PERIOD,
+            units=units,
+            progress=report or False,
+        )
+    return targets

@@ -1,0 +1,70 @@
+"""What is written of a run in result.json: the answer, its errors, what was asked, what it cost."""
+
+import platform
+from importlib.metadata import version
+from typing import Any
+
+from fem_check.answer.block import block
+from fem_check.answer.record import record
+from fem_check.answer.units import Units
+from fem_check.choice.ways import Solved
+from fem_check.files.parts.scene_file import RunSettings
+from linear_theory.common.shown import plain
+from linear_theory.common.version import current_version
+
+PACKAGES = ("numpy", "scipy", "scikit-fem", "matplotlib")
+
+WIDTH = 80
+
+
+def result_of(found: Solved, settings: RunSettings, units: Units | None) -> dict[str, Any]:
+    """Plain data for JSON. Numbers are in the units of the scene, which `units` names."""
+    answer = found.answer
+    told = block(answer, units, WIDTH, ("", ""))
+    return {
+        "answer": record(answer, units),
+        "units": None if units is None else {"length": units.length, "time": units.time},
+        "errors": errors_of(found),
+        "cost": cost_of(found),
+        "block": told,
+        "run": plain(settings),
+        "scene": plain(answer.scene),
+        "versions": versions(),
+    }
+
+
+def errors_of(found: Solved) -> list[dict[str, Any]]:
+    """The error budget: parts of the error of the mean speed, absolute; None where not estimated."""
+    speed = found.answer.speed
+    if found.motion is None:
+        rows = [("numerical: mesh, times, friction balance", speed.error - speed.wave_error)]
+        if speed.wave_error:
+            rows.append(("noise of the measured wave", speed.wave_error))
+        rows.append(("model: distance to the nonlinear flat sheet", speed.model_error))
+    else:
+        of = found.motion.errors
+        rows = [("steps in time", of.step), ("difference of the last two periods", of.spread)]
+        rows += [("mesh", of.mesh), ("distance to dry friction, not part of the error", of.slip_speed)]
+    return [{"part": part, "error": plain(float(error))} for part, error in rows]
+
+
+def cost_of(found: Solved) -> list[dict[str, Any]]:
+    """Where the time went, in seconds, and how much work was done."""
+    answer, motion = found.answer, found.motion
+    rows: list[tuple[str, float, str]] = [
+        (f"{one.level}, not chosen", one.seconds, one.why) for one in answer.passed
+    ]
+    work = "" if motion is None else f"{motion.times.size - 1} steps, {motion.iterations} iterations"
+    rows.append((answer.level, answer.speed.seconds, work))
+    spent = found.cost.seconds
+    rows += [
+        (f"of these for {name}", seconds, f"{found.cost.calls[name]} evaluations")
+        for name, seconds in sorted(spent.items(), key=lambda one: -one[1])
+    ]
+    return [{"part": part, "seconds": seconds, "work": work} for part, seconds, work in rows]
+
+
+def versions() -> dict[str, str]:
+    """Of this program and of what its numbers depend on."""
+    found = {"sheetcrawl": current_version(), "python": platform.python_version()}
+    return {**found, **{name: version(name) for name in PACKAGES}}

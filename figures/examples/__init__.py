@@ -1,0 +1,4 @@
+"""Examples: each asks a question and computes, prints and draws the answer.
+
+python -m figures.examples.first_speed
+"""

@@ -1,0 +1,41 @@
+"""Scenes that are run to folders in a moment."""
+
+PLANE = """
+[sheet]
+length = "40 mm"
+width = "15 mm"
+
+[wave]
+period = "8 s"
+
+[growth]
+swelling = "5 %"
+
+[run]
+rtol = "20 %"
+"""
+"""A strip, answered by theory."""
+
+STEPPED = """
+[sheet]
+young = 1.0
+
+[wave]
+
+[growth]
+alpha = 0.1
+
+[gravity]
+weight = 3e-6
+
+[friction]
+coefficient = 1.0
+slip_speed = 0.005
+
+[run]
+level = "stepped"
+steps = 40
+periods = 1
+cells = [1, 2]
+"""
+"""A sheet on which friction acts back, stepped through time."""
