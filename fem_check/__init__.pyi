@@ -5,6 +5,7 @@ Read by `lazy_loader` as it runs, and by type checkers.
 
 from .choice.prediction import Prediction, predict
 from .mesh.outline import Outline
+from .output.paraview import write_paraview
 from .plane_stress.field import PlaneStressField, plane_stress_field
 from .scene import Scene, bilayer
 from .shell.cycle.speed import cycle_speed
@@ -17,7 +18,6 @@ from .shell.effects.koiter import Bending, Membrane
 from .shell.effects.loads import DeadLoad
 from .shell.effects.terrain import Terrain
 from .shell.material import Material
-from .shell.stepping.paraview import write_paraview
 from .shell.stepping.simulation import simulate
 from .shell.stepping.trajectory import Trajectory
 from .version import __version__

@@ -1,17 +1,35 @@
 """What `.movie(path)` writes: frames, size, the same bytes, nothing half done, clear refusals."""
 
+from types import SimpleNamespace
+
 import imageio_ffmpeg
 import matplotlib as mpl
 import numpy as np
 import pytest
 from PIL import Image
 
-from fem_check.output import Units, movies, writers
+from fem_check import (
+    Bending,
+    Friction,
+    Gravity,
+    Ground,
+    Inertia,
+    Material,
+    Membrane,
+    Scene,
+    cycle_speed,
+    simulate,
+)
+from fem_check.output import Units, View, movies, writers
+from fem_check.output.film.arrows import Friction as Forces
+from fem_check.output.film.camera import Camera
+from fem_check.output.film.space import SpaceStage
+from fem_check.output.film.surface import Surface, _visible, normals, quads
 from fem_check.output.panels import GROWTH_MAP
 from fem_check.output.pictures import checked_units, moving_of
 from fem_check.output.stage import LEFT, RIGHT, TOP, Stage
 from figures.draw import readme_movie
-from linear_theory import Sheet, SineWave, crawl_speed, line_balance
+from linear_theory import FieldWave, Sheet, SineWave, crawl_speed, line_balance, pulse_wave
 
 SMALL = {"periods": 2, "frames": 5, "width": 421}
 
@@ -175,3 +193,174 @@ def test_the_film_of_the_readme_is_small_and_shows_its_sheet():
         assert film.size[0] == readme_movie.WIDTH
     assert readme_movie.PULSE.value(0.0, 0.0, 0.0) == pytest.approx(1.0)
     assert np.exp(readme_movie.ALPHA) == pytest.approx(1.12)
+
+
+MATERIAL = Material(0.03, 0.5)
+
+
+def bumps(x, y):
+    return 0.01 * np.cos(2 * np.pi * y / 0.6) + 0 * x
+
+
+@pytest.fixture(scope="module")
+def lying():
+    """A bilayer on uneven ground."""
+    effects = [
+        Membrane(MATERIAL),
+        Bending(MATERIAL),
+        Gravity(2.5e-4),
+        Ground(0.5, height=bumps),
+        Friction(0.7, slip_speed=0.02),
+    ]
+    scene = Scene(Sheet(), SineWave(), 0.02, 2.0, effects, cells=(2, 4))
+    return simulate(scene, periods=1, steps=12)
+
+
+def in_space(result, width=640, exaggerate=1.0, periods=1):
+    moving = moving_of(result)
+    return SpaceStage(moving, checked_units(moving, None), periods, 4, width, exaggerate)
+
+
+def test_a_sheet_that_leaves_the_plane_is_filmed_in_space(lying, speed, tmp_path, monkeypatch):
+    seen = []
+
+    def stage(view):
+        def made(*arguments):
+            seen.append(view)
+            return SimpleNamespace(pictures=lambda: iter(()), __len__=lambda: 0)
+
+        return made
+
+    monkeypatch.setattr(movies, "STAGES", {view: stage(view) for view in View})
+    monkeypatch.setitem(writers.WRITERS, ".gif", lambda path, pictures, fps: path.touch())
+    for result, view in ((lying, None), (speed, None), (lying, "top"), (speed, View.SPACE)):
+        result.movie(tmp_path / "film.gif", view=view, periods=1, frames=4)
+    assert seen == [View.SPACE, View.TOP, View.TOP, View.SPACE]
+    with pytest.raises(ValueError, match="view = 'below': must"):
+        speed.movie(tmp_path / "film.gif", view="below")
+
+
+def test_a_film_in_space_has_the_same_bytes_every_time(lying, tmp_path):
+    once = lying.movie(tmp_path / "once.gif", frames=3, width=420)
+    with mpl.rc_context({"font.size": 20, "axes.grid": True}):
+        again = lying.movie(tmp_path / "again.gif", frames=3, width=420)
+    assert once.read_bytes() == again.read_bytes()
+
+
+def test_the_camera_keeps_lengths_and_directions():
+    """What it does to the three axes is a rotation."""
+    for steepest in (0.0, 1.0):
+        camera = Camera.over(steepest)
+        units = np.concatenate([camera.page(np.eye(3)), camera.depth(np.eye(3))[None]])
+        np.testing.assert_allclose(units @ units.T, np.eye(3), atol=1e-14)
+        assert np.linalg.det(units) == pytest.approx(1)  # not mirrored
+        (right, up), toward = units[:2], units[2]
+        assert right[1] > abs(right[0])  # y runs to the right,
+        assert up[0] < 0 < up[2]  # x down the page and z up
+        assert toward[0] > 0 < toward[2]
+        # a slope that rises towards the viewer is seen from its upper side
+        way = toward[:2] / np.hypot(*toward[:2])
+        assert toward @ [*(-steepest * -way), 1] > 0
+    stretched = Camera.over(0.0, 5.0)
+    point = np.array([0.1, 0.2, 0.3])
+    np.testing.assert_allclose(stretched.page(point), Camera.over(0.0).page(point * [1, 1, 5]))
+
+
+def test_the_sheet_in_space_is_where_the_result_says(lying):
+    """Its colours cover the corners of the picture that the camera says, to four pixels."""
+    stage = in_space(lying)
+    _, picture, *_ = stage.pictures()  # both ends of the sheet grow or shrink
+    ends = stage._camera.page(stage._shown(stage._frames[1]).place)
+    low, high = stage._page
+    scale = (640 - LEFT - RIGHT) / (high - low)[0]
+    columns = LEFT + (ends[0] - low[0]) * scale
+    view = picture[TOP + 30 : TOP + stage._height].astype(int)
+    colored = np.flatnonzero((np.ptp(view, axis=2) > 40).any(0))
+    assert colored.min() == pytest.approx(columns.min(), abs=4)
+    assert colored.max() == pytest.approx(columns.max(), abs=4)
+
+
+def test_heights_are_to_scale_or_the_film_says_by_how_much(lying):
+    stage = in_space(lying)
+    canvas, (_, side) = stage._set_up()
+    canvas.draw()
+    origin, right, up = side.transData.transform([(0, 0), (0.1, 0), (0, 0.01)])
+    assert stage._stretch == 1
+    assert (up - origin)[1] / (right - origin)[0] == pytest.approx(0.1, rel=1e-3)
+    assert "to scale" in side.texts[0].get_text()
+    effects = [Membrane(MATERIAL), Bending(MATERIAL), Gravity(2.5e-7), Ground(0.5)]
+    effects.append(Friction(0.7, slip_speed=1e-3))
+    flat = simulate(Scene(Sheet(), SineWave(), 1e-3, 0.02, effects, cells=(1, 2)), periods=1, steps=8)
+    stage = in_space(flat)
+    canvas, (_, side) = stage._set_up()
+    canvas.draw()
+    origin, right, up = side.transData.transform([(0, 0), (0.1, 0), (0, 1e-3)])
+    assert stage._stretch in (5, 10, 20, 50, 100)
+    assert (up - origin)[1] / (right - origin)[0] == pytest.approx(0.01 * stage._stretch, rel=1e-3)
+    assert f"heights × {stage._stretch:g} in both views" in side.texts[0].get_text()
+
+
+def test_the_section_is_the_middle_line_and_the_ground_below_it(lying):
+    stage = in_space(lying)
+    _, (_, side) = stage._set_up()
+    _, line, sheet, _ = stage._section(side, 2)
+    y, z = line.get_data()
+    np.testing.assert_allclose(z, bumps(0, y), atol=1e-12)
+    start = lying.positions(stage._frames[2].time, np.array([[0.0], [0.0]]), rtol=None)
+    off = np.hypot(*(np.array(sheet.get_data()) - start[1:]))
+    assert off.min() < 5e-3
+
+
+def test_edges_behind_the_sheet_are_hidden():
+    """Of two squares one above the other, the lower one's edges in their overlap."""
+    square = np.array([[0, 1, 1, 0], [0, 0, 1, 1.0]])
+    seen = np.concatenate([square, square * 0.5 + 0.25], axis=1)
+    depth = np.repeat([1.0, 0.0], 4)
+    cells = np.array([[0, 1, 2], [0, 2, 3], [4, 5, 6], [4, 6, 7]])
+    rim = np.array([[0, 1], [1, 2], [4, 5], [6, 7]])
+    np.testing.assert_array_equal(_visible(seen, depth, cells, rim), [True, True, False, False])
+    np.testing.assert_array_equal(_visible(seen, -depth, cells, rim), True)
+
+
+def test_a_grid_of_cells_faces_up():
+    x, y = (a.ravel() for a in np.meshgrid([0, 1, 2.0], [0, 1.0], indexing="ij"))
+    cells = quads(2, x.size)
+    assert sorted(map(sorted, cells.tolist())) == [[0, 1, 2, 3], [2, 3, 4, 5]]
+    slope = normals(Surface(np.stack([x, y, 2 * x]), cells))
+    np.testing.assert_allclose(abs(slope[:, 0]), np.array([2, 0, 1]) / np.sqrt(5))
+
+
+def test_arrows_of_a_sheet_that_turns_are_against_its_motion():
+    """Against differences of the places in the film, which know nothing of friction."""
+    lopsided = FieldWave(lambda x, y, t: (1 + 2 * x) * np.sin(2 * np.pi * (y - t)), period=1.0)
+    scene = Scene(Sheet(), lopsided, 0.2, effects=[Membrane(MATERIAL)], cells=(2, 4))
+    moving = moving_of(cycle_speed(scene, rtol=1e-2))
+    samples, periods = 24, 8
+    forces = Forces(moving, periods, samples)
+    frames = moving.frames(forces._points, periods, samples * 50)
+    for k in (5, samples * 6 + 7):
+        before, after = (frames[50 * k + d].place for d in (-1, 1))
+        found = forces.at(k)
+        np.testing.assert_allclose(found.frame.place, frames[50 * k].place, atol=1e-9)
+        slip = after - before
+        cosine = (found.ways * slip).sum(0) / np.hypot(*found.ways) / np.hypot(*slip)
+        assert cosine.max() < -0.99
+        assert 0.5 < np.hypot(*found.ways).max() / forces._step < 1.2
+    assert frames[50 * k].heading > 0.2
+
+
+def test_a_scene_without_friction_has_no_arrows():
+    effects = [Membrane(MATERIAL), Inertia(1e-3, MATERIAL)]
+    run = simulate(Scene(Sheet(), SineWave(), 0.05, effects=effects, cells=(1, 2)), periods=1, steps=16)
+    assert not Forces(moving_of(run), 1, 4).acts
+
+
+def test_colours_of_a_gif_are_those_of_the_scale(tmp_path):
+    """Also of growth that never occurs: a pulse only grows, its scale shows both signs."""
+    pulse = crawl_speed(Sheet(), pulse_wave(0.2), 0.1, rtol=1e-2)
+    path = pulse.movie(tmp_path / "pulse.gif", periods=1, frames=2, width=640)
+    with Image.open(path) as film:
+        picture = np.asarray(film.convert("RGB")).astype(int)
+    row = picture[21, 640 - 118 : 640 - 28]
+    expected = 255 * GROWTH_MAP(np.linspace(0, 1, row.shape[0]))[:, :3]
+    assert np.abs(row - expected)[3:-3].max() < 16

@@ -1,6 +1,7 @@
 """What `.plot()` draws: the numbers of the result, against the slip, where the sheet is."""
 
 import pickle
+import re
 import subprocess
 import sys
 
@@ -9,11 +10,13 @@ import numpy as np
 import pytest
 from matplotlib.figure import Figure
 from matplotlib.quiver import Quiver
+from matplotlib.text import Text
 
 from fem_check import (
     Friction,
     Gravity,
     Ground,
+    Inertia,
     Material,
     Membrane,
     Outline,
@@ -25,8 +28,8 @@ from fem_check import (
 )
 from fem_check.output import Units
 from fem_check.output.crawling import Crawling
-from fem_check.output.geometry import edges, inside
-from fem_check.output.pictures import moving_of
+from fem_check.output.geometry import edges, inside, middle_line, refined
+from fem_check.output.pictures import moving_of, panels
 from fem_check.output.simulated import Simulated
 from fem_check.shell.cycle import cycle_of_shapes
 from fem_check.shell.effects.koiter import Bending
@@ -99,13 +102,13 @@ def test_the_curve_is_the_velocity_of_the_result_in_its_units(theory):
 def test_the_sheet_is_drawn_where_it_is(theory):
     """By the series, found to more digits; y runs to the right on the page and x downwards."""
     ax = theory.plot("sheet", ax=axes(), phase=0.3)
-    drawn = np.concatenate(ax.collections[2].get_segments())
+    drawn = np.concatenate(ax.collections[1].get_segments())
     field = airy_series(SHEET, WAVE, rtol=1e-7)
     for x, y in ((0.25, 0.5), (-0.25, 0.5), (0.25, -0.5), (0.25, 0.0)):
         corner = np.array([x, y]) + ALPHA * field.displacement(x, y, 0.3)
         assert np.abs(drawn - corner[::-1]).sum(1).min() < 1e-3 * ALPHA
     assert ax.yaxis_inverted()
-    image = ax.collections[1]
+    image = ax.collections[0]
     assert image.get_clim() == pytest.approx((-20, 20), rel=1e-2)  # alpha c in per cent
 
 
@@ -202,7 +205,8 @@ def test_a_sheet_in_space_is_drawn_on_its_ground_from_the_side():
     np.testing.assert_allclose(z, 0.01 * np.cos(2 * np.pi * y), atol=1e-12)
     drawn = np.concatenate(ax.collections[1].get_segments())
     np.testing.assert_allclose(drawn[:, 1].max(), run.positions(run.times[-1])[2].max(), atol=2e-3)
-    assert [a.get_ylabel()[:3] for a in run.plot()] == ["$V(", "$x$", "$z$", "$x$"]
+    labels = [a.get_ylabel()[:3] for a in run.plot()]
+    assert labels == ["$V(", "$x$", "$x$", "$z$", "tim", "tim", "tim", "wor", "$x$"]
     force = Simulated(run).friction(inside(*Simulated(run).covering(), 4, 8), 1.0)
     assert np.hypot(*force).max() > 0
 
@@ -222,10 +226,10 @@ def test_outline_of_a_sheet_with_a_hole_is_both_loops():
 def test_all_panels_of_a_prediction_at_any_level():
     for method in ("strip", "second order"):
         found = predict(SHEET, WAVE, 0.1, rtol=0.2, method=method)
-        speed, sheet, path = found.plot(phase=0.25)
+        _, sheet, _, _, _, path = found.plot(phase=0.25)
         assert sheet.collections
         assert path.lines[0].get_data()[0][-1] == pytest.approx(10 * found.mean)
-        speed.figure.canvas.draw()
+        path.figure.canvas.draw()
 
 
 def test_a_body_on_a_line_has_a_speed_and_a_path():
@@ -253,12 +257,145 @@ def test_a_pickled_speed_is_numbers_only(theory):
         again.plot("sheet")
 
 
+def _image(ax):
+    """Values, and the positions of the pixels, (rows,) and (columns,)."""
+    (image,) = ax.images
+    values = image.get_array()
+    left, right, low, high = image.get_extent()
+    rows, columns = values.shape
+    y = low + (high - low) * (np.arange(rows) + 0.5) / rows
+    return np.asarray(values), y, left + (right - left) * (np.arange(columns) + 0.5) / columns
+
+
+@pytest.mark.parametrize("count", [1, -2])
+def test_ridges_of_a_kymograph_are_straight_and_as_steep_as_the_wave_is_fast(count):
+    """The crest of a sine moves by a wavelength a period: found by its zeros and a straight line."""
+    sheet, period = Sheet(length=3.0, width=1.0), 2.0
+    speed = crawl_speed(sheet, SineWave(count=count, period=period), 0.1, rtol=1e-2)
+    values, times, y = _image(speed.plot("kymograph", ax=axes(), units=Units("mm", "s")))
+    assert times[0] == pytest.approx(0)
+    assert times[-1] == pytest.approx(2 * period)  # two periods
+    phase = np.unwrap(np.angle(values @ np.exp(-2j * np.pi * abs(count) * y / 3.0)))
+    slope, offset = np.polyfit(times, phase, 1)
+    np.testing.assert_allclose(phase, slope * times + offset, atol=1e-2)
+    wavelength = 3.0 / abs(count)
+    assert -slope * wavelength / (2 * np.pi) == pytest.approx(
+        np.sign(count) * wavelength / period, rel=1e-3
+    )
+
+
+def test_a_kymograph_of_displacement_is_that_of_the_theory(theory):
+    values, times, y = _image(theory.plot("displacement", ax=axes(), periods=1))
+    field = airy_series(SHEET, WAVE, rtol=1e-7)
+    exact = ALPHA * field.displacement(0.0, y, times[:, None])[1]
+    np.testing.assert_allclose(values, exact, atol=2e-3 * ALPHA)
+    wave, _, _ = _image(theory.plot("kymograph", ax=axes(), periods=1))
+    np.testing.assert_allclose(wave, WAVE.value(0, y, times[:, None]), atol=1e-12)
+
+
+def test_a_kymograph_does_not_see_how_a_sheet_turns(cycle):
+    """Displacements are those within the sheet: the same in each period, although it turns."""
+    values, _, _ = _image(cycle.plot("displacement", ax=axes(), periods=3))
+    np.testing.assert_allclose(values[:48], values[96:144], atol=1e-9)
+    assert np.abs(values.mean()) < 1e-3
+
+
+def test_a_kymograph_leaves_out_holes():
+    hole = [[-0.1, -0.1], [0.1, -0.1], [0.1, 0.1], [-0.1, 0.1]]
+    corners = [[-0.25, -0.5], [0.25, -0.5], [0.25, 0.5], [-0.25, 0.5]]
+    field = plane_stress_field(Outline(corners, holes=[hole]), WAVE, size=0.3, degree=2)
+    values, _, y = _image(field_speed(field, 0.05, rtol=5e-2).plot("kymograph", ax=axes()))
+    np.testing.assert_array_equal(np.isnan(values[3].astype(float)), np.abs(y) < 0.1)
+
+
+def test_refined_triangles_are_quarters():
+    points = np.array([[0.0, 1.0, 1.0, 0.0], [0.0, 0.0, 2.0, 2.0]])
+    finer, cells = refined(points, np.array([[0, 1, 2], [0, 2, 3]]))
+    assert finer.shape == (2, 9)  # 4 corners, 5 middles of edges, one of them shared
+    sides = finer[:, cells[:, 1:]] - finer[:, cells[:, :1]]
+    areas = sides[0, :, 0] * sides[1, :, 1] - sides[0, :, 1] * sides[1, :, 0]
+    np.testing.assert_allclose(areas / 2, 2 / 8)
+
+
+def test_a_line_beside_a_slot_is_found():
+    """Where the middle is open, the nearest line that is mostly in the sheet."""
+    left = np.array([[0, 0.35, 0.35, 0], [0, 0, 1, 1.0]])
+    points = np.concatenate([left, left + np.array([[0.65], [0.0]])], axis=1)
+    triangles = np.array([[0, 1, 2], [0, 2, 3], [4, 5, 6], [4, 6, 7]])
+    line, found = middle_line(points, triangles, 10)
+    assert found.size == 10
+    assert abs(line[0, 0] - 0.5) == pytest.approx(0.2)
+
+
+def test_balance_of_power_is_that_of_the_run_and_closes(run):
+    ax = run.plot("power", ax=axes())
+    drawn = {line.get_label(): line.get_data() for line in ax.lines}
+    counted = run.times >= run.start - 1e-9
+    unit = 10.0 ** int(re.search(r"10\^\{(-?\d+)\}", ax.get_ylabel()).group(1))
+    for label, name in (("work of growth", "growth"), ("friction", "friction"), ("elastic", "elastic")):
+        values = getattr(run.power, name)[counted]
+        np.testing.assert_allclose(drawn[label][1] * unit, values - values[0], atol=1e-6 * unit)
+        np.testing.assert_allclose(drawn[label][0], run.times[counted])
+    assert {"ground", "kinetic", "damping"}.isdisjoint(drawn)  # the scene has none
+    parts = {label: y for label, (_, y) in drawn.items()}
+    total = sum(y for label, y in parts.items() if label != "work of growth")
+    np.testing.assert_allclose(parts["work of growth"], total, atol=1e-9)
+    assert parts["friction"][-1] > 0
+
+
+def test_the_residual_of_the_balance_falls_with_the_step(run):
+    """Growth does what friction dissipates and the sheet stores, but for the error of the steps."""
+    left = []
+    for steps in (32, 128):
+        works = moving_of(simulate(run.scene, periods=1, steps=steps)).energies.works
+        left.append(np.abs(works["residual"]).max() / works["friction"][-1])
+    assert left[1] < 0.03
+    assert left[1] < 0.4 * left[0]
+
+
+def test_the_friction_panel_shows_the_friction_field(theory):
+    ax = theory.plot("friction", ax=axes(), phase=0.3)
+    image = ax.collections[0]
+    points, _ = refined(*refined(*moving_of(theory).covering()))
+    exact = friction_field(airy_series(SHEET, WAVE, rtol=1e-6), ALPHA, *points, 0.3).force[1]
+    off = np.asarray(image.get_array()).ravel() - exact
+    assert np.sqrt(np.mean(off**2)) < 0.03
+    assert image.norm.vmin == -image.norm.vmax
+
+
+def test_a_picture_of_one_panel_has_one_style(theory):
+    """Its bar and its title as well, whatever the user's own is, and the width of a column."""
+    with mpl.rc_context({"font.size": 20, "axes.titlesize": 30}):
+        fig = theory.plot("kymograph").figure
+    fig.canvas.draw()
+    sizes = {text.get_fontsize() for text in fig.findobj(Text) if text.get_text()}
+    assert sizes <= {7.0, 8.0}
+    assert fig.get_figwidth() * 2.54 == pytest.approx(8.5)
+
+
+def test_panels_that_a_result_lacks_are_refused_with_those_that_it_has(theory, run):
+    for result, what, why in (
+        (theory, "power", "only a motion stepped in time"),
+        (theory, "height", "the sheet lies in the plane"),
+        (run, "height", "the sheet lies in the plane"),
+        (line_balance(WAVE, 0.1), "kymograph", "has no shape to draw"),
+        (line_balance(WAVE, 0.1), "friction", "have no friction field"),
+    ):
+        has = ", ".join(panels(moving_of(result)))
+        with pytest.raises(ValueError, match=rf"what = '{what}': .*{why}.*; must be one of {has}$"):
+            result.plot(what)
+    effects = [Membrane(MATERIAL), Inertia(1e-3, MATERIAL)]
+    still = simulate(Scene(SHEET, WAVE, 0.05, effects=effects, cells=(1, 2)), 1, steps=16)
+    with pytest.raises(ValueError, match="a scene without friction"):
+        still.plot("friction")
+
+
 def test_bad_arguments_are_named(theory):
     with pytest.raises(ValueError, match=r"what = 'shape': must be"):
         theory.plot("shape")
     with pytest.raises(ValueError, match=r"what = 'side': the sheet lies in the plane; must be one of"):
         theory.plot("side")
-    with pytest.raises(ValueError, match=r"what = None: must be one of speed, sheet, path if ax"):
+    with pytest.raises(ValueError, match=r"what = None: must be one of speed, sheet, .* if ax"):
         theory.plot(ax=axes())
     with pytest.raises((TypeError, ValueError), match=r"^ax"):
         theory.plot("speed", ax=3)

@@ -18,11 +18,11 @@ from fem_check.answer.block import block
 from fem_check.choice.ways import answer
 from fem_check.command import BAD_ARGUMENTS, INTERRUPTED, MET, MISSED, main, screens
 from fem_check.files import RunSettings, read
+from fem_check.output.kymographs import Quantity, line_of
 from fem_check.output.pictures import moving_of
 from fem_check.runs import finished, netcdf, recorded, run
 from fem_check.runs.folder import LOCK, SNAPSHOT, locked
-from fem_check.runs.kymographs import kymographs, middle_line
-from fem_check.runs.pictures import possible_films, write_films
+from fem_check.runs.pictures import kymographs, possible_films, write_films
 from linear_theory import FieldWave, Scene, Sheet, SineWave
 from linear_theory.speed.crawl import crawl_speed
 from tests.processes import interruptible
@@ -141,13 +141,14 @@ def test_a_recording_of_a_trajectory_is_where_the_trajectory_was(place):
 
 
 def test_the_kymograph_shows_the_wave_and_the_displacement(plane):
-    line = middle_line(plane.recording)
+    line = line_of(plane.recording, Quantity.WAVE, 1)
     file = read(plane.folder.with_suffix(".toml"))
     expected = file.scene.drive.value(0.0, line.y, line.times[:, None])
-    assert np.abs(line.wave - expected).max() < 5e-3  # linear between points
-    assert np.abs(line.along).max() < 40.0 * 0.05  # growth of 5 % along at most half of the sheet
+    assert np.abs(line.values - expected).max() < 5e-3  # linear between points
+    along = line_of(plane.recording, Quantity.DISPLACEMENT, 1).values
+    assert np.abs(along).max() < 40.0 * 0.05  # growth of 5 % along at most half of the sheet
     axes = kymographs(plane.recording, plane.units)
-    assert [ax.get_xlabel() for ax in axes] == ["time $t$ (s)"] * 2
+    assert [ax.get_ylabel() for ax in axes] == ["time $t$ (s)"] * 2
 
 
 def test_films_have_the_same_bytes_every_time(plane, tmp_path):

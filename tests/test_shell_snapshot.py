@@ -15,7 +15,6 @@ import skfem
 from numpy.typing import NDArray
 
 from fem_check.shell.statics.newton import Minimiser
-from fem_check.shell.stepping.paraview import write_paraview
 from fem_check.shell.stepping.power import Ledger
 from fem_check.shell.stepping.record import Record
 from fem_check.shell.stepping.run import Run
@@ -457,26 +456,6 @@ def test_writing_fails_without_harm(tmp_path: Path, monkeypatch: pytest.MonkeyPa
         save_snapshot(path, {"a": np.arange(4.0)}, "owner")
     assert load_snapshot(path, "owner")["a"].size == 3
     assert len(list(tmp_path.iterdir())) == 1
-
-
-def test_paraview_reads_what_was_written(tmp_path: Path) -> None:
-    meshio = pytest.importorskip("meshio")
-    scene = planar()
-    trajectory = simulate(scene, periods=1, steps=16, keep_every=6)
-    path = tmp_path / "crawl.xdmf"
-    write_paraview(trajectory, path, refine=1)
-    with meshio.xdmf.TimeSeriesReader(path) as reader:
-        points, cells = reader.read_points_cells()
-        assert reader.num_steps == trajectory.stored_times.size
-        assert cells[0].type == "quad"
-        time_read, data, _ = reader.read_data(reader.num_steps - 1)
-    assert time_read == pytest.approx(1.5)
-    moved = trajectory.positions(1.5, points[:, :2].T)
-    # XML holds all digits of a double
-    np.testing.assert_allclose(points[:, :2].T + data["displacement"].T[:2], moved, atol=1e-14)
-    np.testing.assert_allclose(
-        data["growth"], trajectory.model.growth(1.5, *points[:, :2].T), atol=1e-14
-    )
 
 
 def test_files_that_are_no_snapshots_and_values_that_are_no_paths(tmp_path: Path) -> None:

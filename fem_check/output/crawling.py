@@ -25,6 +25,7 @@ class Crawling:
     """See `moving.Moving`. Without a deformation only V(t) and the path can be drawn."""
 
     most_periods: int | None = None
+    energies = None
 
     def __init__(self, speed: CrawlSpeed) -> None:
         self.speed = speed
@@ -77,6 +78,16 @@ class Crawling:
         times, velocity = share[order], self.speed.velocity[order]
         times = np.concatenate([times[-1:] - self.period, times, times[:1] + self.period])
         return Course(times, np.concatenate([velocity[-1:], velocity, velocity[:1]]), whole, whole)
+
+    def waves(self, points: Array, times: Array) -> Array:
+        """See Moving."""
+        return self._deformation.growth(points, times)
+
+    def stress(self, points: Array, t: float) -> dict[str, Array]:
+        """Components (n,) of the stress in the axes of the sheet by name, if the theory has them."""
+        stress = self._deformation.stress(points, t)
+        names = ("stress_xx", "stress_yy", "stress_xy")
+        return {} if stress is None else dict(zip(names, stress, strict=True))
 
     def way(self, periods: int, samples: int) -> tuple[Array, Array]:
         """See Moving."""

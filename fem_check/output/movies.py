@@ -11,6 +11,8 @@ from numpy.typing import NDArray
 from fem_check.answer.units import Units
 from fem_check.output import writers
 from fem_check.output.files import replacing, writable
+from fem_check.output.film.space import SpaceStage
+from fem_check.output.film.view import View
 from fem_check.output.pictures import checked_periods, checked_units, moving_of
 from fem_check.output.progress import Progress
 from fem_check.output.stage import Stage
@@ -27,6 +29,8 @@ MOST_FRAMES = 3000
 WIDTHS = 420, 1920
 """Range of widths in pixels: below the first, labels would overlap."""
 
+STAGES: dict[View, type[Stage]] = {View.TOP: Stage, View.SPACE: SpaceStage}
+
 Report = Callable[[int, int], object]
 
 
@@ -39,6 +43,7 @@ def movie(
     fps: float = 15.0,
     width: int = 640,
     exaggerate: float = 1.0,
+    view: View | str | None = None,
     units: Units | None = None,
     progress: Report | bool = False,
 ) -> Path:
@@ -70,7 +75,8 @@ def movie(
             f"periods = {periods}, frames = {frames}: gives {total} frames, must be at most "
             f"{MOST_FRAMES}; reduce either"
         )
-    stage = Stage(moving, checked_units(moving, units), periods, frames, width, factor)
+    stage_of = STAGES[View.named(view, moving.components)]
+    stage = stage_of(moving, checked_units(moving, units), periods, frames, width, factor)
     with replacing(target) as part, _progress(target, total, progress) as report:
         write(part, _reported(stage, report), fps)
     return target

@@ -10,6 +10,7 @@ from typing import NamedTuple, Protocol, runtime_checkable
 import numpy as np
 from numpy.typing import NDArray
 
+from fem_check.output.works import Energies
 from linear_theory.speed.result import CrawlSpeed
 
 Array = NDArray[np.float64]
@@ -79,6 +80,13 @@ class Moving(Protocol):
     def course(self) -> Course:
         """V(t)."""
 
+    def waves(self, points: Array, times: Array) -> Array:
+        """The wave c at the points at given times, (times, n)."""
+
+    @property
+    def energies(self) -> Energies | None:
+        """Where the work of growth went, if the result tells."""
+
     def way(self, periods: int, samples: int) -> tuple[Array, Array]:
         """Times (n,) and the positions of the centre (2, n)."""
 
@@ -110,3 +118,12 @@ def turned(place: Array, heading: float) -> Array:
     cosine, sine = np.cos(heading), np.sin(heading)
     x, y = place[:2]
     return np.concatenate([[cosine * x - sine * y, sine * x + cosine * y], place[2:]])
+
+
+def friction_at(moving: Moving, points: Array, time: float) -> tuple[Array, float]:
+    """Friction (2, n) at the time of a frame, and the heading of the sheet to which it belongs.
+
+    A motion that repeats is known in one period: turn the force by the heading of the frame minus that.
+    """
+    phase = (time - moving.at(points, 0.0).time) / moving.period
+    return moving.friction(points, phase), moving.at(points, phase).heading

@@ -1,4 +1,4 @@
-"""The panels of a picture: V(t), the sheet from above and from the side, its path.
+"""The sheet in a picture: from above, coloured by growth or friction, and from the side.
 
 The sheet lies along the page: y, the direction of the wave, points to the right and x downwards, so
 that a left turn of the sheet is a left turn on the page.
@@ -16,7 +16,7 @@ from matplotlib.tri import Triangulation
 from numpy.typing import NDArray
 
 from fem_check.answer.units import Units
-from fem_check.output.geometry import edges, inside
+from fem_check.output.geometry import edges, inside, refined
 from fem_check.output.look import COLORS
 from fem_check.output.moving import Frame, Moving
 
@@ -35,72 +35,65 @@ ARROWS = 60
 ARROW = 0.9
 """Length of the longest arrow relative to the spacing of arrows."""
 
-DOTS = 20
-"""Approximate largest number of dots on a path."""
-
 PHASES = 24
 """Number of phases from which the colour scale is determined."""
 
-MEAN, BAND, WAVE = COLORS["vermillion"], "#F2B48F", COLORS["blue"]
+WAVE = COLORS["blue"]
 
-
-def draw_speed(ax: Axes, moving: Moving, units: Units) -> None:
-    """V(t) with its mean, and the numerical plus model error of the mean as a band."""
-    course, speed = moving.course(), moving.speed
-    times, velocity = course.times * units.time_factor, course.velocity * units.speed_factor
-    ax.plot(times, velocity, color=COLORS["blue"], label="$V(t)$")
-    error = speed.error + (0.0 if np.isnan(speed.model_error) else speed.model_error)
-    mean, error = (v * units.speed_factor for v in (speed.mean, error))
-    counted = [t * units.time_factor for t in course.counted]
-    ax.fill_between(counted, mean - error, mean + error, color=BAND, linewidth=0, label="error")
-    ax.plot(counted, [mean, mean], color=MEAN, label="mean")
-    ax.axhline(0, color="0.6", linewidth=0.5, zorder=0)
-    ax.set_title(f"mean {in_words(mean, error)} {units.speed}, band: error", loc="left")
-    ax.set(xlabel=f"time $t$ ({units.time})", ylabel=f"$V(t)$ ({units.speed})")
-    ax.set_xlim(*(t * units.time_factor for t in course.shown))
-
-
-def in_words(mean: float, error: float) -> str:
-    """Mean and error to the digits resolved by the error, five at most.
-
-    >>> from fem_check.output.panels import in_words
-    >>> print(in_words(-0.19177, 5.2e-4), "|", in_words(0.071, 0.0113), "|", in_words(0.0779601, 5e-16))
-    −0.19177 ± 0.00052 | 0.071 ± 0.011 | 0.07796 ± 5e−16
-    """
-    digits = 99
-    if np.isfinite(error) and error > 0:
-        digits = 1 - int(np.floor(np.log10(error)))
-    if digits > 6 or digits < 0:
-        words = f"{mean:.5g} ± {error:.1g}" if error else f"{mean:.5g}"
-    else:
-        words = f"{mean:.{digits}f} ± {error:.{digits}f}"
-    return words.replace("-", "\N{MINUS SIGN}")
+FRICTION_MAP = colormaps["RdBu_r"]
+"""Colours of friction: red pushes the sheet towards +y, blue towards -y."""
 
 
 def draw_sheet(ax: Axes, moving: Moving, units: Units, phase: float) -> None:
-    """The sheet from above, with friction as arrows."""
+    """The sheet from above, coloured by growth, with friction as arrows."""
     points, triangles = moving.covering()
     frame = moving.at(points, phase)
     most = growth_scale(moving, points)
-    factor = units.length_factor
+    place = frame.place * units.length_factor
+    image, _ = add_sheet(ax, place, 100 * frame.growth, triangles, most)
+    arrows = _draw_around(ax, moving, units, phase)
+    friction = ", arrows: friction" if arrows else ""
+    ax.set_title(f"{_time(frame, units)}{friction}; {_ways(moving)}", loc="left")
+    if most:
+        add_scale(ax, image, r"growth $\alpha c$ (%)")
+
+
+def draw_friction(ax: Axes, moving: Moving, units: Units, phase: float) -> None:
+    """The sheet from above, coloured by the friction along y, with friction as arrows."""
+    # Dry friction changes over distances much shorter than growth does.
+    points, triangles = refined(*refined(*moving.covering()))
+    frame, along = moving.at(points, phase), moving.friction(points, phase)[1]
+    most, place = float(np.abs(along).max()), frame.place * units.length_factor
+    image, _ = add_sheet(ax, place, along, triangles, most, FRICTION_MAP)
+    _draw_around(ax, moving, units, phase)
+    ax.set_title(f"{_time(frame, units)}, arrows: friction; {_ways(moving)}", loc="left")
+    add_scale(ax, image, r"friction $f_y$ ($\mu\,w$)")
+
+
+def _draw_around(ax: Axes, moving: Moving, units: Units, phase: float) -> bool:
+    """Undeformed outline, friction arrows, axes; whether there are arrows."""
+    points, triangles = moving.covering()
+    frame, factor = moving.at(points, phase), units.length_factor
     ax.add_collection(outline(frame.still * factor, triangles, linestyle=":", color="0.5"))
-    image, _ = add_sheet(ax, frame.place * factor, frame.growth, triangles, most)
-    drawn = _draw_friction(ax, moving, phase, points, triangles, factor)
+    arrows = _draw_friction(ax, moving, phase, points, triangles, factor)
     label_ground(ax, units)
     ax.set_aspect("equal", anchor="W")
     shown = np.concatenate([frame.still[:2], frame.place[:2]], axis=1) * factor
     margin = 0.06 * float(np.ptp(shown[1]))
     ax.set_xlim(shown[1].min() - margin, shown[1].max() + margin)
     ax.set_ylim(shown[0].max() + margin, shown[0].min() - margin)
-    friction = ", arrows: friction" if drawn else ""
-    ax.set_title(
-        f"$t$ = {frame.time * units.time_factor:.3g} {units.time}{friction}; {_ways(moving)}",
-        loc="left",
-    )
-    if most:
-        ax.figure.colorbar(
-            image, ax=ax, label=r"growth $\alpha c$ (%)", shrink=0.9, pad=0.02, panchor=False
-        )
+    return arrows
+
+
+def _time(frame: Frame, units: Units) -> str:
+    return f"$t$ = {frame.time * units.time_factor:.3g} {units.time}"
+
+
+def add_scale(ax: Axes, image: Any, label: str) -> None:
+    """A colour bar beside the axes, as high as they are."""
+    # inside of the axes' own box: it stays beside them when an equal aspect makes them smaller
+    bar = ax.inset_axes((1.02, 0.0, 0.035, 1.0))
+    ax.figure.colorbar(image, cax=bar, label=label)
 
 
 def draw_side(ax: Axes, moving: Moving, units: Units, phase: float) -> None:
@@ -112,43 +105,16 @@ def draw_side(ax: Axes, moving: Moving, units: Units, phase: float) -> None:
     draw_ground(ax, moving, low, high, units.length_factor)
     ax.autoscale_view()
     ax.set(xlabel=f"$y$ ({units.length})", ylabel=f"$z$ ({units.length})")
-    ax.set_title("side view, height not to scale", loc="left")
-
-
-def draw_path(ax: Axes, moving: Moving, units: Units, periods: int) -> None:
-    """The path of the centre, with dots at the ends of periods and the outline at both ends."""
-    _, way = moving.way(periods, 16)
-    factor = units.length_factor
-    if moving.has_shape:
-        points, triangles = moving.covering()
-        frames = moving.frames(points, periods, 1)
-        for index, grey in ((0, "0.75"), (len(frames) - 1, "0.3")):
-            ax.add_collection(outline(frames[index].place * factor, triangles, color=grey))
-        centres = np.array([frame.centre for frame in frames]).T
-    else:
-        centres = way[:, ::16]
-    every = -(-periods // DOTS)
-    ax.plot(*_on_page(way * factor), color=MEAN)
-    ax.plot(*_on_page(centres[:, ::every] * factor), "o", color=MEAN, markersize=2)
-    label_ground(ax, units)
-    ax.set_aspect("equal", adjustable="datalim")
-    ax.autoscale_view()
-    ax.margins(0.06)
-    if not ax.yaxis_inverted():
-        ax.invert_yaxis()
-    dots = "" if every == 1 else f", a dot every {every}"
-    ax.set_title(f"path of {periods} period{'s' * (periods != 1)}{dots}", loc="left")
+    ax.set_title("side view, height not to scale; ground at $x$ = 0", loc="left")
 
 
 def add_sheet(
-    ax: Axes, place: Array, growth: Array, triangles: Integers, most: float
+    ax: Axes, place: Array, values: Array, triangles: Integers, most: float, cmap: Any = GROWTH_MAP
 ) -> tuple[Any, Artist]:
-    """Draw growth in per cent as colours on a scale of +-most, for a colour bar, and the outline."""
-    grid = Triangulation(*_on_page(place[:2]), triangles)
+    """Draw values as colours on a scale of +-most, for a colour bar, and the outline."""
+    grid = Triangulation(*on_page(place[:2]), triangles)
     most = most or 1.0
-    image = ax.tripcolor(
-        grid, 100 * growth, shading="gouraud", cmap=GROWTH_MAP, vmin=-most, vmax=most, zorder=2
-    )
+    image = ax.tripcolor(grid, values, shading="gouraud", cmap=cmap, vmin=-most, vmax=most, zorder=2)
     return image, ax.add_collection(outline(place, triangles, color="0.15"))
 
 
@@ -179,7 +145,7 @@ def draw_ground(ax: Axes, moving: Moving, low: float, high: float, factor: float
 
 def outline(place: Array, triangles: Integers, **look: Any) -> LineCollection:
     """The outline of the sheet from above."""
-    ends = np.stack(_on_page(place[:2]), axis=-1)[edges(triangles)]
+    ends = np.stack(on_page(place[:2]), axis=-1)[edges(triangles)]
     return LineCollection(list(ends), linewidth=0.8, zorder=3, **look)
 
 
@@ -222,8 +188,8 @@ def _draw_friction(
     step = min(width / across, length / along) * factor
     scale = ARROW * step / largest
     ax.quiver(
-        *_on_page(place * factor),
-        *_on_page(force * scale),
+        *on_page(place * factor),
+        *on_page(force * scale),
         angles="xy",
         scale_units="xy",
         scale=1,
@@ -235,7 +201,7 @@ def _draw_friction(
     return True
 
 
-def _on_page(places: Array) -> tuple[Array, Array]:
+def on_page(places: Array) -> tuple[Array, Array]:
     """Page coordinates: y to the right, x downwards (the axis is inverted)."""
     return places[1], places[0]
 

@@ -1,7 +1,7 @@
 """Trajectories, prepared for pictures."""
 
 from collections.abc import Iterator
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from fem_check.answer.wave_words import direction
 from fem_check.mesh import location as triangles
 from fem_check.output.moving import Course, Frame, turned
+from fem_check.output.works import Energies
 from fem_check.shell.effects.gravity import Gravity
 from fem_check.shell.effects.ground import Ground
 from fem_check.shell.kinematics.point_state import PointState
@@ -24,6 +25,9 @@ Integers = NDArray[np.int64]
 AROUND = 1e-2
 """Half the interval, in periods, of the difference quotients for velocities."""
 
+REGIONS = 4
+"""Sets of points whose shape functions are kept: a film returns to the same ones in each frame."""
+
 
 class Simulated:
     """See `moving.Moving`; phases and frames are counted from the end of the ramp of growth."""
@@ -37,6 +41,7 @@ class Simulated:
         self.period, self.length = self._scene.period, self._scene.sheet.length
         self.components = self._scene.components
         self.most_periods: int | None = trajectory.periods
+        self._regions = lru_cache(REGIONS)(self._region_of)
 
     @cached_property
     def speed(self) -> CrawlSpeed:
@@ -59,6 +64,19 @@ class Simulated:
         end = float(run.times[-1])
         last, shown = (end - self.period, end), (run.start, end)
         return Course(run.times[counted], velocity[counted], last, shown)
+
+    def waves(self, points: Array, times: Array) -> Array:
+        """See Moving."""
+        return np.stack([self._model.growth(float(t), *points) for t in times])
+
+    @property
+    def energies(self) -> Energies:
+        """Since the end of the ramp."""
+        run = self._trajectory
+        counted = run.times >= run.start - 1e-9 * self.period
+        works = {**run.power._asdict(), "residual": run.power.residual}
+        since = {name: values[counted] - values[counted][0] for name, values in works.items()}
+        return Energies(run.times[counted], since)
 
     def way(self, periods: int, samples: int) -> tuple[Array, Array]:
         """Times at the ends of the steps, and the positions of the centre."""
@@ -119,7 +137,10 @@ class Simulated:
         return float(min(max(t, first), last))
 
     def _region(self, points: Array) -> Region:
-        return self._model.discretisation.points(points)
+        return self._regions(points.tobytes())
+
+    def _region_of(self, points: bytes) -> Region:
+        return self._model.discretisation.points(np.frombuffer(points).reshape(2, -1))
 
     def _place(self, region: Region, t: float) -> Array:
         return np.asarray(region.position(self._trajectory.shape(t, None), (0,))[0])

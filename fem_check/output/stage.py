@@ -1,6 +1,7 @@
 """The frames of a film: the sheet on ruled ground, its path, the time, the direction of the wave."""
 
 from collections.abc import Iterator
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -11,6 +12,7 @@ from matplotlib.ticker import MultipleLocator
 from numpy.typing import NDArray
 
 from fem_check.answer.units import Units
+from fem_check.output.film.arrows import Friction
 from fem_check.output.look import styled
 from fem_check.output.moving import Frame, Moving
 from fem_check.output.panels import (
@@ -63,7 +65,9 @@ class Stage:
     ) -> None:
         self._moving, self._units, self._exaggerate = moving, units, exaggerate
         self._points, self._triangles = moving.covering()
-        self._frames, self._total = moving.frames(self._points, periods, frames), periods * frames
+        self._again = partial(moving.frames, periods=periods, samples=frames)
+        self._frames, self._total = self._again(self._points), periods * frames
+        self._friction = Friction(moving, periods, frames)
         self._growth = growth_scale(moving, self._points)
         first = self._frames[0]
         self._start = first.centre
@@ -84,26 +88,39 @@ class Stage:
         trail = []
         for k in range(self._total):
             frame = self._shown(self._frames[k])
-            trail.append(frame.centre)
+            trail.append(self._spot(frame))
             canvas.restore_region(ground)
             with styled():
-                for artist in self._moving_parts(axes, frame, np.array(trail).T):
+                for artist in self._moving_parts(axes, k, frame, np.array(trail).T):
                     artist.axes.draw_artist(artist)
                     artist.remove()
             yield np.asarray(canvas.buffer_rgba())[:, :, :3].copy()
 
-    def _moving_parts(self, axes: list[Axes], frame: Frame, trail: Array) -> Iterator[Any]:
+    def _spot(self, frame: Frame) -> Array:
+        """The centre of mass, whose path is drawn."""
+        return frame.centre
+
+    def _moving_parts(self, axes: list[Axes], index: int, frame: Frame, trail: Array) -> Iterator[Any]:
         """Parts redrawn on every picture, from back to front."""
         top, *side = axes
         factor = self._units.length_factor
-        yield from add_sheet(top, frame.place * factor, frame.growth, self._triangles, self._growth)
-        yield from top.plot(*(trail[::-1] * factor), color="black", linewidth=1.2)
-        yield from top.plot(*(trail[::-1, -1:] * factor), "o", color="black", mec="white", markersize=6)
+        place, growth = frame.place * factor, 100 * frame.growth
+        yield from add_sheet(top, place, growth, self._triangles, self._growth)
+        yield from self._arrows(top, index)
+        yield from draw_trail(top, trail[::-1] * factor)
         height = 1 + 26 / self._height
         yield top.text(0, height, self._words(frame), transform=top.transAxes, va="center")
         yield from self._wave(top, frame.heading)
         for ax in side:
             yield from add_side(ax, frame, self._triangles, factor, self._growth)
+
+    def _arrows(self, ax: Axes, index: int) -> Iterator[Any]:
+        """Friction."""
+        if self._friction.acts:
+            arrows = self._friction.at(index)
+            tails = self._shown(arrows.frame).place[:2]
+            factor = self._units.length_factor
+            yield draw_arrows(ax, tails[::-1] * factor, arrows.ways[::-1] * factor)
 
     def _wave(self, ax: Axes, heading: float) -> Iterator[Any]:
         """The direction of the wave, which turns with the sheet."""
@@ -128,6 +145,7 @@ class Stage:
         digits = max(0, 2 - int(np.floor(np.log10(size))))
         span = self._moving.period * units.time_factor
         decimals = max(0, 2 - int(np.floor(np.log10(span))))
+        way = round(way, digits) + 0.0  # no minus before 0.0
         words = f"t = {time:.{decimals}f} {units.time}    way {way:+.{digits}f} {units.length}"
         return words.replace("-", "\N{MINUS SIGN}")
 
@@ -195,7 +213,7 @@ class Stage:
         ax.set(ylim=(middle[0] + half[0], middle[0] - half[0]), facecolor=GROUND)
         step = nice(2 * half[1] / 12)
         for at, draw in ((1, ax.axvline), (0, ax.axhline)):
-            for k in range(*_multiples(middle[at], half[at], step)):
+            for k in range(*multiples(middle[at], half[at], step)):
                 draw(k * step, color=RULES, linewidth=0.8, zorder=0)
         ax.xaxis.set_major_locator(MultipleLocator(2 * step))
         ax.tick_params(length=0)
@@ -231,7 +249,28 @@ class Stage:
         ax.text(-0.12, 0.5, r"growth $\alpha c$", transform=ax.transAxes, va="center", ha="right")
 
 
-def _multiples(middle: float, half: float, step: float) -> tuple[int, int]:
+def draw_trail(ax: Axes, trail: Array) -> Iterator[Any]:
+    """The path of the centre so far, (2, n) on the page."""
+    yield from ax.plot(*trail, color="black", linewidth=1.2)
+    yield from ax.plot(*trail[:, -1:], "o", color="black", mec="white", markersize=6)
+
+
+def draw_arrows(ax: Axes, tails: Array, ways: Array) -> Any:
+    """Arrows (2, n) on the page, with their middles at the tails."""
+    return ax.quiver(
+        *tails,
+        *ways,
+        angles="xy",
+        scale_units="xy",
+        scale=1,
+        pivot="mid",
+        units="inches",
+        width=0.016,
+        zorder=4,
+    )
+
+
+def multiples(middle: float, half: float, step: float) -> tuple[int, int]:
     """First multiple of a step in an interval, and the first one beyond it."""
     return int(np.ceil((middle - half) / step)), int(np.floor((middle + half) / step)) + 1
 

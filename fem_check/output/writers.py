@@ -2,21 +2,17 @@
 
 from collections.abc import Callable, Iterator
 from importlib.util import find_spec
-from itertools import chain, islice
+from itertools import chain
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
+from fem_check.output.film.palette import palette
+
 Pixels = NDArray[np.uint8]
 Write = Callable[[Path, Iterator[Pixels], float], None]
-
-SAMPLED = 8
-"""Number of first pictures from which the colours of a .gif are chosen."""
-
-COLOURS = 128
-"""Colours of a .gif: enough for smooth growth; twice as many would take a third more bytes."""
 
 QUALITY = 20
 """Constant rate factor of the .mp4: no visible artefacts in lines and letters."""
@@ -38,11 +34,10 @@ def write_gif(path: Path, pictures: Iterator[Pixels], fps: float) -> None:
 
     The delay of a frame is a whole number of 1/100 s, at least 2.
     """
-    first = list(islice(pictures, SAMPLED))
-    palette = _palette(first)
+    colors = palette()
     images = (
-        Image.fromarray(picture).quantize(palette=palette, dither=Image.Dither.NONE)
-        for picture in chain(first, pictures)
+        Image.fromarray(picture).quantize(palette=colors, dither=Image.Dither.NONE)
+        for picture in pictures
     )
     delay = 10 * max(2, round(100 / fps))
     start = next(images)
@@ -78,8 +73,3 @@ def write_mp4(path: Path, pictures: Iterator[Pixels], fps: float) -> None:
 
 WRITERS: dict[str, Write] = {".gif": write_gif, ".mp4": write_mp4}
 """Writers by the suffix of the file."""
-
-
-def _palette(pictures: list[Pixels]) -> Image.Image:
-    """The common palette of several pictures."""
-    return Image.fromarray(np.concatenate(pictures)).quantize(COLOURS, method=Image.Quantize.MEDIANCUT)

@@ -12,9 +12,17 @@ from fem_check.output import writers
 from fem_check.output.files import replacing
 from fem_check.output.look import styled
 from fem_check.output.movies import movie
-from fem_check.output.pictures import plot
-from fem_check.runs.kymographs import kymographs
+from fem_check.output.pictures import checked_units, draw_figure, panels, plot
 from fem_check.runs.recording import Recording
+
+KYMOGRAPHS = ("kymograph", "displacement", "height")
+
+
+def kymographs(recording: Recording, units: Units | None = None) -> Any:
+    """A figure of those that the recording has; its axes."""
+    names = tuple(name for name in panels(recording) if name in KYMOGRAPHS)
+    return draw_figure(names, recording, checked_units(recording, units), 0.0, None)
+
 
 KINDS: dict[str, Callable[[Recording, Units | None], Any]] = {
     "motion": lambda recording, units: plot(recording, units=units),

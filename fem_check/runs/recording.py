@@ -73,6 +73,7 @@ class Recording(Drawable, Shown):
     floor: Array = field(repr=False)
 
     has_shape = True
+    energies = None
 
     @property
     def components(self) -> int:
@@ -87,6 +88,12 @@ class Recording(Drawable, Shown):
     def covering(self) -> tuple[Array, Integers]:
         """See Moving."""
         return self.points, self.triangles
+
+    def waves(self, points: Array, times: Array) -> Array:
+        """See Moving."""
+        weights, phases = self._weights(points), (times - self.times[0]) / self.period
+        rows = [self._lap(float(phase))[1] * PHASES for phase in phases]
+        return np.stack([weights(_between(self.wave, row)) for row in rows])
 
     def course(self) -> Course:
         """See Moving."""

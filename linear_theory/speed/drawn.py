@@ -62,6 +62,9 @@ class Deformation(Protocol):
     def contact(self, points: Array, t: float) -> Touch:
         """Velocity and normal load at the points, at one time."""
 
+    def stress(self, points: Array, t: float) -> Array | None:
+        """Stress (xx, yy, xy) at the points, (3, n), units of Young's modulus; None if not known."""
+
 
 class LinearDeformation(Shown):
     """`Deformation` x + alpha u(x, y, t) in small-strain theory.
@@ -117,3 +120,7 @@ class LinearDeformation(Shown):
         dilation = field.strain(x, y, t)[:2].sum(0)
         rate = self._load.rate(dilation, self.growth(points, np.array([t]))[0])
         return Touch(self.alpha * field.velocity(x, y, t), 1 + self.alpha * rate)
+
+    def stress(self, points: Array, t: float) -> Array:
+        """See Deformation."""
+        return self.alpha * self.field.stress(points[0], points[1], t)

@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import Any
 
 import numpy as np
@@ -23,6 +23,9 @@ from linear_theory.wave.protocol import Drive
 Array = NDArray[np.float64]
 Integers = NDArray[np.int64]
 
+MOTIONS = 4
+"""Sets of points whose shape functions are kept: a film returns to the same ones in each frame."""
+
 
 class CycleDeformation(Shown):
     """See `linear_theory.speed.drawn.Deformation`; the shapes are those behind the speed."""
@@ -32,6 +35,7 @@ class CycleDeformation(Shown):
         self.alpha = shapes.scene.alpha
         where = "in the plane" if shapes.scene.planar else "in space"
         self.words = f"shape of the nonlinear sheet {where}"
+        self._motions = lru_cache(MOTIONS)(self._motion_of)
 
     def _contents(self) -> Mapping[str, Any]:
         return {"words": self.words, "alpha": self.alpha, "load": self._load, "law": self.law}
@@ -67,8 +71,15 @@ class CycleDeformation(Shown):
             weight = self.shapes.model.find(Gravity).weight
         return Touch(found.velocity[:, 0, :, 0, 0], found.area[0, :, 0, 0] / weight)
 
+    def stress(self, points: Array, t: float) -> None:
+        """See Deformation; not computed."""
+
     def _motion(self, points: Array) -> "_AtPoints":
-        return _AtPoints(self.shapes, self._load, 1, mirrored=False, points=points)
+        return self._motions(points.tobytes())
+
+    def _motion_of(self, points: bytes) -> "_AtPoints":
+        there = np.frombuffer(points).reshape(2, -1)
+        return _AtPoints(self.shapes, self._load, 1, mirrored=False, points=there)
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,0 +1,1 @@
+"""Frames of films: the sheet from above, and in space with its side view."""
