@@ -249,6 +249,30 @@ def test_the_schema_is_printed(capsys: Any) -> None:
     assert json.loads(out) == json.loads(json.dumps(schema()))
 
 
+def test_a_wave_by_a_table_is_that_of_the_scene_file(capsys: Any) -> None:
+    """In the units of length and period, and only beside what gives them."""
+    run(capsys, "new", "measured")
+    scene = read(Path("measured.toml")).scene
+    sheet = ["--length", "40 mm", "--width", "15 mm", "--thickness", "0.8 mm", "--poisson", "0.45"]
+    words = ["--period", "8 s", "--alpha", "0.1", "--rtol", "20 %", "--json"]
+    status, out, _ = run(capsys, "speed", *sheet, *words, "--wave-csv", "measured.csv")
+    assert status == MET
+    assert json.loads(out)["mean"] == predict(scene, rtol=0.2).mean
+    for beside, named in (
+        ([], "--length: must be given"),
+        (["--length", "40", "--pulse", "0.2"], "'measured.csv': must not be combined with --pulse"),
+        (["--length", "40", "--count", "2"], "'measured.csv': must not be combined with --count"),
+        (["--length", "60"], "cover"),
+    ):
+        status, out, err = run(capsys, "speed", "--alpha", "0.1", "--wave-csv", "measured.csv", *beside)
+        assert (status, out, err.count("\n")) == (BAD_ARGUMENTS, "", 1), beside
+        assert named in err
+    other = ["--alpha", "0.1", "--length", "40", "--wave-csv"]
+    assert "nothing.csv': there is no such file" in run(capsys, "speed", *other, "nothing.csv")[2]
+    Path("damaged.csv").write_text("y,t\n0,0\n")
+    assert "column" in run(capsys, "speed", *other, "damaged.csv")[2]
+
+
 def test_examples_of_the_helps_run_in_their_order(capsys: Any) -> None:
     """As the screen has them, each with the file of those before it."""
     for _, command in screens.FILES:

@@ -41,6 +41,10 @@ class Options:
     """Amplitudes of sin phi, sin 2 phi, ... instead of one sine."""
     cosine: Amplitudes = ()
     """Amplitudes of cos phi, cos 2 phi, ..."""
+    wave_csv: Annotated[str | None, In(group=WAVE)] = None
+    """A measured wave instead: a file with the columns y, t, c (and x where c depends on it), in the
+    units of --length and --period; y from the middle of the sheet. Without units, --period may be left
+    out and is found from samples of more than one period."""
 
     growth: Annotated[str | None, In(group=GROWTH)] = None
     """Growth of lengths at the crest of the wave, e.g. "12 %". It sets alpha by the growth law: the

@@ -1,5 +1,6 @@
 """The question that the options ask, in the units that their quantities are in."""
 
+from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -11,6 +12,8 @@ from fem_check.files.quantities import KINDS, Quantity, read
 from linear_theory.friction.contact import Contact
 from linear_theory.scene.scene import Scene
 from linear_theory.sheet.rectangle import Sheet
+from linear_theory.wave.measured import SampledWave
+from linear_theory.wave.protocol import Wave
 from linear_theory.wave.pulse import NARROWEST, pulse_wave
 from linear_theory.wave.travelling import SineWave, TravellingWave
 
@@ -26,6 +29,9 @@ OPTIONS = {
     "atol": "speed",
 }
 """Dimension of each option that has one."""
+
+FORMULAS = ("count", "pulse", "sine", "cosine")
+"""Options of a wave by a formula."""
 
 
 class Asked(NamedTuple):
@@ -50,7 +56,7 @@ def asked(options: Options) -> Asked:
     names = _common_units(given)
     numbers = {name: _in(names, OPTIONS[name], one) for name, one in given.items()}
     sheet = _sheet(numbers, names is not None, options.poisson)
-    wave = _wave(options, numbers.get("period", 1.0))
+    wave = _wave(options, numbers.get("period"))
     alpha, law = _alpha(options, wave, sheet), options.growth_law
     contact = Contact.named(options.load, options.friction, numbers.get("slip_speed"))
     scene = Scene(sheet, wave, alpha, growth_law=law, area=options.area, contact=contact)
@@ -117,7 +123,25 @@ def _sheet(numbers: dict[str, float], with_units: bool, poisson: float) -> Sheet
     return Sheet(**sizes, poisson=poisson)
 
 
-def _wave(options: Options, period: float) -> TravellingWave:
+def _wave(options: Options, period: float | None) -> Wave:
+    """Raises ValueError for options of different waves."""
+    if options.wave_csv is None:
+        return _series(options, 1.0 if period is None else period)
+    default = Options()
+    for name in FORMULAS:
+        if getattr(options, name) != getattr(default, name):
+            raise ValueError(
+                f"--wave-csv {options.wave_csv!r}: must not be combined with {_option(name)}"
+            )
+    if options.length is None:
+        raise ValueError("--length: must be given beside --wave-csv, whose y is in its unit")
+    if not Path(options.wave_csv).is_file():
+        raise ValueError(f"--wave-csv {options.wave_csv!r}: there is no such file")
+    return SampledWave.from_csv(options.wave_csv, period=period)
+
+
+def _series(options: Options, period: float) -> TravellingWave:
+    """A wave by a formula."""
     harmonics = bool(options.sine or options.cosine)
     if options.pulse is not None:
         if harmonics:
@@ -136,7 +160,7 @@ def _wave(options: Options, period: float) -> TravellingWave:
     return TravellingWave(cosine, sine, options.count, period)
 
 
-def _alpha(options: Options, wave: TravellingWave, sheet: Sheet) -> float:
+def _alpha(options: Options, wave: Wave, sheet: Sheet) -> float:
     """alpha as given, or from the growth at the crest."""
     if options.growth is None:
         if options.alpha is None:

@@ -10,7 +10,7 @@ from fem_check.command.status import MET, MISSED
 from fem_check.command.text import printable
 from fem_check.command.waiting import Waiting
 from fem_check.files.mistakes import SceneFileError
-from fem_check.output.files import replacing, writable
+from fem_check.output.files import writable
 from linear_theory.common import validation
 from linear_theory.common.errors import SheetcrawlError
 
@@ -127,13 +127,12 @@ def plot(folder: Path, file: Path | None, what: str) -> int:
 
 def paraview(folder: Path, file: Path | None) -> int:
     """Write the motion for ParaView."""
+    from fem_check.output.paraview import write_paraview
     from fem_check.runs.finished import finished
-    from fem_check.runs.paraview import write_motion
 
     target = writable(file or folder / "motion.xdmf", (".xdmf",))
     try:
-        with replacing(target) as part:
-            write_motion(finished(folder).recording, part)
+        write_paraview(finished(folder).recording, target)
     except ModuleNotFoundError as missing:
         raise ValueError(str(missing)) from None
     return _written([target])

@@ -38,6 +38,11 @@ FILES = (
     ("What would be simulated, how, and at what cost", "sheetcrawl check hydrogel.toml"),
     ("Its answer", "sheetcrawl speed hydrogel.toml"),
     ("For your editor, which then knows the keys", "sheetcrawl schema > scene.schema.json"),
+    ("A measured wave: a scene with a table of samples y, t, c", "sheetcrawl new measured"),
+    (
+        "A wave from such a table, without a scene file",
+        f'{SPEED} --length 40 --width 15 --wave-csv measured.csv --rtol "20 %"',
+    ),
 )
 """In this order, each with what those before it have written."""
 

@@ -45,13 +45,14 @@ def write_paraview(result: Any, path: str | Path, refine: int = 2) -> None:
     """Write displacement, growth, friction and stress of a motion over the undeformed sheet.
 
     result: a trajectory, at all its kept times; or a speed or a prediction with a shape, at 25 times
-    over one period. path: of the .xdmf file; one file holds all. refine: 0 to 6, how often the elements
-    of a trajectory are halved, since a few elements of high degree hold more than their corners show.
+    over one period; or a recorded motion, at 24 times in each period and the last one. path: of the
+    .xdmf file; one file holds all. refine: 0 to 6, how often the elements of a trajectory are halved,
+    since a few elements of high degree hold more than their corners show.
 
-    At the points: displacement (3), length, in the frame of the ground, for Warp By Vector; growth, c
-    times the share of it that acts during the ramp of a trajectory; friction (3), per undeformed area
-    and mu times the weight, if there is any; in small-strain theory stress_xx, stress_yy, stress_xy in
-    the axes of the sheet, units of Young's modulus.
+    At the points: displacement (3), length, in the frame of the ground, for Warp By Vector; wave, c;
+    growth, alpha c, which rises from 0 during the ramp of a trajectory; friction (3), per undeformed
+    area and mu times the weight, if there is any; in small-strain theory stress_xx, stress_yy,
+    stress_xy in the axes of the sheet, units of Young's modulus.
 
     Raises ValueError for a result without a shape, a refine out of range and another suffix, OSError
     for a path that cannot be written to, and ModuleNotFoundError, with what to install, without meshio.
@@ -91,8 +92,12 @@ def _of_trajectory(run: Trajectory, refine: int) -> tuple[Grid, Iterator[Moment]
 
     def moments() -> Iterator[Moment]:
         for t, u in zip(run.stored_times, run.states, strict=True):
-            growth = run.amplitude(t) * model.growth(t, *points)
-            values = {"displacement": _in_space(region.displacement(u, (0,))[0]), "growth": growth}
+            wave = model.growth(t, *points)
+            values = {
+                "displacement": _in_space(region.displacement(u, (0,))[0]),
+                "wave": wave,
+                "growth": run.amplitude(t) * run.scene.alpha * wave,
+            }
             if moving.speed.regime != "none":
                 phase = (t - run.start) / moving.period
                 values["friction"] = _in_space(moving.friction(points, phase))
@@ -110,7 +115,8 @@ def _of_frames(moving: Moving) -> tuple[Grid, Iterator[Moment]]:
         for frame in moving.frames(points, moving.most_periods or 1, SAMPLES):
             values = {
                 "displacement": _in_space(frame.place) - _in_space(points),
-                "growth": moving.waves(points, np.array([frame.time]))[0],
+                "wave": moving.waves(points, np.array([frame.time]))[0],
+                "growth": frame.growth,
             }
             if moving.speed.regime != "none":
                 force, heading = friction_at(moving, points, frame.time)
