@@ -38,7 +38,10 @@ HOWTO = {
     "own_friction_law": "A friction law of your own",
     "outline": "Another outline",
     "slope": "A slope",
+    "scene_file": "A scene in a file",
+    "run": "A run with all its pictures",
     "movie": "A movie",
+    "explorer": "A page with sliders",
     "many_scenes": "Many scenes",
 }
 """Files of docs/howto and their titles, one for each wish."""

@@ -98,7 +98,7 @@ def _said(found: "SceneFile") -> dict[str, str]:
         raise SceneFileError(f"{found.path}: {problem}") from None
     seconds = expected_seconds(found.scene, way, run.rtol, run.periods, run.steps)
     accuracy = f"{run.steps} steps a period" if run.steps else f"to {100 * (run.rtol or 0):g} %"
-    periods = f", {run.periods} periods after a ramp" if way == "stepped" else ""
+    periods = f", {_counted(run.periods, 'period')} after a ramp" if way == "stepped" else ""
     most = "at most " if way == "predict" else ""
     units = f"in {found.units.length} and {found.units.time}" if found.units else "plain, of the sheet"
     return {
@@ -126,8 +126,12 @@ def _scene_rows(found: "SceneFile") -> list[tuple[str, str]]:
         ("growth", growth),
         ("body", mesh),
         ("effects", effects),
-        ("ground", contact),
+        ("contact", contact),
     ]
+
+
+def _counted(number: int, name: str) -> str:
+    return f"{number} {name}" if number == 1 else f"{number} {name}s"
 
 
 def _rounded(seconds: float) -> str:
