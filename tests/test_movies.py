@@ -24,10 +24,10 @@ from fem_check.output import Units, View, movies, writers
 from fem_check.output.film.arrows import Friction as Forces
 from fem_check.output.film.camera import Camera
 from fem_check.output.film.space import SpaceStage
+from fem_check.output.film.stage import LEFT, RIGHT, TOP, Stage
 from fem_check.output.film.surface import Surface, _visible, normals, quads
 from fem_check.output.panels import GROWTH_MAP
 from fem_check.output.pictures import checked_units, moving_of
-from fem_check.output.stage import LEFT, RIGHT, TOP, Stage
 from figures.draw import readme_movie
 from linear_theory import FieldWave, Sheet, SineWave, crawl_speed, line_balance, pulse_wave
 

@@ -31,6 +31,7 @@ from fem_check.output.crawling import Crawling
 from fem_check.output.geometry import edges, inside, middle_line, refined
 from fem_check.output.pictures import moving_of, panels
 from fem_check.output.simulated import Simulated
+from fem_check.output.tint import tint_of
 from fem_check.shell.cycle import cycle_of_shapes
 from fem_check.shell.effects.koiter import Bending
 from linear_theory import (
@@ -209,6 +210,21 @@ def test_a_sheet_in_space_is_drawn_on_its_ground_from_the_side():
     assert labels == ["$V(", "$x$", "$x$", "$z$", "tim", "tim", "tim", "wor", "$x$"]
     force = Simulated(run).friction(inside(*Simulated(run).covering(), 4, 8), 1.0)
     assert np.hypot(*force).max() > 0
+
+
+def test_a_sheet_that_only_bends_is_coloured_by_the_wave():
+    effects = [Membrane(MATERIAL), Bending(MATERIAL), Gravity(2.5e-4), Ground(0.5)]
+    scene = Scene(SHEET, WAVE, 0.0, curvature_coupling=0.5, effects=effects, cells=(2, 4))
+    moving = Crawling(cycle_speed(scene, rtol=0.2))
+    points, _ = moving.covering()
+    shown = tint_of(moving, points)
+    frame = moving.at(points, 0.3)
+    assert (shown.axis, shown.most) == ("wave $c$", pytest.approx(1.0, abs=2e-2))
+    np.testing.assert_array_equal(shown.at(frame), WAVE.value(*points, 0.3))
+    grows = Crawling(crawl_speed(SHEET, WAVE, 0.2, rtol=1e-2))
+    frame, shown = grows.at(points, 0.3), tint_of(grows, points)
+    assert shown.axis == r"growth $\alpha c$ (%)"
+    np.testing.assert_allclose(shown.at(frame), 20 * WAVE.value(*points, 0.3), atol=1e-12)
 
 
 def test_outline_of_a_sheet_with_a_hole_is_both_loops():

@@ -144,7 +144,8 @@ class _Shapes:
     def __init__(self, deformation: Deformation, points: Array, times: Array) -> None:
         self.times, self.centre = times, deformation.centre
         self.place = deformation.places(points, times)
-        self.growth = deformation.alpha * deformation.growth(points, times)
+        self.wave = deformation.growth(points, times)
+        self.growth = deformation.alpha * self.wave
         still = (points - self.centre[:, None])[:, None]
         self.still = np.broadcast_to(_raised(still, len(self.place)), self.place.shape)
 
@@ -152,7 +153,8 @@ class _Shapes:
         at = np.zeros((len(self.place), 1))
         at[:2, 0] = self.centre
         place, still = (at + v[:, index] for v in (self.place, self.still))
-        return Frame(float(self.times[index]), place, still, self.growth[index], self.centre, 0.0)
+        t, growth, wave = float(self.times[index]), self.growth[index], self.wave[index]
+        return Frame(t, place, still, growth, wave, self.centre, 0.0)
 
 
 class CrawlingFrames:
@@ -176,7 +178,7 @@ class CrawlingFrames:
         at[:2, 0] = centre
         place, still = (at + turned(v[:, inside], heading) for v in (shapes.place, shapes.still))
         t, growth = float(self._poses.times[index]), shapes.growth[inside]
-        return Frame(t, place, still, growth, centre, heading)
+        return Frame(t, place, still, growth, shapes.wave[inside], centre, heading)
 
 
 def _raised(places: Array, components: int) -> Array:

@@ -12,10 +12,10 @@ from fem_check.answer.units import Units
 from fem_check.output import writers
 from fem_check.output.files import replacing, writable
 from fem_check.output.film.space import SpaceStage
+from fem_check.output.film.stage import Stage
 from fem_check.output.film.view import View
 from fem_check.output.pictures import checked_periods, checked_units, moving_of
 from fem_check.output.progress import Progress
-from fem_check.output.stage import Stage
 from linear_theory.common import validation
 
 Pixels = NDArray[np.uint8]

@@ -19,12 +19,13 @@ Integers = NDArray[np.int64]
 
 class Frame(NamedTuple):
     """The sheet at one time: place (2 or 3, n); still (2 or 3, n), the undeformed sheet moving along;
-    growth (n,), alpha c; centre (2,) of mass; heading, anticlockwise, radians."""
+    growth (n,), alpha c; wave (n,), c; centre (2,) of mass; heading, anticlockwise, radians."""
 
     time: float
     place: Array
     still: Array
     growth: Array
+    wave: Array
     centre: Array
     heading: float
 

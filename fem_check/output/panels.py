@@ -19,6 +19,7 @@ from fem_check.answer.units import Units
 from fem_check.output.geometry import edges, inside, refined
 from fem_check.output.look import COLORS
 from fem_check.output.moving import Frame, Moving
+from fem_check.output.tint import Tint, tint_of
 
 Array = NDArray[np.float64]
 Integers = NDArray[np.int64]
@@ -35,9 +36,6 @@ ARROWS = 60
 ARROW = 0.9
 """Length of the longest arrow relative to the spacing of arrows."""
 
-PHASES = 24
-"""Number of phases from which the colour scale is determined."""
-
 WAVE = COLORS["blue"]
 
 FRICTION_MAP = colormaps["RdBu_r"]
@@ -45,17 +43,17 @@ FRICTION_MAP = colormaps["RdBu_r"]
 
 
 def draw_sheet(ax: Axes, moving: Moving, units: Units, phase: float) -> None:
-    """The sheet from above, coloured by growth, with friction as arrows."""
+    """The sheet from above, coloured by its `Tint`, with friction as arrows."""
     points, triangles = moving.covering()
     frame = moving.at(points, phase)
-    most = growth_scale(moving, points)
+    tint = tint_of(moving, points)
     place = frame.place * units.length_factor
-    image, _ = add_sheet(ax, place, 100 * frame.growth, triangles, most)
+    image, _ = add_sheet(ax, place, tint.at(frame), triangles, tint.most)
     arrows = _draw_around(ax, moving, units, phase)
     friction = ", arrows: friction" if arrows else ""
     ax.set_title(f"{_time(frame, units)}{friction}; {_ways(moving)}", loc="left")
-    if most:
-        add_scale(ax, image, r"growth $\alpha c$ (%)")
+    if tint.most:
+        add_scale(ax, image, tint.axis)
 
 
 def draw_friction(ax: Axes, moving: Moving, units: Units, phase: float) -> None:
@@ -100,7 +98,7 @@ def draw_side(ax: Axes, moving: Moving, units: Units, phase: float) -> None:
     """The sheet in space on its ground, seen along x from the edge; heights not to scale."""
     points, triangles = moving.covering()
     frame = moving.at(points, phase)
-    add_side(ax, frame, triangles, units.length_factor, growth_scale(moving, points))
+    add_side(ax, frame, triangles, units.length_factor, tint_of(moving, points))
     low, high = frame.place[1].min(), frame.place[1].max()
     draw_ground(ax, moving, low, high, units.length_factor)
     ax.autoscale_view()
@@ -119,14 +117,14 @@ def add_sheet(
 
 
 def add_side(
-    ax: Axes, frame: Frame, triangles: Integers, factor: float, most: float
+    ax: Axes, frame: Frame, triangles: Integers, factor: float, tint: Tint
 ) -> tuple[Artist, Artist]:
     """As `add_sheet`, seen along x from the edge."""
     places = frame.place[1:] * factor
-    most = most or 1.0
+    most = tint.most or 1.0
     image = ax.tripcolor(
         Triangulation(places[0], places[1], triangles),
-        100 * frame.growth,
+        tint.at(frame),
         shading="gouraud",
         cmap=GROWTH_MAP,
         vmin=-most,
@@ -152,13 +150,6 @@ def outline(place: Array, triangles: Integers, **look: Any) -> LineCollection:
 def label_ground(ax: Axes, units: Units) -> None:
     """Label the axes of a view from above."""
     ax.set(xlabel=f"$y$ ({units.length})", ylabel=f"$x$ ({units.length})")
-
-
-def growth_scale(moving: Moving, points: Array) -> float:
-    """The largest |alpha c| over a period, per cent; 0 without growth."""
-    some = points[:, :: max(1, points.shape[1] // 400)]
-    frames = moving.frames(some, 1, PHASES)
-    return 100 * max(float(abs(frame.growth).max()) for frame in frames)
 
 
 def arrow_places(points: Array, triangles: Integers) -> Array:

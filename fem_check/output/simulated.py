@@ -147,14 +147,15 @@ class Simulated:
 
     def _frame(self, region: Region, points: Array, t: float) -> Frame:
         run, place = self._trajectory, self._place(region, t)
-        growth = run.amplitude(t) * self._scene.alpha * self._model.growth(t, *points)
+        wave = np.asarray(self._model.growth(t, *points))
+        growth = run.amplitude(t) * self._scene.alpha * wave
         centre = np.array([np.interp(t, run.times, values) for values in run.centre])
         heading = float(np.interp(t, run.path.times, run.path.heading))
         flat = np.zeros_like(place)
         flat[:2] = points - self._middle[:, None]
         still = turned(flat, heading)
         still[:2] += centre[:2, None]
-        return Frame(t, place, still, np.asarray(growth), centre[:2], heading)
+        return Frame(t, place, still, growth, wave, centre[:2], heading)
 
     @cached_property
     def _middle(self) -> Array:

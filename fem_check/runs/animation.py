@@ -8,9 +8,10 @@ from matplotlib.colors import to_hex
 from numpy.typing import NDArray
 
 from fem_check.answer.units import Units
+from fem_check.output.film.stage import nice
 from fem_check.output.geometry import edges
 from fem_check.output.panels import GROWTH_MAP
-from fem_check.output.stage import nice
+from fem_check.output.tint import tint
 from fem_check.runs.recording import Recording
 
 Array = NDArray[np.float64]
@@ -39,14 +40,15 @@ RULES = 14
 def data_of(recording: Recording, units: Units) -> dict[str, Any]:
     """What `page/sheet.js` reads. Lengths in units of the recording, time in that of `units`."""
     every = -(-(len(recording.times) - 1) // (FRAMES - 1))
-    place, growth = recording.place[::every], recording.growth[::every]
+    place = recording.place[::every]
     times = recording.times[::every]
     laps = LAPS if recording.repeats else 1
     low, high = place.min((0, 2)), place.max((0, 2))
     unit = np.maximum(high - low, 1e-12) / MOST
     whole = np.rint((place - low[:, None]) / unit[:, None]).astype("<u2")
-    most = float(np.abs(growth).max()) or 1.0
-    colour = np.rint((growth / most + 1) * 127.5).astype("u1")
+    shown = tint(recording.growth, recording.wave)
+    values = shown.of(recording.growth, recording.wave)[::every]
+    colour = np.rint((values / (shown.most or 1.0) + 1) * 127.5).astype("u1")
     step = recording.centre[-1] - recording.centre[0]
     middle, size, grid = _ground(recording, laps)
     dt = (times[1] - times[0]) * units.time_factor

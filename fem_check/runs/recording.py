@@ -134,7 +134,7 @@ class Recording(Drawable, Shown):
     def _frame(self, weights: "Weights", points: Array, phase: float) -> Frame:
         row = self._lap(phase)[1] * PHASES
         place = weights(_between(self.place, row))
-        growth = weights(_between(self.growth, row))
+        growth, wave = (weights(_between(values, row)) for values in (self.growth, self.wave))
         centres, headings = self._poses(np.array([phase]))
         centre, heading = centres[:, 0], float(headings[0])
         start, before = self._pose(row)
@@ -146,7 +146,7 @@ class Recording(Drawable, Shown):
         still = turned(still, heading)
         still[:2] += centre[:, None]
         time = float(self.times[0] + phase * self.period)
-        return Frame(time, place, still, growth, centre, heading)
+        return Frame(time, place, still, growth, wave, centre, heading)
 
     def _counted(self, phase: float) -> float:
         """A phase of the wave as one of the record, which may begin at any; within it if it repeats."""

@@ -16,6 +16,7 @@ from fem_check.answer.rounding import measured, plain
 from fem_check.answer.units import Units
 from fem_check.output.files import replacing
 from fem_check.output.panels import GROWTH_MAP
+from fem_check.output.tint import tint
 from fem_check.runs.animation import data_of
 from fem_check.runs.finished import Finished
 from fem_check.runs.folder import SCENE, SCENE_DATA
@@ -40,7 +41,7 @@ def report(found: Finished) -> str:
     """Its text. Every picture and script is part of it."""
     recording = found.recording
     units = found.units or Units.of_sheet(recording.length, recording.period)
-    answer = found.result["answer"]
+    answer, colours = found.result["answer"], tint(recording.growth, recording.wave)
     parts = {
         "title": "A crawling sheet",
         "mean": repr(answer["mean"]),
@@ -52,7 +53,9 @@ def report(found: Finished) -> str:
         "cost": _cost(found),
         "scene": _scene(found.folder),
         "versions": ", ".join(f"{name} {number}" for name, number in found.result["versions"].items()),
-        "growth": plain(100 * float(np.abs(recording.growth).max())),
+        "coloured": "its growth" if colours.grows else "the wave",
+        "tint": "<i>&alpha;</i>c" if colours.grows else "c",
+        "most": f"{plain(colours.most)} {colours.unit}".rstrip(),
         "ground": "; the dark line is the ground below its middle"
         if np.ptp(recording.floor[1])
         else "",
@@ -69,7 +72,7 @@ def report(found: Finished) -> str:
     return Template(_file("report.html")).substitute(escaped, **inlined)
 
 
-TABLES = ("block", "errors", "cost")
+TABLES = ("block", "errors", "cost", "tint")
 """Parts that are HTML already."""
 
 

@@ -13,11 +13,7 @@ from matplotlib.ticker import MultipleLocator
 from numpy.typing import NDArray
 
 from fem_check.output.film.camera import Camera
-from fem_check.output.film.surface import Surface, normals, paint, quads
-from fem_check.output.geometry import middle_line
-from fem_check.output.moving import Frame
-from fem_check.output.panels import GROWTH_MAP
-from fem_check.output.stage import (
+from fem_check.output.film.stage import (
     BOTTOM,
     DPI,
     GROUND,
@@ -33,6 +29,10 @@ from fem_check.output.stage import (
     multiples,
     nice,
 )
+from fem_check.output.film.surface import Surface, normals, paint, quads
+from fem_check.output.geometry import middle_line
+from fem_check.output.moving import Frame
+from fem_check.output.panels import GROWTH_MAP
 
 Array = NDArray[np.float64]
 
@@ -223,14 +223,14 @@ class SpaceStage(Stage):
         return ax.add_collection(shadow, autolim=False)
 
     def _sheet(self, ax: Axes, frame: Frame) -> Iterator[Any]:
-        """The sheet, coloured by growth."""
+        """The sheet in its colours."""
         surface = Surface(frame.place, self._triangles)
-        colors, factor = self._colors(frame.growth), self._units.length_factor
+        colors, factor = self._colors(self._tint.at(frame)), self._units.length_factor
         yield from paint(ax, surface, colors, self._camera, factor)
 
-    def _colors(self, growth: Array) -> Array:
-        """RGB colours (n, 3) of growth."""
-        return np.asarray(GROWTH_MAP(0.5 + 50 * growth / (self._growth or 1.0))[:, :3])
+    def _colors(self, values: Array) -> Array:
+        """RGB colours (n, 3) of values of the tint."""
+        return np.asarray(GROWTH_MAP(0.5 + values / (2 * (self._tint.most or 1.0)))[:, :3])
 
     def _arrows(self, ax: Axes, index: int) -> Iterator[Any]:
         """Friction, parallel to the plane z = 0."""
@@ -261,6 +261,7 @@ class SpaceStage(Stage):
             yield from ax.plot(*points.T, color="0.15", linewidth=4.0, solid_capstyle="round")
             lap = (points[1:] - points[:-1]) / 4  # without gaps where the line bends
             ends = np.stack([points[:-1] - lap, points[1:] + lap], axis=1)
-            colors = self._colors((frame.growth[piece][1:] + frame.growth[piece][:-1]) / 2)
+            values = self._tint.at(frame)[piece]
+            colors = self._colors((values[1:] + values[:-1]) / 2)
             lines = LineCollection(list(ends), color=colors, linewidth=2.6, capstyle="butt")
             yield ax.add_collection(lines, autolim=False)

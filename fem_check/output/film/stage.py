@@ -21,8 +21,8 @@ from fem_check.output.panels import (
     add_sheet,
     add_side,
     draw_ground,
-    growth_scale,
 )
+from fem_check.output.tint import tint_of
 
 Array = NDArray[np.float64]
 Pixels = NDArray[np.uint8]
@@ -68,7 +68,7 @@ class Stage:
         self._again = partial(moving.frames, periods=periods, samples=frames)
         self._frames, self._total = self._again(self._points), periods * frames
         self._friction = Friction(moving, periods, frames)
-        self._growth = growth_scale(moving, self._points)
+        self._tint = tint_of(moving, self._points)
         first = self._frames[0]
         self._start = first.centre
         # A trajectory has its own times; a speed has only those of one period.
@@ -104,15 +104,15 @@ class Stage:
         """Parts redrawn on every picture, from back to front."""
         top, *side = axes
         factor = self._units.length_factor
-        place, growth = frame.place * factor, 100 * frame.growth
-        yield from add_sheet(top, place, growth, self._triangles, self._growth)
+        place, colours = frame.place * factor, self._tint.at(frame)
+        yield from add_sheet(top, place, colours, self._triangles, self._tint.most)
         yield from self._arrows(top, index)
         yield from draw_trail(top, trail[::-1] * factor)
         height = 1 + 26 / self._height
         yield top.text(0, height, self._words(frame), transform=top.transAxes, va="center")
         yield from self._wave(top, frame.heading)
         for ax in side:
-            yield from add_side(ax, frame, self._triangles, factor, self._growth)
+            yield from add_side(ax, frame, self._triangles, factor, self._tint)
 
     def _arrows(self, ax: Axes, index: int) -> Iterator[Any]:
         """Friction."""
@@ -233,20 +233,21 @@ class Stage:
         ax.text(*place, note, transform=ax.transAxes, va="center", color="0.35", size=7)
 
     def _add_scale(self, fig: Figure, height: int) -> None:
-        """The colour scale of growth, at the top right."""
-        if not self._growth:
+        """The colour scale, at the top right."""
+        tint = self._tint
+        if not tint.most:
             return
         box = 1 - 118 / self._width, 1 - 26 / height, 90 / self._width, 9 / height
         ax = fig.add_axes(box)
-        ends = -self._growth, self._growth
+        ends = -tint.most, tint.most
         ax.imshow(np.linspace(*ends, 128)[None], aspect="auto", cmap=GROWTH_MAP, extent=(*ends, 0, 1))
         ax.set(yticks=[], xticks=[])
         for at, sign in enumerate(("\N{MINUS SIGN}", "+")):
-            text = f"{sign}{self._growth:.3g} %"
+            text = f"{sign}{tint.most:.3g} {tint.unit}".rstrip()
             ax.text(at, -0.35, text, transform=ax.transAxes, va="top", ha="center", size=7)
         if self._width < ROOMY:
             return
-        ax.text(-0.12, 0.5, r"growth $\alpha c$", transform=ax.transAxes, va="center", ha="right")
+        ax.text(-0.12, 0.5, tint.label, transform=ax.transAxes, va="center", ha="right")
 
 
 def draw_trail(ax: Axes, trail: Array) -> Iterator[Any]:
