@@ -22,13 +22,13 @@ from fem_check.output.kymographs import Quantity, line_of
 from fem_check.output.pictures import moving_of
 from fem_check.runs import finished, netcdf, recorded, run
 from fem_check.runs.folder import LOCK, SNAPSHOT, locked
-from fem_check.runs.pictures import kymographs, possible_films, write_films
+from fem_check.runs.pictures import pictures, possible_films, write_films
 from linear_theory import FieldWave, Scene, Sheet, SineWave
 from linear_theory.speed.crawl import crawl_speed
 from tests.processes import interruptible
 from tests.run_cases import PLANE, STEPPED
 
-DRAWN = {f"{kind}{suffix}" for kind in ("motion", "kymograph") for suffix in (".png", ".pdf")}
+DRAWN = {f"{kind}{suffix}" for kind in ("motion", "kymographs") for suffix in (".png", ".pdf")}
 FILES = {"scene.toml", "result.json", "trajectory.nc", "report.html", *DRAWN}
 
 
@@ -147,8 +147,7 @@ def test_the_kymograph_shows_the_wave_and_the_displacement(plane):
     assert np.abs(line.values - expected).max() < 5e-3  # linear between points
     along = line_of(plane.recording, Quantity.DISPLACEMENT, 1).values
     assert np.abs(along).max() < 40.0 * 0.05  # growth of 5 % along at most half of the sheet
-    axes = kymographs(plane.recording, plane.units)
-    assert [ax.get_ylabel() for ax in axes] == ["time $t$ (s)"] * 2
+    assert pictures(plane.recording)["kymographs"] == ("kymograph", "displacement")
 
 
 def test_films_have_the_same_bytes_every_time(plane, tmp_path):
@@ -178,6 +177,11 @@ def test_examples_of_the_commands_run_one_after_the_other(tmp_path, monkeypatch,
     assert "motion.xdmf" in names("hydrogel")
     status, out, _ = command(capsys, "plot", "hydrogel")
     assert out.splitlines()[0] == "hydrogel/motion.png written"
+    assert command(capsys, "plot", "hydrogel", "--file", "path.svg", "--what", "path")[0] == MET
+    status, out, err = command(capsys, "plot", "hydrogel", "--file", "a.png", "--what", "sound")
+    assert (status, out, err.count("\n")) == (BAD_ARGUMENTS, "", 1)
+    assert "what = 'sound'" in err
+    assert "kymographs" in err
 
 
 def test_an_earlier_result_is_never_overwritten(place, capsys):
@@ -291,7 +295,6 @@ def test_a_folder_that_cannot_be_that_of_a_run_is_refused_before_the_work(
         (["show", "none"], "there is no such folder"),
         (["show", "bad.toml"], "is a file"),
         (["movie", "empty"], "holds no result.json"),
-        (["plot", "none", "--what", "sound"], "what = 'sound'"),
         (["paraview", "none", "--file", "a.vtk"], ".xdmf"),
     ],
 )

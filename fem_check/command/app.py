@@ -103,7 +103,9 @@ def _plot(
     /,
     *,
     file: Annotated[Path | None, Parameter(help=".png, .pdf or .svg; else all, in the folder.")] = None,
-    what: Annotated[str, Parameter(help="In that file: motion or kymograph.")] = "motion",
+    what: Annotated[
+        str, Parameter(help="In that file: motion, kymographs, or one panel, such as speed or path.")
+    ] = "motion",
 ) -> int:
     from fem_check.command.runs import plot
 

@@ -114,10 +114,10 @@ def movie(
 def plot(folder: Path, file: Path | None, what: str) -> int:
     """Draw one picture to a file, or all to the folder."""
     from fem_check.runs.finished import finished
-    from fem_check.runs.pictures import KINDS, save, write_pictures
+    from fem_check.runs.pictures import pictures, save, write_pictures
 
-    validation.choice("what", what, tuple(KINDS))
     found = finished(folder)
+    validation.choice("what", what, tuple(pictures(found.recording)))
     if file is None:
         return _written(write_pictures(found.recording, folder, found.units))
     target = writable(file, PICTURES)

@@ -50,7 +50,7 @@ RUNS = (
     ("A scene to a folder: answer, table, pictures, film, page", "sheetcrawl run hydrogel.toml"),
     ("The answer of that run, again", "sheetcrawl show hydrogel"),
     ("Another film of it", "sheetcrawl movie hydrogel --file crawl.gif --periods 2"),
-    ("Another picture of it", "sheetcrawl plot hydrogel --file crawl.pdf --what kymograph"),
+    ("Another picture of it", "sheetcrawl plot hydrogel --file crawl.pdf --what kymographs"),
     ("Its motion for ParaView", "sheetcrawl paraview hydrogel"),
 )
 """In this order, after `FILES`."""

@@ -67,7 +67,10 @@ def _sheet(sources: dict[str, Any]) -> Any:
     models = optional("bokeh.models", "explorer", "sheetcrawl explore")
     figure = _figure(height=SHEET_HEIGHT, match_aspect=True, tools="")
     figure.xaxis.axis_label, figure.yaxis.axis_label = "y, along the wave", "x"
-    colours = models.LinearColorMapper(palette="Viridis256", low=-1, high=1)
+    palettes = optional("bokeh.palettes", "explorer", "sheetcrawl explore")
+    # As in pictures and films, orange where the sheet shrinks.
+    palette = palettes.interp_palette(palettes.PuOr11[::-1], 256)[40:216]
+    colours = models.LinearColorMapper(palette=palette, low=-1, high=1)
     figure.scatter("x", "y", size=0, alpha=0, source=sources["frame"])
     colour = {"field": "c", "transform": colours}
     figure.patches(

@@ -5,30 +5,29 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from fem_check.answer.units import Units
 from fem_check.output import writers
 from fem_check.output.files import replacing
 from fem_check.output.look import styled
 from fem_check.output.movies import movie
-from fem_check.output.pictures import checked_units, draw_figure, panels, plot
+from fem_check.output.moving import Moving
+from fem_check.output.pictures import checked_units, draw_figure, panels
 from fem_check.runs.recording import Recording
 
-KYMOGRAPHS = ("kymograph", "displacement", "height")
+LINES = ("kymograph", "displacement", "height")
+"""Panels that show a line of the sheet over time."""
 
 
-def kymographs(recording: Recording, units: Units | None = None) -> Any:
-    """A figure of those that the recording has; its axes."""
-    names = tuple(name for name in panels(recording) if name in KYMOGRAPHS)
-    return draw_figure(names, recording, checked_units(recording, units), 0.0, None)
+def pictures(moving: Moving) -> dict[str, tuple[str, ...]]:
+    """The panels of each picture by its name: "motion", "kymographs", and every panel alone."""
+    names = panels(moving)
+    lines = tuple(name for name in names if name in LINES)
+    motion = tuple(name for name in names if name not in LINES)
+    return {"motion": motion, "kymographs": lines, **{name: (name,) for name in names}}
 
 
-KINDS: dict[str, Callable[[Recording, Units | None], Any]] = {
-    "motion": lambda recording, units: plot(recording, units=units),
-    "kymograph": kymographs,
-}
-"""Pictures by the names of their files, each a function that returns axes."""
+WRITTEN = ("motion", "kymographs")
+"""Pictures in the folder of every run."""
 
 SUFFIXES = (".png", ".pdf")
 
@@ -50,18 +49,19 @@ Report = Callable[[int, int], object]
 
 
 def write_pictures(recording: Recording, folder: Path, units: Units | None = None) -> list[Path]:
-    """Every picture as PNG and PDF; their paths."""
-    targets = {kind: [folder / f"{kind}{suffix}" for suffix in SUFFIXES] for kind in KINDS}
-    for kind, paths in targets.items():
-        save(recording, paths, units, kind)
+    """Those of `WRITTEN` as PNG and PDF; their paths."""
+    targets = {name: [folder / f"{name}{suffix}" for suffix in SUFFIXES] for name in WRITTEN}
+    for name, paths in targets.items():
+        save(recording, paths, units, name)
     return [path for paths in targets.values() for path in paths]
 
 
-def save(recording: Recording, paths: list[Path], units: Units | None, kind: str) -> None:
-    """Draw one of KINDS, and write it to files of the types that their names say."""
+def save(recording: Recording, paths: list[Path], units: Units | None, name: str) -> None:
+    """Draw one of `pictures`, and write it to files of the types that their names say."""
     import matplotlib.pyplot as plt  # here: it selects a backend
 
-    figure = np.atleast_1d(KINDS[kind](recording, units))[0].figure
+    units = checked_units(recording, units)
+    figure = draw_figure(pictures(recording)[name], recording, units, 0.0, None)[0].figure
     try:
         for path in paths:
             with styled(), replacing(path) as part:

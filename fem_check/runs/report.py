@@ -66,7 +66,7 @@ def report(found: Finished) -> str:
         "script": _file("sheet.js"),
         "data": json.dumps(data_of(recording, units)).replace("<", "\\u003c"),
         "motion": _picture(found.folder / "motion.png"),
-        "kymograph": _picture(found.folder / "kymograph.png"),
+        "kymographs": _picture(found.folder / "kymographs.png"),
         **{name: parts[name] for name in TABLES},
     }
     return Template(_file("report.html")).substitute(escaped, **inlined)

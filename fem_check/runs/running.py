@@ -72,7 +72,7 @@ def run(
     ...     scene = Scene(Sheet(), SineWave(), alpha=0.05)
     ...     found = run(scene, f"{folder}/strip", RunSettings(rtol=0.2))
     ...     print(sorted(path.name for path in found.folder.glob("[!.]*")), found.converged)
-    ['kymograph.pdf', 'kymograph.png', 'motion.gif', 'motion.mp4', 'motion.pdf', 'motion.png', \
+    ['kymographs.pdf', 'kymographs.png', 'motion.gif', 'motion.mp4', 'motion.pdf', 'motion.png', \
 'report.html', 'result.json', 'scene.toml', 'trajectory.nc'] True
     """
     scene = validation.instance("scene", scene, Scene)
