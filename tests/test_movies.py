@@ -280,7 +280,8 @@ def test_the_sheet_in_space_is_where_the_result_says(lying):
     assert colored.max() == pytest.approx(columns.max(), abs=4)
 
 
-def test_heights_are_to_scale_or_the_film_says_by_how_much(lying):
+def test_heights_are_to_scale_or_the_film_says_by_how_much(lying, monkeypatch):
+    monkeypatch.setitem(mpl.rcParams, "figure.constrained_layout.use", True)  # the user's own
     stage = in_space(lying)
     canvas, (_, side) = stage._set_up()
     canvas.draw()

@@ -65,9 +65,9 @@ STYLE: dict[Any, Any] = {
 
 
 @contextmanager
-def styled(**more: Any) -> Iterator[None]:
+def styled() -> Iterator[None]:
     """Apply the style while a picture is made, then restore the user's own."""
     with mpl.rc_context():
         mpl.rcdefaults()
-        mpl.rcParams.update(STYLE | more)
+        mpl.rcParams.update(STYLE)
         yield

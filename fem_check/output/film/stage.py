@@ -81,7 +81,7 @@ class Stage:
 
     def pictures(self) -> Iterator[Pixels]:
         """RGB pictures (height, width, 3); width and height are even, as encoders require."""
-        with styled(**{"figure.constrained_layout.use": False}):
+        with styled():
             canvas, axes = self._set_up()
             canvas.draw()
         ground = canvas.copy_from_bbox(canvas.figure.bbox)
@@ -182,7 +182,7 @@ class Stage:
         side = SIDE if self._moving.components == 3 else 0
         height = TOP + self._height + BOTTOM + side
         height += height % 2
-        fig = Figure(figsize=(self._width / DPI, height / DPI), dpi=DPI)
+        fig = Figure(figsize=(self._width / DPI, height / DPI), dpi=DPI, layout="none")
         canvas: Any = FigureCanvasAgg(fig)
         span = (self._width - LEFT - RIGHT) / self._width
         bottom = height - TOP - self._height
