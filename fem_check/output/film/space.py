@@ -131,7 +131,8 @@ class SpaceStage(Stage):
         """The ground and all static parts."""
         height = TOP + self._height + CAPTION + self._side + BOTTOM
         height += height % 2
-        fig = Figure(figsize=(self._width / DPI, height / DPI), dpi=DPI, layout="none")
+        fig = Figure(figsize=(self._width / DPI, height / DPI), dpi=DPI)
+        fig.set_layout_engine("none")
         canvas: Any = FigureCanvasAgg(fig)
         span = (self._width - LEFT - RIGHT) / self._width
         bottom = 1 - (TOP + self._height) / height

@@ -182,7 +182,8 @@ class Stage:
         side = SIDE if self._moving.components == 3 else 0
         height = TOP + self._height + BOTTOM + side
         height += height % 2
-        fig = Figure(figsize=(self._width / DPI, height / DPI), dpi=DPI, layout="none")
+        fig = Figure(figsize=(self._width / DPI, height / DPI), dpi=DPI)
+        fig.set_layout_engine("none")
         canvas: Any = FigureCanvasAgg(fig)
         span = (self._width - LEFT - RIGHT) / self._width
         bottom = height - TOP - self._height
