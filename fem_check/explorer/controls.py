@@ -12,6 +12,9 @@ SINE, PULSE = "sine", "pulse"
 
 TOLERANCES = {"10 %": 0.1, "5 %": 0.05, "2 %": 0.02, "1 %": 0.01}
 
+SOON = 1
+"""Milliseconds in which the framework gathers moves, instead of its 50: here `Latest` drops old ones."""
+
 FIRST = Question()
 """What the page asks first."""
 
@@ -50,6 +53,7 @@ class Controls:
         self._changed = changed
         for widget in self.widgets:
             widget.sizing_mode = "stretch_width"
+            widget._debounce = SOON
             widget.param.watch(self._moved, "value")
 
     @property

@@ -23,6 +23,9 @@ from linear_theory.common.progress import Progress
 NICE = 10
 """Of the second process: what is drawn at once goes first on a busy machine."""
 
+SETTLED = 0.2
+"""Seconds without a newer question before the work begins: until then the picture has the machine."""
+
 PAUSE = 0.3
 """Seconds between two notes on the progress."""
 
@@ -124,7 +127,7 @@ def work(pipe: "Connection[object, Question]") -> None:
     while True:
         try:
             question = pipe.recv()
-            while pipe.poll():
+            while pipe.poll(SETTLED):
                 question = pipe.recv()
             pipe.send((question, predicted(question, _Notes(pipe, question))))
         except SupersededError:

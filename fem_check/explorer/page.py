@@ -100,8 +100,10 @@ class Page:
         return later
 
     def _show_waiting(self) -> None:
-        while self._waiting:
-            self._waiting.popleft()()
+        """In one message, so that the browser lays the page out and draws once."""
+        with self._panel.io.hold(self._document):
+            while self._waiting:
+                self._waiting.popleft()()
 
     def _ask(self) -> None:
         """A slider has moved: start on the new question, show what is known of it without work."""
@@ -111,7 +113,6 @@ class Page:
             self._found = {}
             if question.but(0.0) != before.but(0.0):
                 self._curve = Curve(text.PREDICTED)
-                self._draw(drawing.curve_data(self._curve))
             self._nonlinear.ask(question)
         self._latest.ask(self._asked)
 
@@ -119,7 +120,8 @@ class Page:
         if asked != self._asked:
             return
         if isinstance(part, Picture):
-            self._draw({**drawing.sheet_data(part), "now": {"alpha": [asked[0].alpha]}})
+            known, now = drawing.curve_data(self._curve), {"now": {"alpha": [asked[0].alpha]}}
+            self._draw({**drawing.sheet_data(part), **known, **now})
         if isinstance(part, Exception | Picture):
             self._write_down(asked[0])
         if isinstance(part, Exception):
