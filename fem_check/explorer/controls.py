@@ -13,7 +13,7 @@ SINE, PULSE = "sine", "pulse"
 TOLERANCES = {"10 %": 0.1, "5 %": 0.05, "2 %": 0.02, "1 %": 0.01}
 
 SOON = 1
-"""Milliseconds in which the framework gathers moves, instead of its 50: here `Latest` drops old ones."""
+"""Milliseconds in which the framework gathers moves, instead of its 50: `Latest` drops old ones."""
 
 FIRST = Question()
 """What the page asks first."""
