@@ -1,10 +1,12 @@
 """Scene files: what is written is read again, units are pint's, and mistakes are named, all of them."""
 
+import json
 import math
 import tomllib
 from pathlib import Path
 from typing import Any
 
+import jsonschema
 import numpy as np
 import pint
 import pytest
@@ -26,7 +28,7 @@ from fem_check import (
     bilayer,
 )
 from fem_check.answer.growth import alpha_of
-from fem_check.files import gallery, read, write
+from fem_check.files import SceneFileError, gallery, read, write
 from fem_check.files.parts.scene_file import RunSettings
 from fem_check.files.reading import parsed
 from fem_check.files.schema import schema
@@ -340,3 +342,58 @@ def test_the_schema_names_all_tables_and_keys() -> None:
     assert found["$defs"]["SheetTable"]["additionalProperties"] is False
     length = found["$defs"]["SheetTable"]["properties"]["length"]
     assert "40 mm" in str(length)
+
+
+@pytest.fixture(scope="module")
+def validator() -> Any:
+    """What an editor makes of the schema."""
+    found = json.loads(json.dumps(schema()))
+    jsonschema.Draft202012Validator.check_schema(found)
+    return jsonschema.Draft202012Validator(found)
+
+
+KEYWORDS = {
+    *("type", "enum", "const", "anyOf", "not", "$ref", "properties", "additionalProperties", "items"),
+    *("required", "minimum", "exclusiveMinimum", "maximum", "minItems", "maxItems", "pattern"),
+    *("title", "description", "default", "examples"),
+}
+"""Of JSON Schema; editors ignore others without a word."""
+
+
+def test_the_schema_has_only_words_that_editors_know() -> None:
+    def keywords(node: Any) -> set[str]:
+        if isinstance(node, list):
+            return set().union(*map(keywords, node))
+        if not isinstance(node, dict):
+            return set()
+        named = {*node} - {"properties", "default", "examples", "enum"}
+        inner = [*node.get("properties", {}).values(), *(node[name] for name in named)]
+        return {*node} | keywords(inner)
+
+    found = schema()
+    assert keywords(list(found["$defs"].values())) <= KEYWORDS
+
+
+@pytest.mark.parametrize("name", gallery.names())
+def test_scenes_of_the_gallery_fit_the_schema(validator: Any, name: str) -> None:
+    validator.validate(tomllib.loads(gallery.text(name)))
+
+
+@pytest.mark.parametrize(
+    ("text", "named"),
+    [
+        ("[sheet]\nwdth = 1", "wdth"),
+        ("[sheet]\npoisson = 0.7", "0.7"),
+        ('[wave]\nkind = "saw"', "saw"),
+        ("[wave]\ncount = 1.5", "1.5"),
+        ("[wave]\ncount = 0", "0"),
+        ("[run]\nperiods = 0", "0"),
+        ("[nothing]", "nothing"),
+    ],
+)
+def test_the_schema_sees_what_the_reader_refuses(validator: Any, text: str, named: str) -> None:
+    text = f"{text}\n[growth]\nalpha = 0.1\n"
+    with pytest.raises(SceneFileError, match=named):
+        parsed(text, HERE)
+    with pytest.raises(jsonschema.ValidationError, match=named):
+        validator.validate(tomllib.loads(text))

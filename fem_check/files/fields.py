@@ -53,7 +53,8 @@ def _schema(kind: str, positive: bool) -> dict[str, Any]:
     if positive:
         number["exclusiveMinimum"] = 0
     text = {"type": "string", "pattern": r"^\s*[+-]?(\d|\.\d)", "examples": [KINDS[kind].example]}
-    return {"description": f"a {kind}, with its unit or plain", "anyOf": [number, text]}
+    article = "an" if kind[0] in "aeiou" else "a"
+    return {"description": f"{article} {kind}, with its unit or plain", "anyOf": [number, text]}
 
 
 def _that(check: Callable[[Any], Any]) -> BeforeValidator:
@@ -90,8 +91,13 @@ Stiffness = Annotated[Quantity, *_quantity("foundation stiffness", positive=True
 Damping = Annotated[Quantity, *_quantity("contact damping")]
 
 UnitName = Annotated[str, BeforeValidator(_unit_name)]
-Poisson = Annotated[float, _that(validation.poisson), Field(gt=-1, le=0.5)]
-Count = Annotated[int, _that(validation.wave_count)]
+# What the library checks, said again for editors: behind such a check pydantic has no words of its own.
+Poisson = Annotated[
+    float,
+    _that(validation.poisson),
+    Field(json_schema_extra={"exclusiveMinimum": -1, "maximum": 0.5}),
+]
+Count = Annotated[int, _that(validation.wave_count), Field(json_schema_extra={"not": {"const": 0}})]
 Positive = Annotated[float, Field(gt=0)]
 Natural = Annotated[int, Field(ge=1)]
 Corner = Annotated[list[float], Field(min_length=2, max_length=2)]
