@@ -401,6 +401,16 @@ def test_version_help_and_completion(capsys, tmp_path):
     assert "--slip-speed" in script.read_text()
 
 
+@pytest.mark.parametrize("columns", ["0", "1", "-3", "9" * 30, "wide"])
+def test_help_ends_on_any_terminal(columns):
+    """What lays it out never does at one column."""
+    command = [sys.executable, "-m", "fem_check", "run", "--help"]
+    environment = {**os.environ, "COLUMNS": columns}
+    done = subprocess.run(command, capture_output=True, text=True, timeout=60, env=environment)
+    assert (done.returncode, done.stderr) == (MET, "")
+    assert "--resume" in done.stdout
+
+
 def test_a_start_without_work_loads_no_library_of_numbers():
     code = (
         "import sys\nfrom fem_check.command import main\n"

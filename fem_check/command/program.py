@@ -2,15 +2,20 @@
 
 import contextlib
 import os
+import shutil
 import sys
 from collections.abc import Sequence
 from typing import NoReturn
 
 from fem_check.command.status import BAD_ARGUMENTS, CLOSED_PIPE, INTERRUPTED, MET, MISSED
 
+COLUMNS = 20, 500
+"""Least and most of a terminal: what lays out the help never ends at 1, and fails at 10^20."""
+
 
 def main(arguments: Sequence[str] | None = None) -> NoReturn:
     """Answer and exit."""
+    _fit_words()
     try:
         status = _run(sys.argv[1:] if arguments is None else arguments)
         sys.stdout.flush()
@@ -25,6 +30,15 @@ def main(arguments: Sequence[str] | None = None) -> NoReturn:
         _complain(f"cannot write the answer: {problem}")
         status = MISSED
     sys.exit(status)
+
+
+def _fit_words() -> None:
+    """Have a number of columns that words can be laid out in, whatever the environment says."""
+    said = os.environ.get("COLUMNS", "")
+    columns = int(said) if said.isdecimal() else shutil.get_terminal_size().columns
+    within = min(max(columns, COLUMNS[0]), COLUMNS[1])
+    if within != columns:
+        os.environ["COLUMNS"] = str(within)
 
 
 def _run(arguments: Sequence[str]) -> int:
