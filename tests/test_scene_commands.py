@@ -243,6 +243,24 @@ def test_every_mistake_has_its_line(capsys: Any) -> None:
     assert places == ["a.toml:2:", "a.toml:4:", "a.toml:7:"]
 
 
+@pytest.mark.parametrize(
+    ("growth", "named"),
+    [("alpha = 1e26", "by more than a number can hold"), ('alpha = 2\nlaw = "linear"', "alpha = 2")],
+)
+def test_growth_that_no_sheet_has_is_no_scene(capsys: Any, growth: str, named: str) -> None:
+    Path("a.toml").write_text(f"[growth]\n{growth}\n")
+    status, out, err = run(capsys, "check", "a.toml")
+    assert (status, out, err.count("\n")) == (BAD_ARGUMENTS, "", 1)
+    assert named in err
+
+
+def test_a_smaller_tolerance_is_expected_to_cost_more(capsys: Any) -> None:
+    scene = read(gallery.FOLDER / "paper.toml").scene
+    costs = [expected_seconds(scene, "predict", rtol) for rtol in (1e-1, 1e-2, 1e-4, 1e-6)]
+    assert costs[0] == costs[1]
+    assert costs[3] / costs[1] == pytest.approx(20, rel=0.5)  # measured: 12 s and 0.6 s
+
+
 def test_the_schema_is_printed(capsys: Any) -> None:
     status, out, _ = run(capsys, "schema")
     assert status == MET

@@ -1,5 +1,6 @@
 """Mistakes in scene files: each named with its line, table and key, all of them at once."""
 
+import time
 from pathlib import Path
 from typing import Any
 
@@ -289,6 +290,35 @@ def test_a_damaged_file_is_a_scene_or_refused(name: str, data: Any) -> None:
 def test_what_is_no_unit_is_refused_at_once(unit: str) -> None:
     (found,) = mistakes_of(f'[sheet]\nlength = "40 {unit}"\n[growth]\nalpha = 0.1')
     assert "is not a known unit" in found
+
+
+def test_a_mark_at_the_start_of_a_file_is_no_mistake(tmp_path: Path) -> None:
+    """As some editors on Windows leave it."""
+    path = tmp_path / "a.toml"
+    path.write_text(gallery.text("paper"), encoding="utf-8-sig")
+    assert read(path).scene == parsed(gallery.text("paper"), path).scene
+
+
+def test_many_mistakes_are_counted_in_bounded_time() -> None:
+    keys = "\n".join(f"key{n} = {n}" for n in range(20_000))
+    tables = "\n".join(f"[table{n}]" for n in range(5_000))
+    start = time.process_time()
+    found = mistakes_of(f"[growth]\nalpha = 0.1\n[sheet]\n{keys}\n{tables}")
+    assert time.process_time() - start < 10  # 20 mistakes of a table are looked up, not 25 000
+    assert len(found) == 41
+    assert found[-1] == " has 24960 more mistakes"
+
+
+def test_a_file_without_an_end_is_refused() -> None:
+    with pytest.raises(SceneFileError, match="/dev/zero: is larger than 50 MB"):
+        read("/dev/zero")
+
+
+@pytest.mark.parametrize("size", ["1e200 mm", "1e-200 mm"])
+def test_sizes_whose_squares_are_no_numbers_are_refused(size: str) -> None:
+    (found,) = mistakes_of(BASE.replace('"40 mm"', f'"{size}"'))
+    assert "length = " in found
+    assert "must be in [1e-100, 1e+100]" in found
 
 
 def test_what_is_no_file_of_text_is_refused(tmp_path: Path) -> None:

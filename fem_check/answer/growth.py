@@ -23,9 +23,14 @@ class Extremes(NamedTuple):
 
 
 def extremes(scene: Scene) -> Extremes:
-    """Extremes of growth over the sheet and one period of a scene."""
-    c = scene.alpha * _growth(scene.drive)
-    stretch = scene.growth.law.stretch(np.array([c.max(), c.min()]))
+    """Extremes of growth over the sheet and one period of a scene.
+
+    Raises ValueError for a growth by which lengths vanish, or which no number can hold.
+    """
+    c = _growth(scene.drive)
+    scene.growth.metric(c)
+    strain = scene.alpha * c
+    stretch = scene.growth.law.stretch(np.array([strain.max(), strain.min()]))
     return Extremes(float(stretch[0] - 1), float(stretch[1] - 1))
 
 

@@ -93,7 +93,7 @@ def _said(found: "SceneFile") -> dict[str, str]:
 
     run = found.run
     try:
-        way = way_of(found.scene, run.level)
+        rows, way = _scene_rows(found), way_of(found.scene, run.level)
     except ValueError as problem:
         raise SceneFileError(f"{found.path}: {problem}") from None
     seconds = expected_seconds(found.scene, way, run.rtol, run.periods, run.steps)
@@ -103,7 +103,7 @@ def _said(found: "SceneFile") -> dict[str, str]:
     units = f"in {found.units.length} and {found.units.time}" if found.units else "plain, of the sheet"
     return {
         "units": units,
-        **dict(_scene_rows(found)),
+        **dict(rows),
         "answer": f"{WAYS[way]}; {accuracy}{periods}",
         "cost": f"{most}about {_rounded(seconds)} on one core, to a factor of 5",
         "next": f"sheetcrawl speed {found.path}",

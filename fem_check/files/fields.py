@@ -33,6 +33,10 @@ def _tables_in(annotation: Any) -> Iterator[type[Table]]:
         yield from _tables_in(part)
 
 
+SMALLEST = 1e-100
+"""Length or time of a scene, and the largest over 1: squares of others are no numbers any more."""
+
+
 def _quantity(kind: str, positive: bool = False) -> Any:
     """Annotations of a quantity of that kind, > 0 if it must be."""
 
@@ -42,6 +46,8 @@ def _quantity(kind: str, positive: bool = False) -> Any:
             raise ValueError("must be finite")
         if positive and found.number <= 0:
             raise ValueError("must be > 0")
+        if kind in ("length", "time") and positive and not SMALLEST <= found.number <= 1 / SMALLEST:
+            raise ValueError(f"must be in [{SMALLEST:g}, {1 / SMALLEST:g}]")
         return found
 
     return PlainValidator(checked), WithJsonSchema(_schema(kind, positive))

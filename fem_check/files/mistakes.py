@@ -3,7 +3,7 @@
 import difflib
 import re
 from collections import Counter
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from types import TracebackType
 from typing import TYPE_CHECKING, Any
@@ -25,6 +25,10 @@ HEADER = re.compile(r"\s*\[\[?\s*([^\]#]+?)\s*\]")
 KEY = re.compile(r"\s*([\w.\"'-]+)\s*=")
 
 
+MOST = 20
+"""Mistakes of a table that are told; the others are counted."""
+
+
 class SceneFileError(SheetcrawlError, ValueError):
     """A scene file from which no scene can be made; its message has a line for each mistake."""
 
@@ -39,6 +43,7 @@ class Mistakes:
 
     def __init__(self) -> None:
         self._found: list[tuple[Place, str, str]] = []
+        self._more = 0
 
     def __bool__(self) -> bool:
         return bool(self._found)
@@ -57,9 +62,17 @@ class Mistakes:
         """Keep a ValueError of what is made of a table, which names its argument."""
         return Under(self, place)
 
+    def add_unknown(self, names: Sequence[str], known: Iterable[str]) -> None:
+        """Tables that no scene has."""
+        for name in names[:MOST]:
+            self.add((name,), f"is not a table of a scene; {nearest(name, known)}")
+        self._more += len(names[MOST:])
+
     def add_refused(self, table: str, problem: "ValidationError", kind: "type[Table]") -> None:
         """All that a table of that kind was refused for."""
-        for error in problem.errors(include_url=False):
+        errors = problem.errors(include_url=False)
+        self._more += len(errors[MOST:])
+        for error in errors[:MOST]:
             place: Place = (table, *error["loc"])
             self.add(place, f"{_key(place)}{_words(error, keys_at(kind, error['loc'][:-1]))}")
 
@@ -67,7 +80,9 @@ class Mistakes:
         """All mistakes of a file with that text, in its order."""
         lines = [(line_of(text, place), f"{table}{words}") for place, table, words in self._found]
         lines.sort(key=lambda found: found[0])
-        told = (f"{path}{f':{number}' if number else ''}: {words}" for number, words in lines)
+        told = [f"{path}{f':{number}' if number else ''}: {words}" for number, words in lines]
+        if self._more:
+            told.append(f"{path}: has {self._more} more mistakes")
         return SceneFileError("\n".join(told))
 
 

@@ -9,11 +9,15 @@ from typing import Any
 from pydantic import ValidationError
 
 from fem_check.files.fields import Table
-from fem_check.files.mistakes import Mistakes, SceneFileError, nearest
+from fem_check.files.mistakes import Mistakes, SceneFileError
 from fem_check.files.parts.scene_file import SceneFile, built
 from fem_check.files.tables import ALWAYS, REQUIRED, TABLES
 
 PLACE = re.compile(r"(.*?) \(at (?:line (\d+), column (\d+)|(end of document))\)")
+
+
+LARGEST = 50_000_000
+"""Characters: what is longer is another file by mistake, or has no end."""
 
 
 def read(path: str | Path) -> SceneFile:
@@ -45,7 +49,11 @@ def parsed(text: str, path: Path) -> SceneFile:
 def _text(path: Path) -> str:
     """What stands in a file. Raises SceneFileError where there is none."""
     try:
-        return path.read_text(encoding="utf-8")
+        with open(path, encoding="utf-8-sig") as file:  # which editors on Windows begin with a mark
+            text = file.read(LARGEST + 1)
+        if len(text) <= LARGEST:
+            return text
+        problem = f"is larger than {LARGEST // 1_000_000} MB, must be a scene file"
     except FileNotFoundError:
         problem = "there is no such file; sheetcrawl new --list shows scenes to start from"
     except IsADirectoryError:
@@ -71,9 +79,7 @@ def _not_toml(path: Path, problem: str) -> str:
 def _tables(data: Mapping[str, Any], mistakes: Mistakes) -> dict[str, Table]:
     """Those that are right, each for itself."""
     found = {}
-    for name in data:
-        if name not in TABLES:
-            mistakes.add((name,), f"is not a table of a scene; {nearest(name, TABLES)}")
+    mistakes.add_unknown([name for name in data if name not in TABLES], TABLES)
     for name, kind in TABLES.items():
         if name not in data and name not in ALWAYS:
             if name in REQUIRED:

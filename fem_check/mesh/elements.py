@@ -23,10 +23,16 @@ distances between points of the 2 : 1 sheet at alpha = 0.25 have an error of 7e-
 
 PLANAR_DEGREE = 5
 
-LONGEST, MOST_CELLS = 256, 100_000
-"""Default limit of elements per wavelength: in a strip narrower than a hundredth of the wave they are
-longer than wide, like the growth field. And of elements of a sheet, whose matrix factor must fit in
-memory."""
+MOST_ALONG, MOST_ALONG_SHELL = 24, 256
+"""Default limit of elements per wavelength, in the plane and in space: in narrow strips they are longer
+than wide, like the growth field; twice as many change V of strips of 0.02 and 0.005 L by 1e-7
+alpha^2."""
+
+MOST_ACROSS = 64
+"""Default limit of elements across, in the plane."""
+
+MOST_CELLS = 100_000
+"""Elements of a sheet, whose matrix factor must fit in memory."""
 
 CALL = re.compile(r"(Element\w+)\((\d{0,2})\)")
 """Form of an element in plain data."""
@@ -131,14 +137,17 @@ def _element(call: Any) -> Any:
 
 
 def default_cells(drive: Drive, planar: bool) -> tuple[int, int]:
-    """Elements across and along: about square, and several per wavelength, up to LONGEST each.
+    """Elements across and along: about square, and several per wavelength, up to a limit each.
 
     Raises ValueError for too many elements.
     """
-    across = PLANAR_CELLS if planar else SHELL_CELLS
+    least = PLANAR_CELLS if planar else SHELL_CELLS
     sheet, waves = drive.sheet, drive.waves_along
-    square = min(across * sheet.length / sheet.width, LONGEST * waves)
-    return _two_integers((across, max(round(square), 2 * across * waves)))
+    limit = MOST_ALONG if planar else MOST_ALONG_SHELL
+    square = min(least * sheet.length / sheet.width, limit * waves)
+    # In a wide sheet the sides feel their edges as far as a length inwards.
+    across = min(least * sheet.width / sheet.length, MOST_ACROSS) if planar else least
+    return _two_integers((max(round(across), least), max(round(square), 2 * least * waves)))
 
 
 def grid(sheet: Sheet, cells: tuple[int, int]) -> Any:

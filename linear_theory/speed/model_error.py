@@ -85,9 +85,10 @@ def model_error(level: str, scene: Scene) -> float:
 
     0 for growth constant in time. NaN where the distance is unknown: any wave other than a sine with 1
     or 2 waves on the sheet (its amplitude is absorbed in alpha); widths outside 0.1 to 2 L (1 L for two
-    waves), Poisson ratios outside 0 to 1/2, |alpha| above 0.4; friction other than dry; and points
-    where the level or the target has no speed. Between points of the table the bound is mostly 1.5 to 3
-    times the difference, and more where that changes sign. Raises ValueError for an unknown level and
+    waves); Poisson ratios outside 0 to 1/2, |alpha| above 0.4; friction other than dry; and points
+    where the level or the target has no speed. The strip is known for narrower sheets, too, whose
+    distance to it falls faster than the width. Between points of the table the bound is mostly 1.5 to
+    3 times the difference, and more where that changes sign. Raises ValueError for an unknown level and
     FileNotFoundError if the table is missing.
     """
     validation.choice("level", level, LEVELS)
@@ -110,6 +111,10 @@ def _bound(grid: _Grid, level: str, point: tuple[float, float, float]) -> float:
     alpha = point[2]
     if alpha == 0:
         return 0.0
+    narrowest, next_width = grid.axes[0][:2]
+    if level == "strip" and 0 < point[0] < narrowest:
+        slopes = [_bound(grid, level, (w, *point[1:])) / w for w in (narrowest, next_width)]
+        return SAFETY * point[0] * max(slopes)
     around = [_around(axis, value) for axis, value in zip(grid.axes, point, strict=True)]
     if any(places.size == 0 for places in around):
         return math.nan
