@@ -1,0 +1,21 @@
+"""Excitable waves: the FitzHugh–Nagumo equation on lines, rectangles and outlines (eq. 12)."""
+
+from fem_check.excitable.equation import FitzHughNagumo
+from fem_check.excitable.excitation import Excitation
+from fem_check.excitable.methods import Adaptive, Euler
+from fem_check.excitable.presets import PRESETS, preset
+from fem_check.excitable.starts import BumpStart, CrossedStart, Pacing, RationalStart, UniformStart
+
+__all__ = [
+    "PRESETS",
+    "Adaptive",
+    "BumpStart",
+    "CrossedStart",
+    "Euler",
+    "Excitation",
+    "FitzHughNagumo",
+    "Pacing",
+    "RationalStart",
+    "UniformStart",
+    "preset",
+]
