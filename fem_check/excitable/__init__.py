@@ -3,7 +3,9 @@
 from fem_check.excitable.equation import FitzHughNagumo
 from fem_check.excitable.excitation import Excitation
 from fem_check.excitable.methods import Adaptive, Euler
+from fem_check.excitable.periodic import PeriodicExcitation
 from fem_check.excitable.presets import PRESETS, preset
+from fem_check.mesh.outline import Outline
 from fem_check.excitable.starts import BumpStart, CrossedStart, Pacing, RationalStart, UniformStart
 
 __all__ = [
@@ -14,7 +16,9 @@ __all__ = [
     "Euler",
     "Excitation",
     "FitzHughNagumo",
+    "Outline",
     "Pacing",
+    "PeriodicExcitation",
     "RationalStart",
     "UniformStart",
     "preset",

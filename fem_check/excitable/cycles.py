@@ -28,7 +28,8 @@ class Cycles(Tabular):
     """One entry for each cycle, from one rise of c through `level` at the rear end to the next one.
 
     start, period: units of time. low, high: of c. lag: cycles by which the phase at the front end is
-    behind that at the rear, > 0 for a phase wave towards +y; NaN where some part of the body has no rise
+    behind that at the rear, > 0 for a phase wave towards +y; over the
+    length it is the mean phase gradient. NaN where some part of the body has no rise
     within the cycle. drift: largest difference of c to the cycle before at the same phase, NaN for the
     first one. level: c.
 
@@ -116,9 +117,9 @@ def _rises(record: Record, point: tuple[float, float], c: Array, level: float) -
 def _lag(rises: list[Array], start: float, period: float) -> float:
     """Cycles between the rise at the rear end and that at the front end which belongs to it.
 
-    From station to station the nearest rise is followed; its slope by least squares.
+    From station to station the nearest rise is followed.
     """
-    follow, times = start, []
+    follow = start
     for station in rises:
         if not station.size:
             return np.nan
@@ -126,6 +127,4 @@ def _lag(rises: list[Array], start: float, period: float) -> float:
         if abs(nearest - follow) > period / 2:
             return np.nan
         follow = nearest
-        times.append(nearest)
-    along = np.linspace(-0.5, 0.5, len(times))
-    return float(np.polyfit(along, (np.array(times) - start) / period, 1)[0])
+    return float((follow - start) / period)

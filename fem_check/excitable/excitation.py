@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -23,6 +23,9 @@ from linear_theory.common.threads import one_blas_thread
 from linear_theory.identity import content_key
 from linear_theory.sheet.rectangle import Sheet
 from linear_theory.wave.places import Places, among, on_sheet
+
+if TYPE_CHECKING:
+    from fem_check.excitable.periodic import PeriodicExcitation
 
 Array = NDArray[np.float64]
 
@@ -167,6 +170,12 @@ class Excitation(Shown):
     def on(self, sheet: Sheet, places: Places | None = None) -> ExcitationDrive:
         """The wave on a body within that rectangle, which must be the one that it was solved on."""
         return ExcitationDrive(self, sheet, places)
+
+    def periodic(self) -> "PeriodicExcitation":
+        """The periodic orbit that it approaches, found when it is first asked for."""
+        from fem_check.excitable.periodic import PeriodicExcitation  # which imports this class
+
+        return PeriodicExcitation.of(self)
 
     def check_repeats(self) -> None:
         """Raise ValueError unless the last two cycles are alike."""
