@@ -6,6 +6,7 @@ from fem_check.excitable.methods import Adaptive, Euler
 from fem_check.excitable.periodic import PeriodicExcitation
 from fem_check.excitable.presets import PRESETS, preset
 from fem_check.mesh.outline import Outline
+from fem_check.excitable.speeds import CycleSpeeds, speeds
 from fem_check.excitable.starts import BumpStart, CrossedStart, Pacing, RationalStart, UniformStart
 
 __all__ = [
@@ -13,6 +14,7 @@ __all__ = [
     "Adaptive",
     "BumpStart",
     "CrossedStart",
+    "CycleSpeeds",
     "Euler",
     "Excitation",
     "FitzHughNagumo",
@@ -22,4 +24,5 @@ __all__ = [
     "RationalStart",
     "UniformStart",
     "preset",
+    "speeds",
 ]

@@ -159,6 +159,11 @@ class Excitation(Shown):
         """Duration of the last cycle; `until` where there is none."""
         return float(self.cycles.period[-1]) if self.cycles.count else self.until
 
+    @property
+    def known(self) -> float:
+        """Time for which c is known, from 0 on."""
+        return self.until
+
     def value(self, x: ArrayLike, y: ArrayLike, t: ArrayLike, length: float = 1.0) -> Array:
         """c; x, y, t broadcast, 0 <= t <= until. The body is known: `length` has no effect."""
         return self.fine.value(x, y, t)
