@@ -5,9 +5,9 @@ from fem_check.excitable.excitation import Excitation
 from fem_check.excitable.methods import Adaptive, Euler
 from fem_check.excitable.periodic import PeriodicExcitation
 from fem_check.excitable.presets import PRESETS, preset
-from fem_check.mesh.outline import Outline
 from fem_check.excitable.speeds import CycleSpeeds, speeds
 from fem_check.excitable.starts import BumpStart, CrossedStart, Pacing, RationalStart, UniformStart
+from fem_check.mesh.outline import Outline
 
 __all__ = [
     "PRESETS",

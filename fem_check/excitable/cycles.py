@@ -1,4 +1,5 @@
-"""The cycles of a solution: how long they last, how far they are alike, and how the phase runs along y."""
+"""The cycles of a solution: how long they last, how far they are alike, and how the phase runs along
+y."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass

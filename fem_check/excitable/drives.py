@@ -49,7 +49,7 @@ class ExcitationDrive(SampledDrive):
         return not isinstance(self.wave.body, Sheet) or self.wave.equation.start.depends_on_x
 
     @property
-    def changes_sign(self) -> bool:  # type: ignore[override]
+    def changes_sign(self) -> bool:
         """Never: it does not repeat."""
         return False
 
@@ -67,7 +67,8 @@ class ExcitationDrive(SampledDrive):
         return Spectrum(np.sqrt(np.bincount(np.maximum(harmonics, 1), power)[1:]), 0.0)
 
     def check_period(self) -> None:
-        """Raise ValueError unless the last cycles are alike: a mean over a period has no meaning else."""
+        """Raise ValueError unless the last cycles are alike: a mean over a period has no meaning
+        else."""
         self.wave.check_repeats()
 
     def check_until(self, end: float) -> None:

@@ -17,9 +17,9 @@ Array = NDArray[np.float64]
 class FitzHughNagumo(Value):
     """c_t = γ² ∇²c + c (1 - c)(c - ν) - w,  w_t = ε (c - κ w), with Neumann edges (eq. 12).
 
-    threshold: ν, > 0 excitable, < -εκ about oscillatory; recovery_decay: κ; recovery_rate: ε, both 1/time;
-    diffusion_length: γ, units of length (time has the unit of the reaction, 1). start: c and w at time
-    0, by default the paper's from the rear end. pacing: a periodic stimulus, none by default.
+    threshold: ν, > 0 excitable, < -εκ about oscillatory; recovery_decay: κ; recovery_rate: ε, both
+    1/time; diffusion_length: γ, units of length (time has the unit of the reaction, 1). start: c and w
+    at time 0, by default the paper's from the rear end. pacing: a periodic stimulus, none by default.
 
     Raises ValueError for numbers that are not finite, rates below 0 and a length that is not positive.
 
@@ -44,7 +44,7 @@ class FitzHughNagumo(Value):
             if validation.real(name, getattr(self, name)) < 0:
                 raise ValueError(f"{name} = {getattr(self, name):g}: must be >= 0")
         validation.positive("diffusion_length", self.diffusion_length)
-        validation.instance("start", self.start, Start)
+        validation.instance("start", self.start, Start)  # type: ignore[type-abstract]
         if self.pacing is not None:
             validation.instance("pacing", self.pacing, Pacing)
 

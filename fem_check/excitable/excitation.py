@@ -58,14 +58,15 @@ class Pair(NamedTuple):
 class Excitation(Shown):
     """The solution of an equation on a body from time 0 to `until`, found when it is first asked for.
 
-    body: a Sheet, or an Outline; on a sheet whose start and pacing depend on y alone so does c, which is
-    then solved for on a line. rtol: error of c, relative to the largest |c|, at which refinement stops;
-    method: `Adaptive()` or `Euler(step)`.
+    body: a Sheet, or an Outline; on a sheet whose start and pacing depend on y alone so does c, which
+    is then solved for on a line. rtol: error of c, relative to the largest |c|, at which refinement
+    stops; method: `Adaptive()` or `Euler(step)`.
 
-    It is a wave c(x, y, t) as `linear_theory.wave.protocol.Wave`: scenes and `simulate` take it as it is,
-    with the duration of its last cycle as the period. It need not repeat: levels that average over a
-    period refuse it unless it does, `speeds` gives one speed for each cycle, and `periodic` the orbit
-    that it approaches. Plain data as all parts of a scene: it is stored as the question, not as numbers.
+    It is a wave c(x, y, t) as `linear_theory.wave.protocol.Wave`: scenes and `simulate` take it as it
+    is, with the duration of its last cycle as the period. It need not repeat: levels that average over
+    a period refuse it unless it does, `speeds` gives one speed for each cycle, and `periodic` the orbit
+    that it approaches. Plain data as all parts of a scene: it is stored as the question, not as
+    numbers.
 
     Raises ValueError for a body of another kind and numbers out of range; when it is solved,
     NotConvergedError for a c that grows without bound or needs more than MOST_NUMBERS numbers.
@@ -93,7 +94,8 @@ class Excitation(Shown):
         if not SMALLEST_RTOL <= validation.real("rtol", self.rtol) < 1:
             raise ValueError(f"rtol = {self.rtol:g}: must be in [{SMALLEST_RTOL:g}, 1)")
         method = Adaptive() if self.method is None else self.method
-        object.__setattr__(self, "method", validation.instance("method", method, Method))
+        validation.instance("method", method, Method)  # type: ignore[type-abstract]
+        object.__setattr__(self, "method", method)
 
     @cached_property
     @one_blas_thread
@@ -187,15 +189,15 @@ class Excitation(Shown):
         if not self.repeats:
             raise ValueError(
                 f"wave: {self.cycles.in_words(False, self.body.length)}; a mean over one period has no "
-                "meaning: take `speeds` for one speed of each cycle, or solution.periodic() for the orbit"
+                "meaning: take `speeds` for a speed of each cycle, or solution.periodic() for the orbit"
             )
 
     def check_until(self, end: float) -> None:
         """Raise ValueError unless c is known up to that time."""
         if end > self.until * (1 + 1e-9):
             raise ValueError(
-                f"wave: was solved until t = {self.until:g}, must be known until {end:g}; give a larger "
-                "`until`"
+                f"wave: was solved until t = {self.until:g}, must be known until {end:g}; "
+                "give a larger `until`"
             )
 
     def cycle(self, k: int) -> CycleWave:
@@ -249,8 +251,8 @@ class Excitation(Shown):
         times = kept_times(self.until)
         if times.size * system.space.size > MOST_NUMBERS:
             raise NotConvergedError(
-                f"the excitable wave needs {times.size} times and {system.space.size} nodes, must be <= "
-                f"{MOST_NUMBERS} numbers; ask for a shorter time `until` or a larger rtol",
+                f"the excitable wave needs {times.size} times and {system.space.size} nodes, must be "
+                f"<= {MOST_NUMBERS} numbers; ask for a shorter time `until` or a larger rtol",
                 best=None,
             )
         return Record(system, times, method.states(system, times, system.first, self.rtol))

@@ -47,9 +47,7 @@ def smooth_wave(
         return NodalWave(space, basis, kept), Resolution(count, 0, 0)
     full = _projected(harmonics, space, body)
     if resolution is None:
-        resolution = Resolution(
-            _needed(full, rtol), *(_last(full, axis, rtol) for axis in (1, 2))
-        )
+        resolution = Resolution(_needed(full, rtol), *(_last(full, axis, rtol) for axis in (1, 2)))
     return _polynomial(orbit, full, resolution), resolution
 
 
@@ -85,7 +83,9 @@ def _last(coefficients: Array, axis: int, rtol: float) -> int:
     """The last index along an axis of a coefficient that is not faint."""
     others = tuple(i for i in range(coefficients.ndim) if i != axis)
     size = np.sqrt((coefficients**2).sum(axis=others))
-    above = np.flatnonzero(np.sqrt(np.cumsum(size[::-1] ** 2))[::-1] > DROPPED * rtol * np.hypot.reduce(size))
+    above = np.flatnonzero(
+        np.sqrt(np.cumsum(size[::-1] ** 2))[::-1] > DROPPED * rtol * np.hypot.reduce(size)
+    )
     return int(above[-1]) if above.size else 0
 
 

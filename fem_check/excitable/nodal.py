@@ -37,8 +37,6 @@ class NodalWave(Shown):
         return self._sum(x, y, self.basis.time_rates(validation.real_array("t", t)))
 
     def _sum(self, x: ArrayLike, y: ArrayLike, times: Array) -> Array:
-        nodes, shares = self.space.weights(
-            validation.real_array("x", x), validation.real_array("y", y)
-        )
+        nodes, shares = self.space.weights(validation.real_array("x", x), validation.real_array("y", y))
         places = np.einsum("n...,kn...->...k", shares, self.coefficients[:, nodes])
         return np.asarray(np.einsum("...k,...k->...", places, times))

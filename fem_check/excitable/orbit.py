@@ -1,9 +1,10 @@
 """Periodic orbits: fixed points of the map that follows a state for one period.
 
 Paced, the period is a number of those of the stimulus and the map follows the state for that time. Left
-to itself, the map follows a state at which c rises through a level at the rear end until it does so again
-(a Poincaré section), which gives the period. Returns are taken as they are before
-Newton's method with GMRES does the rest, since Newton alone finds unstable orbits as well. The largest multiplier of the map says how fast the orbit attracts.
+to itself, the map follows a state at which c rises through a level at the rear end until it does so
+again (a Poincaré section), which gives the period. Returns are taken as they are before Newton's method
+with GMRES does the rest, since Newton alone finds unstable orbits as well. The largest multiplier of
+the map says how fast the orbit attracts.
 """
 
 from collections.abc import Callable
@@ -13,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from fem_check.excitable.methods import STABLE, STIFF
+from fem_check.excitable.methods import STABLE, is_stiff
 from fem_check.excitable.system import System
 from linear_theory.common.errors import NotConvergedError
 from linear_theory.common.progress import track
@@ -27,8 +28,8 @@ FAST = 0.3
 """Largest factor from one change to the next at which more returns are taken than asked for."""
 
 ATTEMPTS = 10, 50, 200
-"""Returns, at most, before each attempt with Newton's method; another one is made where it fails or finds
-an orbit that does not attract: solutions can stay close to such an orbit for long."""
+"""Returns, at most, before each attempt with Newton's method; another one is made where it fails or
+finds an orbit that does not attract: solutions can stay close to such an orbit for long."""
 
 MOST_STEPS, ATTRACTS = 12, 1.01
 """Newton steps at most, and the largest multiplier of an orbit that counts as attracting."""
@@ -84,7 +85,9 @@ def orbit(
     for returns in ATTEMPTS:
         try:
             state, last = _settled(follow, state, tolerance, returns)
-            near, last = (state, last) if last.residual <= tolerance else _by_newton(follow, state, tolerance)
+            near, last = (
+                (state, last) if last.residual <= tolerance else _by_newton(follow, state, tolerance)
+            )
         except NotConvergedError as error:
             failure = error
             continue
@@ -190,7 +193,8 @@ def _nearer(follow: Callable[[Array], Return], state: Array, step: Array, residu
 
 def _lost(reason: str) -> NotConvergedError:
     return NotConvergedError(
-        f"no periodic orbit was found near the end of the solution: {reason}; solve for a longer `until`",
+        f"no periodic orbit was found near the end of the solution: {reason}; "
+        "solve for a longer `until`",
         best=None,
     )
 
@@ -230,6 +234,6 @@ def _returned(
 def _options(system: System) -> dict[str, object]:
     """Explicit or implicit as `Adaptive`."""
     tolerances: dict[str, object] = {"rtol": RTOL, "atol": ATOL}
-    if system.stiffness > STIFF[len(system.space.mesh.p)]:
+    if is_stiff(system):
         return {**tolerances, "method": "Radau", "jac": system.jacobian}
     return {**tolerances, "method": "DOP853", "max_step": STABLE / system.stiffness}

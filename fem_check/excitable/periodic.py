@@ -48,10 +48,10 @@ class Found(NamedTuple):
 class PeriodicExcitation(Shown):
     """The periodic orbit near the solution at time `after`, found when it is first asked for.
 
-    Arguments as for `Excitation`, whose method `periodic` makes it. It repeats exactly: on a sheet it is
-    a sum of polynomials and harmonics, elsewhere of harmonics at the nodes of its mesh. Speeds count its
-    error in theirs (`uncertainty`). multiplier: factor by which a small deviation grows over a period;
-    above 1 the orbit is unstable and no solution stays near it.
+    Arguments as for `Excitation`, whose method `periodic` makes it. It repeats exactly: on a sheet it
+    is a sum of polynomials and harmonics, elsewhere of harmonics at the nodes of its mesh. Speeds count
+    its error in theirs (`uncertainty`). multiplier: factor by which a small deviation grows over a
+    period; above 1 the orbit is unstable and no solution stays near it.
 
     Raises NotConvergedError, when it is found, where there is no such orbit.
 
@@ -149,7 +149,8 @@ class PeriodicExcitation(Shown):
 
     @property
     def uniform(self) -> bool:
-        """Whether c is the same everywhere, so that no phase runs along the body and it cannot crawl."""
+        """Whether c is the same everywhere, so that no phase runs along the body and it cannot
+        crawl."""
         return bool(np.ptp(self.samples[0], axis=1).max() <= max(self.error, self.rtol * self.size))
 
     @property

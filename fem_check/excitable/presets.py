@@ -1,4 +1,5 @@
-"""Equations by name: the paper's numbers, two readings of them that give waves, and a paced pulse train."""
+"""Equations by name: the paper's numbers, two readings of them that give waves, and a paced pulse
+train."""
 
 from dataclasses import dataclass
 
@@ -31,29 +32,31 @@ PRESETS = {
         Preset(
             "printed",
             "the printed numbers, just beyond a Hopf bifurcation: an oscillation of amplitude 0.12 and "
-            "period 29.5 whose phase lags by two thirds of a cycle along the sheet at first and loses that "
-            "lag over some 60 cycles, so that no travelling wave is left.",
+            "period 29 whose phase lags by two thirds of a cycle along the sheet for some ten cycles; the "
+            "lag decays, and in the end the whole sheet oscillates in phase.",
             _oscillating(-0.01),
             8 * 30.0,
         ),
         Preset(
             "nu = -0.1",
-            "c from -0.48 to 0.77 with a period of 43, a phase wave towards +y of half a cycle along the "
-            "sheet from the second cycle on, which fades over about 20 cycles.",
+            "c from -0.48 to 0.77 with a period of 43, a phase wave towards +y of half a cycle along "
+            "the sheet from the first cycle on, which decays over about 20 cycles to an oscillation in "
+            "phase.",
             _oscillating(-0.1),
             8 * 45.0,
         ),
         Preset(
             "nu = -0.05",
-            "c from -0.38 to 0.49 with a period of 40; the first cycles differ most, then the phase "
-            "gradient fades over about 40 cycles.",
+            "c from -0.38 to 0.5 with a period of 40; a lag of a whole cycle along the sheet at first, "
+            "half a cycle after six; to oscillate in phase is unstable here, and after some 150 cycles "
+            "the middle of the sheet lags behind both ends.",
             _oscillating(-0.05),
             8 * 42.0,
         ),
         Preset(
             "pulse train",
-            "excitable, at rest unless paced at the rear end: one pulse per stimulus runs along the sheet "
-            "towards +y, the only one of the presets that repeats for ever.",
+            "excitable, at rest unless paced at the rear end: one pulse per stimulus runs along the "
+            "sheet towards +y, the only one of the presets that travels for ever.",
             FitzHughNagumo(0.1, 1.0, 0.01, 0.02, UniformStart(), Pacing(150.0)),
             6 * 150.0,
         ),

@@ -1,4 +1,5 @@
-"""A solution at equidistant times, and between them: quintic in time, elements of order two in space."""
+"""A solution at equidistant times, and between them: quintic in time, elements of order two in
+space."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -53,14 +54,18 @@ class Record:
         """dc/dt likewise."""
         return self._at(x, y, t, _rates)
 
-    def _at(self, x: ArrayLike, y: ArrayLike, t: ArrayLike, weigh: "Callable[[Array, float], Parts]") -> Array:
+    def _at(
+        self, x: ArrayLike, y: ArrayLike, t: ArrayLike, weigh: "Callable[[Array, float], Parts]"
+    ) -> Array:
         x, y, t = (validation.real_array(n, v) for n, v in (("x", x), ("y", y), ("t", t)))
         nodes, shares = self.space.weights(x, y)
         before, s, step = self._steps(t)
         total: Array = np.zeros(np.broadcast_shapes(nodes.shape[1:], t.shape))
         for weight, order, after in weigh(s, step):
             field = (self.c, *self.derivatives)[order]
-            values = sum(share * field[before + after, node] for node, share in zip(nodes, shares, strict=True))
+            values = sum(
+                share * field[before + after, node] for node, share in zip(nodes, shares, strict=True)
+            )
             total = total + weight * values
         return np.asarray(total)
 
@@ -71,7 +76,8 @@ class Record:
         if t.size and (t.min() < -slack or t.max() > end + slack):
             worst = t.min() if t.min() < -slack else t.max()
             raise ValueError(
-                f"t = {worst:g}: must be in 0 to {end:g}, for which the wave was solved; give a larger `until`"
+                f"t = {worst:g}: must be in 0 to {end:g}, for which the wave was solved; "
+                "give a larger `until`"
             )
         step = end / (self.times.size - 1)
         before = np.clip((t / step).astype(np.int64), 0, self.times.size - 2)

@@ -2,8 +2,8 @@
 
 Lines and rectangles have the elements P2 and Q2 with Simpson's rule; triangles have P2 with a bubble
 and the rule of seven points (Cohen, Joly, Roberts and Tordjman, SIAM J. Numer. Anal. 38:2047, 2001).
-With the values at the nodes as unknowns the diffusion term is the sparse product M⁻¹ K c, of third order
-(fourth at the nodes of lines and rectangles), and reaction is evaluated node by node.
+With the values at the nodes as unknowns the diffusion term is the sparse product M⁻¹ K c, of third
+order (fourth at the nodes of lines and rectangles), and reaction is evaluated node by node.
 """
 
 from dataclasses import dataclass

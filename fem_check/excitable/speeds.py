@@ -23,6 +23,7 @@ from linear_theory.line.samples import speeds_at
 from linear_theory.scene.level import THEORY
 from linear_theory.scene.scene import Scene
 from linear_theory.wave.places import on_axis
+from linear_theory.wave.sampled import drive
 
 Array = NDArray[np.float64]
 
@@ -50,9 +51,9 @@ Velocities = Callable[[CycleWave, Array], tuple[Array, float]]
 class CycleSpeeds(Tabular):
     """Mean velocity along y in each cycle of a wave, which need not be the same from cycle to cycle.
 
-    cycles: their numbers; start, period: units of time; mean, error: velocity averaged over the cycle and
-    its estimated error (numerical, and of the wave), length/time; model: assumptions, in words. settled:
-    whether the last two agree within their errors: only then is there one speed.
+    cycles: their numbers; start, period: units of time; mean, error: velocity averaged over the cycle
+    and its estimated error (numerical, and of the wave), length/time; model: assumptions, in words.
+    settled: whether the last two agree within their errors: only then is there one speed.
     """
 
     cycles: NDArray[np.int64]
@@ -106,8 +107,8 @@ def speeds(
     The shape follows the wave at once, so that the velocity depends on c and dc/dt at the same time
     only, and its mean over a cycle has a meaning whether the wave repeats or not.
     periods: numbers of the cycles, all by default. rtol: of each mean, or of |alpha| times the growth
-    rate where that vanishes. body: "sheet", or "line" for the one-dimensional body of its length, at any
-    strain, with the growth law of the scene.
+    rate where that vanishes. body: "sheet", or "line" for the one-dimensional body of its length, at
+    any strain, with the growth law of the scene.
 
     Raises ValueError for a scene with another wave, for effects beyond the theory and for cycles that
     there are not.
@@ -122,7 +123,8 @@ def speeds(
     wave, body = scene.wave, validation.choice("body", body, BODIES)
     if not isinstance(wave, Excitation):
         raise ValueError(
-            f"wave = {validation.shown(wave)}: must be an Excitation, FitzHughNagumo(...).on(sheet, until)"
+            f"wave = {validation.shown(wave)}: must be an Excitation, made by "
+            "FitzHughNagumo(...).on(sheet, until)"
         )
     THEORY.require(scene)
     rtol = validation.tolerance(rtol)
@@ -175,8 +177,6 @@ def _on_line(scene: Scene) -> Velocities:
     law = scene.contact.friction.scaled(length)
 
     def velocities(cycle: CycleWave, times: Array) -> tuple[Array, float]:
-        from linear_theory.wave.sampled import drive
-
         on_line = drive(cycle, scene.sheet, on_axis(length))
         cells = CELLS
         coarse = speeds_at(on_line, scene.alpha, law, piece, times, cells)

@@ -39,10 +39,10 @@ class System:
         return np.concatenate(self.equation.start.values(x, y, self.body.length, self.body.width))
 
     @cached_property
-    def stimulus(self) -> Array | None:
-        """Profile of the pacing at the nodes."""
-        pacing = self.equation.pacing
-        return None if pacing is None else pacing.profile(self.space.nodes[1], self.body.length)
+    def stimulus(self) -> Array:
+        """Profile of the pacing at the nodes; 0 without."""
+        pacing, y = self.equation.pacing, self.space.nodes[1]
+        return np.zeros_like(y) if pacing is None else pacing.profile(y, self.body.length)
 
     def rates(self, t: float, state: Array) -> Array:
         """d state/dt."""
