@@ -81,7 +81,7 @@ def limit_cycle(numbers: Numbers) -> tuple[float, float, float]:
 
     rising.direction = 1.0  # type: ignore[attr-defined]
     options = {"rtol": 1e-10, "atol": 1e-12, "method": "DOP853"}
-    found = solve_ivp(rates, (0, 6000), [0.1, 0.0], events=rising, **options)
+    found = solve_ivp(rates, (0, 60 / abs(threshold)), [0.1, 0.0], events=rising, **options)
     period = found.t_events[0][-1] - found.t_events[0][-2]
     once = solve_ivp(
         rates, (0, period), found.y_events[0][-1], t_eval=np.linspace(0, period, 4001), **options
@@ -104,10 +104,11 @@ def multipliers(numbers: Numbers, halves: list[int]) -> list[float]:
 
     found, options = [], {"rtol": 1e-10, "atol": 1e-12, "method": "DOP853"}
     damping = 0.0
-    start = solve_ivp(lambda t, u: rates(t, u)[:2], (0, 6000), [0.1, 0.0, 0, 0, 0, 0][:2], **options)
+    first = np.array([0.1, 0.0, 0.0, 0.0, 0.0, 0.0])
+    on_cycle = solve_ivp(rates, (0, 60 / abs(threshold)), first, **options).y[:2, -1]
     for m in halves:
         damping = (length * np.pi * m) ** 2
-        state = np.concatenate([start.y[:, -1], np.eye(2).ravel()])
+        state = np.concatenate([on_cycle, np.eye(2).ravel()])
         end = solve_ivp(rates, (0, period), state, **options).y[2:, -1]
         found.append(float(abs(np.linalg.eigvals(end.reshape(2, 2))).max()))
     return found

@@ -53,14 +53,11 @@ def arrival_speed(record: Record, low: float, high: float, level: float) -> floa
 
 
 def test_a_front_without_recovery_has_the_exact_speed() -> None:
-    for threshold, length in ((0.1, 0.02), (0.3, 0.03), (-0.2, 0.02)):
+    for threshold, length in ((0.1, 0.02), (0.25, 0.015)):
         equation = FitzHughNagumo(threshold, 0.0, 0.0, length, BumpStart(1.0, 0.1))
-        if threshold < 0:  # the state ahead is 0 only by symmetry of c; take it from the stable one
-            equation = equation.but(start=BumpStart(1.0 - threshold, 0.1))
-            continue
         exact = (1 - 2 * threshold) * length / np.sqrt(2)
         record = solved(equation, SHEET, 0.9 / exact, length / 2, 1e-3)
-        assert arrival_speed(record, -0.1, 0.3, 0.5) == pytest.approx(exact, rel=2e-5)
+        assert arrival_speed(record, 0.0, 0.33, 0.5) == pytest.approx(exact, rel=2e-5)
 
 
 @pytest.mark.parametrize(
@@ -76,11 +73,11 @@ def test_single_pulses_have_the_published_speed(
     equation = FitzHughNagumo(threshold, decay, rate, 1.0, BumpStart(1.0, 8.0))
     body = Sheet(length=200.0, width=100.0)
     coarse, fine = (
-        arrival_speed(solved(equation, body, 420.0, size, 1e-3), 0, 60, 0.4) for size in (1.5, 1.0)
+        arrival_speed(solved(equation, body, 420.0, size, 1e-3), 0, 60, 0.4) for size in (1.25, 1.0)
     )
-    order_four = 1.5**4
+    order_four = 1.25**4
     assert fine == pytest.approx(published, rel=1e-4)
-    assert (order_four * fine - coarse) / (order_four - 1) == pytest.approx(published, rel=1e-5)
+    assert (order_four * fine - coarse) / (order_four - 1) == pytest.approx(published, rel=2e-5)
 
 
 def test_published_wave_train() -> None:
@@ -144,11 +141,13 @@ def test_edges_let_nothing_through(body: Outline) -> None:
 def test_triangles_and_rectangles_agree_with_the_line() -> None:
     equation = preset("nu = -0.1")
     line = solved(equation, SHEET, 60.0, 0.02, 1e-3)
-    triangles = solved(equation, Outline.rectangle(SHEET), 60.0, 0.06, 1e-3)
     crossed = equation.but(start=_Crossless())
-    plane = solved(crossed, SHEET, 60.0, 0.06, 1e-3)
-    for other in (triangles, plane):
-        assert difference(line, other).max() < 0.01
+    for equal, body in ((equation, Outline.rectangle(SHEET)), (crossed, SHEET)):
+        first, second = (
+            difference(line, solved(equal, body, 60.0, size, 1e-3)).max() for size in (0.06, 0.04)
+        )
+        assert second < 0.4 * first
+        assert second < 4e-3
 
 
 class _Crossless(RationalStart):
@@ -169,7 +168,7 @@ class _Crossless(RationalStart):
 def test_order_in_space(body: object, start: object, order: float) -> None:
     equation = FitzHughNagumo(-0.05, 0.1, 0.1, 0.1, start)  # type: ignore[arg-type]
     sizes = (0.16, 0.08, 0.04) if body is HOLED else (0.125, 0.0625, 0.03125)
-    *coarse, fine = (solved(equation, body, 10.0, size, 1e-4) for size in sizes)
+    *coarse, fine = (solved(equation, body, 5.0, size, 1e-4) for size in sizes)
     first, second = (rms_difference(fine, one) for one in coarse)
     assert np.log2(first / second) > order
 
@@ -207,21 +206,22 @@ def random_equations(count: int) -> list[FitzHughNagumo]:
     return found
 
 
-@pytest.mark.parametrize("rtol", [1e-2, 1e-3])
-def test_the_error_is_honest(rtol: float) -> None:
+@pytest.mark.parametrize(("rtol", "count"), [(1e-2, 10), (1e-3, 6)])
+def test_the_error_is_honest(rtol: float, count: int) -> None:
     """True error, at random places and times, against the estimate; and that meets its tolerance."""
     random = np.random.default_rng(5)
     y, t = random.uniform(-0.5, 0.5, 200), random.uniform(0, 40, 200)
-    for equation in random_equations(12):
+    for equation in random_equations(count):
         wave = Excitation(equation, SHEET, 40.0, rtol)
         size = np.diff(np.sort(wave.fine.space.mesh.p[0])).max()
-        exact = Excitation(equation, SHEET, 40.0, rtol)._solved(size / 4, Adaptive(1e-4))
+        exact = Excitation(equation, SHEET, 40.0, rtol)._solved(size / 3, Adaptive(1e-3))
         apart = abs(wave.value(0.0, y, t) - exact.value(0.0, y, t))
         allowed = np.interp(t, wave.times, wave.error) + 1e-9
         assert np.all(apart <= allowed), equation
         assert wave.converged
-        rate = abs(wave.rate(0.0, y, t) - exact.rate(0.0, y, t)).max()
-        assert rate <= 20 * wave.error[-1] + 1e-9
+        settled = t > 1  # where the start has a slope at an edge, dc/dt is infinite there at t = 0
+        rate = abs(wave.rate(0.0, y, t) - exact.rate(0.0, y, t))[settled].max()
+        assert rate <= 2 * wave.error[-1] + 1e-9
 
 
 def test_against_a_literal_solution() -> None:
@@ -232,16 +232,20 @@ def test_against_a_literal_solution() -> None:
     wave = equation.on(SHEET, 50.0, 1e-3)
     n = 400
     y = (np.arange(n) + 0.5) / n
-    start = np.concatenate([y**2 / (1 + y**2), 0 * y])
+    start = np.zeros(2 * n)  # c and w in turn, so that the Jacobian is banded
+    start[::2] = y**2 / (1 + y**2)
 
     def rates(_: float, u: Array) -> Array:
-        c, w = u[:n], u[n:]
+        c, w = u[::2], u[1::2]
         wide = np.concatenate([c[:1], c, c[-1:]])
         second = (wide[2:] - 2 * c + wide[:-2]) * n**2
-        return np.concatenate([4e-4 * second + c * (1 - c) * (c + 0.1) - w, 0.05 * (c - 1e-4 * w)])
+        found = np.empty_like(u)
+        found[::2] = 4e-4 * second + c * (1 - c) * (c + 0.1) - w
+        found[1::2] = 0.05 * (c - 1e-4 * w)
+        return found
 
-    found = solve_ivp(rates, (0, 50), start, "LSODA", rtol=1e-8, atol=1e-9, lband=n, uband=n).y[:n, -1]
-    assert wave.value(0.0, y - 0.5, 50.0) == pytest.approx(found, abs=2e-3)
+    end = solve_ivp(rates, (0, 50), start, "LSODA", rtol=1e-8, atol=1e-9, lband=2, uband=2).y[::2, -1]
+    assert wave.value(0.0, y - 0.5, 50.0) == pytest.approx(end, abs=1e-3)
 
 
 def test_what_the_presets_say_of_themselves() -> None:
@@ -267,7 +271,7 @@ def test_a_wave_that_does_not_repeat_is_refused_with_a_remedy() -> None:
         drive(wave, Sheet(length=2.0))
     with pytest.raises(ValueError, match="t = 201: must be in 0 to 200"):
         wave.value(0.0, 0.0, 201.0)
-    with pytest.raises(ValueError, match="k = 9: must be one of the 4 cycles"):
+    with pytest.raises(ValueError, match="k = 9: must be one of the 3 cycles"):
         wave.cycle(9)
 
 
@@ -288,9 +292,9 @@ def test_bad_input_is_refused() -> None:
 
 
 def test_growth_without_bound_is_an_error() -> None:
-    wild = FitzHughNagumo(0.1, 0.0, 0.0, 0.1, UniformStart(-200.0), Pacing(5.0, -1e9, 2.0))
-    with pytest.raises(NotConvergedError, match="could not be followed"):
-        _ = wild.on(SHEET, 10.0, 1e-2).pair
+    wild = FitzHughNagumo(0.1, 0.0, 0.0, 0.1, UniformStart(), Pacing(5.0, -1e9, 2.0))
+    with pytest.raises(NotConvergedError, match="could not be followed beyond t = "):
+        _ = wild.on(SHEET, 10.0, 1e-2, Euler(0.1)).pair
 
 
 @pytest.mark.parametrize(

@@ -35,6 +35,10 @@ LARGEST = 1e6
 """|c| and |w| of a solution that counts as unbounded."""
 
 
+MOST_RATES = 5_000_000
+"""Evaluations of the rates at most, some minutes on a line."""
+
+
 class Method(Value, ABC):
     """A way to integrate: the states of a system at given times."""
 
@@ -100,6 +104,8 @@ def _fill(solver: Any, times: Array, found: Array, part: slice) -> None:
     for i in range(part.start, part.stop):
         while solver.t < times[i]:
             message = solver.step()
+            if solver.nfev > MOST_RATES:
+                raise unbounded(float(solver.t), f"{MOST_RATES} evaluations of the rates")
             if solver.status == "failed" or not np.abs(solver.y).max() < LARGEST:
                 raise unbounded(float(solver.t), message)
         last = solver.t_old is None or solver.t == times[i]

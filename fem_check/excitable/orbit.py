@@ -21,7 +21,7 @@ from linear_theory.common.progress import track
 
 Array = NDArray[np.float64]
 
-RTOL, ATOL = 1e-9, 1e-10
+RTOL, ATOL = 1e-9, 1e-11
 """Of the integration over a period."""
 
 FAST = 0.3

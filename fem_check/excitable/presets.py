@@ -32,8 +32,8 @@ PRESETS = {
         Preset(
             "printed",
             "the printed numbers, just beyond a Hopf bifurcation: an oscillation of amplitude 0.12 and "
-            "period 29 whose phase lags by two thirds of a cycle along the sheet for some ten cycles; the "
-            "lag decays, and in the end the whole sheet oscillates in phase.",
+            "period 29 whose phase lags by two thirds of a cycle along the sheet for some ten cycles; "
+            "the lag decays, and in the end the whole sheet oscillates in phase.",
             _oscillating(-0.01),
             8 * 30.0,
         ),

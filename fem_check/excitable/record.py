@@ -1,4 +1,4 @@
-"""A solution at equidistant times, and between them: quintic in time, elements of order two in
+"""A solution at kept times, and between them: quintic in time, elements of order two in
 space."""
 
 from collections.abc import Callable
@@ -17,15 +17,21 @@ Array = NDArray[np.float64]
 SPACING = 0.5
 """Largest distance of kept times. Reaction has rates up to 1/2: the interpolation is good to 1e-8."""
 
+HALVINGS = 14
+"""Of the first interval: where a start has a slope at an edge, c changes with the root of time
+there."""
+
 
 def kept_times(until: float) -> Array:
-    """Equidistant times from 0 to `until`."""
-    return np.linspace(0.0, until, max(2, int(np.ceil(until / SPACING)) + 1))
+    """Times from 0 to `until`, equidistant but for the first interval, which is graded."""
+    even = np.linspace(0.0, until, max(2, int(np.ceil(until / SPACING)) + 1))
+    first = even[1] * 0.5 ** np.arange(HALVINGS, 0, -1)
+    return np.concatenate([even[:1], first, even[1:]])
 
 
 @dataclass(frozen=True, eq=False)
 class Record:
-    """States (T, 2 n) of a system at equidistant times (T,)."""
+    """States (T, 2 n) of a system at `kept_times` (T,)."""
 
     system: System
     times: Array
@@ -55,7 +61,7 @@ class Record:
         return self._at(x, y, t, _rates)
 
     def _at(
-        self, x: ArrayLike, y: ArrayLike, t: ArrayLike, weigh: "Callable[[Array, float], Parts]"
+        self, x: ArrayLike, y: ArrayLike, t: ArrayLike, weigh: "Callable[[Array, Array], Parts]"
     ) -> Array:
         x, y, t = (validation.real_array(n, v) for n, v in (("x", x), ("y", y), ("t", t)))
         nodes, shares = self.space.weights(x, y)
@@ -69,7 +75,7 @@ class Record:
             total = total + weight * values
         return np.asarray(total)
 
-    def _steps(self, t: Array) -> tuple[NDArray[np.int64], Array, float]:
+    def _steps(self, t: Array) -> tuple[NDArray[np.int64], Array, Array]:
         """The kept time before, the fraction of the step that is over, and the step."""
         end = float(self.times[-1])
         slack = 1e-9 * end
@@ -79,16 +85,17 @@ class Record:
                 f"t = {worst:g}: must be in 0 to {end:g}, for which the wave was solved; "
                 "give a larger `until`"
             )
-        step = end / (self.times.size - 1)
-        before = np.clip((t / step).astype(np.int64), 0, self.times.size - 2)
-        return before, np.clip(t / step - before, 0, 1), step
+        before = np.searchsorted(self.times, t, side="right") - 1
+        before = np.clip(before, 0, self.times.size - 2)
+        step = self.times[before + 1] - self.times[before]
+        return before, np.clip((t - self.times[before]) / step, 0, 1), step
 
 
 Parts = tuple[tuple[Array, int, int], ...]
 """Weights, with the derivative (0, 1, 2) and the end of the step (0, 1) that they belong to."""
 
 
-def _values(s: Array, h: float) -> Parts:
+def _values(s: Array, h: Array) -> Parts:
     """Quintic Hermite interpolation at fractions s of a step h."""
     r, s3 = 1 - s, s**3
     r3 = r**3
@@ -102,7 +109,7 @@ def _values(s: Array, h: float) -> Parts:
     )
 
 
-def _rates(s: Array, h: float) -> Parts:
+def _rates(s: Array, h: Array) -> Parts:
     """Its derivative."""
     r = 1 - s
     jump = 30 * s**2 * r**2 / h
