@@ -5,7 +5,16 @@ import pytest
 from numpy.typing import NDArray
 
 from fem_check import Friction, Gravity, Material, Membrane, simulate
-from fem_check.excitable import Excitation, PeriodicExcitation, RationalStart, preset, speeds
+from fem_check.excitable import (
+    Excitation,
+    FitzHughNagumo,
+    Pacing,
+    PeriodicExcitation,
+    RationalStart,
+    UniformStart,
+    preset,
+    speeds,
+)
 from linear_theory import Contact, Scene, Sheet, SineWave, line_balance
 
 Array = NDArray[np.float64]
@@ -23,9 +32,13 @@ def phase_wave() -> Excitation:
     return preset("nu = -0.1").on(SHEET, 220.0, 1e-2)
 
 
+PACED = FitzHughNagumo(0.05, 0.5, 0.015, 0.05, UniformStart(), Pacing(110.0, reach=0.15))
+"""A pulse train that is cheaper than the preset: its pulses are longer than the sheet."""
+
+
 @pytest.fixture(scope="module")
 def train() -> PeriodicExcitation:
-    return preset("pulse train").on(SHEET, 450.0, 1e-2).periodic()
+    return PACED.on(SHEET, 240.0, 1e-2).periodic()
 
 
 def viscous_mean(wave: Excitation, alpha: float, start: float, period: float) -> float:
@@ -59,7 +72,7 @@ def test_errors_of_cycles_are_honest(name: str, friction: str) -> None:
         for rtol in (1e-2, 1e-3)
     )
     assert np.all(abs(rough.mean - good.mean) <= rough.error + good.error)
-    assert np.all(rough.error <= 0.05 * abs(rough.mean))
+    assert np.all(rough.error <= 0.02 * abs(rough.mean).max())
     assert not rough.settled
     assert "NOT settled" in repr(rough)
 
@@ -79,7 +92,7 @@ def test_a_narrow_sheet_is_near_the_line(phase_wave: Excitation) -> None:
 
 
 def test_the_pulse_train_settles_on_its_orbit(train: PeriodicExcitation) -> None:
-    wave = preset("pulse train").on(SHEET, 650.0, 1e-2)
+    wave = PACED.on(SHEET, 480.0, 1e-2)
     cycles = speeds(scene(wave, "coulomb"), [-2, -1], body="line", rtol=5e-3)
     orbit = line_balance(train, 0.1, length=1.0, rtol=5e-3)
     assert cycles.settled
@@ -88,12 +101,12 @@ def test_the_pulse_train_settles_on_its_orbit(train: PeriodicExcitation) -> None
 
 
 def test_the_error_of_an_orbit_is_honest(train: PeriodicExcitation) -> None:
-    finer = preset("pulse train").on(SHEET, 450.0, 1e-3).periodic()
-    y, t = np.linspace(-0.5, 0.5, 60), np.linspace(0, 150, 80)[:, None]
+    finer = PACED.on(SHEET, 240.0, 2e-3).periodic()
+    y, t = np.linspace(-0.5, 0.5, 60), np.linspace(0, 110, 80)[:, None]
     assert abs(train.value(0.0, y, t) - finer.value(0.0, y, t)).max() <= train.error + finer.error
     assert train.converged
     assert train.attracts
-    one, other = (line_balance(wave, 0.1, length=1.0, rtol=1e-3) for wave in (train, finer))
+    one, other = (line_balance(wave, 0.1, length=1.0, rtol=3e-3) for wave in (train, finer))
     assert abs(one.mean - other.mean) <= one.error + other.error
     assert one.wave_error > 0
 

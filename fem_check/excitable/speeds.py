@@ -1,5 +1,6 @@
 """Speeds of a sheet under a wave that does not repeat: one for each of its cycles."""
 
+import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple
@@ -27,8 +28,12 @@ from linear_theory.wave.sampled import drive
 
 Array = NDArray[np.float64]
 
-FEWEST, MOST, POINTS = 6, 48, 4
-"""Panels of a cycle at first and at most, and Gauss points of each."""
+FEWEST, LONGEST, DOUBLINGS, POINTS = 8, 4.0, 4, 4
+"""Panels of a cycle at least, their largest length in units of time, how often they are doubled at most,
+and Gauss points of each. c changes within a few units of time, and dry friction faster."""
+
+CHANCE = 2.0
+"""Of the last change. A change may be small by chance: a quarter of the one before counts as well."""
 
 CELLS, MOST_CELLS = 128, 2048
 """Cells of a line at first and at most."""
@@ -150,18 +155,19 @@ def _small(scene: Scene) -> float:
 
 def _cycle_mean(law: Velocities, cycle: CycleWave, rtol: float, small: float) -> Mean:
     """By composite Gauss rules of twice as many panels until they agree."""
-    panels = FEWEST
+    panels = max(FEWEST, math.ceil(cycle.period / LONGEST))
     last, space = _average(law, cycle, panels)
-    while True:
+    before = math.inf
+    for _ in range(DOUBLINGS):
         panels *= 2
         mean, space = _average(law, cycle, panels)
         apart = abs(mean - last)
-        if apart <= rtol / 2 * max(abs(mean), small) or panels >= MOST:
-            break
+        in_time, before = CHANCE * max(apart, min(before, 16 * apart) / 4), apart
         last = mean
-    other, _ = _average(law, cycle.coarser, panels // 2)
-    same, _ = _average(law, cycle, panels // 2)
-    return Mean(mean, apart + space + SHARE * abs(other - same))
+        if in_time <= rtol / 2 * max(abs(mean), small):
+            break
+    other, _ = _average(law, cycle.coarser, panels)
+    return Mean(mean, in_time + space + SHARE * abs(other - mean))
 
 
 def _average(law: Velocities, cycle: CycleWave, panels: int) -> tuple[float, float]:
