@@ -29,8 +29,8 @@ from linear_theory.wave.sampled import drive
 Array = NDArray[np.float64]
 
 FEWEST, LONGEST, DOUBLINGS, POINTS = 8, 4.0, 4, 4
-"""Panels of a cycle at least, their largest length in units of time, how often they are doubled at most,
-and Gauss points of each. c changes within a few units of time, and dry friction faster."""
+"""Panels of a cycle at least, their largest length in units of time, how often they are doubled at
+most, and Gauss points of each. c changes within a few units of time, and dry friction faster."""
 
 CHANCE = 2.0
 """Of the last change. A change may be small by chance: a quarter of the one before counts as well."""
