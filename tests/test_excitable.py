@@ -21,8 +21,10 @@ from fem_check.excitable import (
     preset,
 )
 from fem_check.excitable.excitation import difference
+from fem_check.excitable.methods import is_stiff
 from fem_check.excitable.record import Record
 from fem_check.excitable.space import Space
+from fem_check.excitable.system import System
 from linear_theory import NotConvergedError, Scene, Sheet, crawl_speed
 from linear_theory.wave.sampled import drive
 from tests import reference_excitable as reference
@@ -261,6 +263,16 @@ def test_what_the_presets_say_of_themselves() -> None:
     assert still.cycles.count == 0
     assert "no cycle" in repr(still) or still.cycles.in_words(False, 1.0).startswith("no cycle")
     assert all(str(one).startswith(f"{name}: ") for name, one in PRESETS.items())
+
+
+def test_no_stimulus_is_missed_by_long_steps() -> None:
+    """Of a body at rest, by an implicit scheme whose error estimate sees nothing before it begins."""
+    paced = FitzHughNagumo(0.1, 0.5, 0.02, 0.1, UniformStart(), Pacing(400.0, 1.0, duration=4.0))
+    system = System(paced, SHEET, Space.on(SHEET, 0.01, False))
+    assert is_stiff(system)
+    times = np.linspace(0, 110, 111)
+    c = Adaptive().states(system, times, system.first, 1e-2)[:, : system.space.size]
+    assert c.max() > 0.5
 
 
 def test_a_wave_that_does_not_repeat_is_refused_with_a_remedy() -> None:

@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from fem_check.excitable.methods import STABLE, is_stiff
+from fem_check.excitable.methods import is_stiff, longest_step
 from fem_check.excitable.system import System
 from linear_theory.common.errors import NotConvergedError
 from linear_theory.common.progress import track
@@ -233,7 +233,7 @@ def _returned(
 
 def _options(system: System) -> dict[str, object]:
     """Explicit or implicit as `Adaptive`."""
-    tolerances: dict[str, object] = {"rtol": RTOL, "atol": ATOL}
+    tolerances: dict[str, object] = {"rtol": RTOL, "atol": ATOL, "max_step": longest_step(system)}
     if is_stiff(system):
         return {**tolerances, "method": "Radau", "jac": system.jacobian}
-    return {**tolerances, "method": "DOP853", "max_step": STABLE / system.stiffness}
+    return {**tolerances, "method": "DOP853"}

@@ -2,7 +2,8 @@
 
     python -m figures.draw.excitable [--out FOLDER] [--formats png pdf]
 
-Time runs to the right, y upwards; each panel has its own scale of c, which the bar at its right shows.
+Time runs to the right, y upwards; each panel has its own scale of c, which the bar at its right shows:
+the range of c after the first cycle, which the start exceeds.
 """
 
 from collections.abc import Sequence
@@ -22,6 +23,9 @@ SHEET = Sheet()
 
 SPAN = 320.0
 """Time that is drawn: seven to eleven cycles."""
+
+SETTLED = 60.0
+"""Time from which on c sets the scale."""
 
 RTOL = 3e-3
 """Of c, less than a shade."""
@@ -51,7 +55,8 @@ def kymograph(axes: Axes, wave: Excitation, label: str) -> None:
     """c over time and y; 0 is white."""
     y, t = np.linspace(-0.5, 0.5, POINTS), np.linspace(0, SPAN, TIMES)
     c = wave.value(0.0, y[:, None], t)
-    low, high = min(float(c.min()), -1e-3), max(float(c.max()), 1e-3)
+    shown = c[:, t > SETTLED]
+    low, high = float(shown.min()), float(shown.max())
     image = axes.imshow(
         c,
         extent=(0, SPAN, -0.5, 0.5),
@@ -63,9 +68,9 @@ def kymograph(axes: Axes, wave: Excitation, label: str) -> None:
     )
     axes.set_ylabel("$y/L$")
     axes.set_yticks([-0.5, 0, 0.5])
-    axes.set_title(label, loc="left", pad=2)
+    axes.set_title(label, loc="left", pad=3)
     bar = axes.figure.colorbar(image, ax=axes, pad=0.02, aspect=8)
-    bar.set_ticks([low, 0, high], labels=[f"{low:.2f}", "$c = 0$", f"{high:.2f}"])
+    bar.set_ticks([low, 0, high], labels=[f"${low:.2f}$", "$c = 0$", f"${high:.2f}$"])
 
 
 def main(arguments: Sequence[str] | None = None) -> list[Path]:
