@@ -6,6 +6,7 @@ Read by `lazy_loader` as it runs, and by type checkers.
 from .choice.prediction import Prediction, predict
 from .excitable.equation import FitzHughNagumo
 from .excitable.excitation import Excitation
+from .excitable.presets import excitable_preset
 from .excitable.speeds import speeds
 from .mesh.outline import Outline
 from .output.paraview import write_paraview
@@ -46,6 +47,7 @@ __all__ = [
     "__version__",
     "bilayer",
     "cycle_speed",
+    "excitable_preset",
     "plane_stress_field",
     "predict",
     "simulate",

@@ -18,11 +18,11 @@ from fem_check.excitable import (
     Pacing,
     RationalStart,
     UniformStart,
-    preset,
+    excitable_preset,
 )
-from fem_check.excitable.excitation import difference
 from fem_check.excitable.methods import is_stiff
 from fem_check.excitable.record import Record
+from fem_check.excitable.solution import difference
 from fem_check.excitable.space import Space
 from fem_check.excitable.system import System
 from linear_theory import NotConvergedError, Scene, Sheet, crawl_speed
@@ -93,7 +93,7 @@ def test_published_wave_train() -> None:
 def test_the_printed_numbers_end_in_a_uniform_limit_cycle() -> None:
     """Weakly nonlinear amplitude 2 (-nu/3)^(1/2), period 29.48, and the decay of phase differences."""
     numbers = (-0.01, 1e-4, 0.05, 0.02)
-    orbit = preset("printed").on(SHEET, 240.0, 1e-2).periodic()
+    orbit = excitable_preset("printed").on(SHEET, 240.0, 1e-2).periodic()
     period, low, high = reference.limit_cycle(numbers)
     assert orbit.uniform
     assert orbit.attracts
@@ -123,7 +123,7 @@ def test_at_nu_minus_005_the_uniform_oscillation_is_unstable() -> None:
 
 
 def test_a_symmetric_start_stays_symmetric() -> None:
-    equation = preset("nu = -0.1").but(start=RationalStart(origin=0.0))
+    equation = excitable_preset("nu = -0.1").but(start=RationalStart(origin=0.0))
     record = solved(equation, SHEET, 90.0, 0.04, 1e-2)
     y = np.linspace(0, 0.5, 30)
     t = np.linspace(0, 90, 50)[:, None]
@@ -141,7 +141,7 @@ def test_edges_let_nothing_through(body: Outline) -> None:
 
 
 def test_triangles_and_rectangles_agree_with_the_line() -> None:
-    equation = preset("nu = -0.1")
+    equation = excitable_preset("nu = -0.1")
     line = solved(equation, SHEET, 60.0, 0.02, 1e-3)
     crossed = equation.but(start=_Crossless())
     for equal, body in ((equation, Outline.rectangle(SHEET)), (crossed, SHEET)):
@@ -191,7 +191,7 @@ def test_euler_is_of_first_order_and_refuses_unstable_steps() -> None:
         errors.append(difference(exact, found).max())
     assert errors[0] / errors[1] == pytest.approx(2, rel=0.05)
     with pytest.raises(ValueError, match="step = 5: must be <"):
-        _ = Excitation(equation, SHEET, 10.0, method=Euler(5.0)).pair
+        _ = Excitation(equation, SHEET, 10.0, method=Euler(5.0))._pair
 
 
 def random_equations(count: int) -> list[FitzHughNagumo]:
@@ -215,7 +215,7 @@ def test_the_error_is_honest(rtol: float, count: int) -> None:
     y, t = random.uniform(-0.5, 0.5, 200), random.uniform(0, 40, 200)
     for equation in random_equations(count):
         wave = Excitation(equation, SHEET, 40.0, rtol)
-        size = np.diff(np.sort(wave.fine.space.mesh.p[0])).max()
+        size = np.diff(np.sort(wave._fine.space.mesh.p[0])).max()
         exact = Excitation(equation, SHEET, 40.0, rtol)._solved(size / 3, Adaptive(1e-3))
         apart = abs(wave.value(0.0, y, t) - exact.value(0.0, y, t))
         allowed = np.interp(t, wave.times, wave.error) + 1e-9
@@ -230,7 +230,7 @@ def test_against_a_literal_solution() -> None:
     """Second-order differences on 400 cells by another integrator."""
     from scipy.integrate import solve_ivp
 
-    equation = preset("nu = -0.1")
+    equation = excitable_preset("nu = -0.1")
     wave = equation.on(SHEET, 50.0, 1e-3)
     n = 400
     y = (np.arange(n) + 0.5) / n
@@ -252,14 +252,14 @@ def test_against_a_literal_solution() -> None:
 
 def test_what_the_presets_say_of_themselves() -> None:
     """Periods, ranges and phase lags of the sentences."""
-    cycles = preset("nu = -0.1").on(SHEET, 300.0, 1e-2).cycles
+    cycles = excitable_preset("nu = -0.1").on(SHEET, 300.0, 1e-2).cycles
     assert cycles.period[-1] == pytest.approx(43, abs=0.5)
     assert (cycles.low[1], cycles.high[1]) == (
         pytest.approx(-0.48, abs=0.01),
         pytest.approx(0.77, abs=0.01),
     )
     assert np.all((cycles.lag > 0.3) & (cycles.lag < 0.65))
-    still = preset("pulse train").but(pacing=None).on(SHEET, 200.0)
+    still = excitable_preset("pulse train").but(pacing=None).on(SHEET, 200.0)
     assert still.cycles.count == 0
     assert "no cycle" in repr(still) or still.cycles.in_words(False, 1.0).startswith("no cycle")
     assert all(str(one).startswith(f"{name}: ") for name, one in PRESETS.items())
@@ -276,7 +276,7 @@ def test_no_stimulus_is_missed_by_long_steps() -> None:
 
 
 def test_a_wave_that_does_not_repeat_is_refused_with_a_remedy() -> None:
-    wave = preset("nu = -0.1").on(SHEET, 200.0, 1e-2)
+    wave = excitable_preset("nu = -0.1").on(SHEET, 200.0, 1e-2)
     with pytest.raises(ValueError, match=r"not periodic.*take `speeds`"):
         crawl_speed(SHEET, wave, alpha=0.1)
     with pytest.raises(ValueError, match="was solved on a body of length 1"):
@@ -288,7 +288,7 @@ def test_a_wave_that_does_not_repeat_is_refused_with_a_remedy() -> None:
 
 
 def test_bad_input_is_refused() -> None:
-    equation = preset("printed")
+    equation = excitable_preset("printed")
     for call, words in (
         (lambda: equation.but(recovery_rate=-1.0), "recovery_rate = -1: must be >= 0"),
         (lambda: equation.but(diffusion_length=0.0), "diffusion_length = 0: must be > 0"),
@@ -297,7 +297,7 @@ def test_bad_input_is_refused() -> None:
         (lambda: equation.on(SHEET, -1.0), "until = -1: must be > 0"),
         (lambda: equation.on(SHEET, 1.0, 0.0), r"rtol = 0: must be in \[1e-08, 1\)"),
         (lambda: Pacing(10.0, duration=8.0), "duration = 8: must be at most half"),
-        (lambda: preset("nu"), "name = 'nu': must be"),
+        (lambda: excitable_preset("nu"), "name = 'nu': must be"),
     ):
         with pytest.raises(ValueError, match=words):
             call()
@@ -306,16 +306,16 @@ def test_bad_input_is_refused() -> None:
 def test_growth_without_bound_is_an_error() -> None:
     wild = FitzHughNagumo(0.1, 0.0, 0.0, 0.1, UniformStart(), Pacing(5.0, -1e9, 2.0))
     with pytest.raises(NotConvergedError, match="could not be followed beyond t = "):
-        _ = wild.on(SHEET, 10.0, 1e-2, Euler(0.1)).pair
+        _ = wild.on(SHEET, 10.0, 1e-2, Euler(0.1))._pair
 
 
 @pytest.mark.parametrize(
     "wave",
     [
-        preset("nu = -0.1").on(SHEET, 60.0, 1e-2),
-        preset("nu = -0.1").on(SHEET, 60.0, 1e-2, Euler(0.01)),
-        preset("pulse train").on(SHEET, 450.0, 1e-2).periodic(),
-        preset("nu = -0.1").but(start=CrossedStart()).on(HOLED, 60.0, 0.1),
+        excitable_preset("nu = -0.1").on(SHEET, 60.0, 1e-2),
+        excitable_preset("nu = -0.1").on(SHEET, 60.0, 1e-2, Euler(0.01)),
+        excitable_preset("pulse train").on(SHEET, 450.0, 1e-2).periodic(),
+        excitable_preset("nu = -0.1").but(start=CrossedStart()).on(HOLED, 60.0, 0.1),
     ],
 )
 def test_waves_are_data(wave: Excitation) -> None:
@@ -324,11 +324,11 @@ def test_waves_are_data(wave: Excitation) -> None:
     again = part_of(json.loads(json.dumps(wave.to_dict())), "wave")
     assert again == wave
     assert again.to_dict() == wave.to_dict()
-    assert again != preset("printed").on(SHEET, 60.0, 1e-2)
+    assert again != excitable_preset("printed").on(SHEET, 60.0, 1e-2)
 
 
 def test_a_scene_with_an_excitable_wave_is_data() -> None:
-    scene = Scene(SHEET, preset("nu = -0.1").on(SHEET, 60.0, 1e-2), alpha=0.1)
+    scene = Scene(SHEET, excitable_preset("nu = -0.1").on(SHEET, 60.0, 1e-2), alpha=0.1)
     again = Scene.from_dict(json.loads(json.dumps(scene.to_dict())))
     assert again == scene
     assert again.key() == scene.key()

@@ -12,7 +12,7 @@ from fem_check.excitable import (
     PeriodicExcitation,
     RationalStart,
     UniformStart,
-    preset,
+    excitable_preset,
     speeds,
 )
 from linear_theory import Contact, Scene, Sheet, SineWave, line_balance
@@ -29,7 +29,7 @@ def scene(wave: object, friction: str, alpha: float = 0.1) -> Scene:
 
 @pytest.fixture(scope="module")
 def phase_wave() -> Excitation:
-    return preset("nu = -0.1").on(SHEET, 220.0, 1e-2)
+    return excitable_preset("nu = -0.1").on(SHEET, 220.0, 1e-2)
 
 
 PACED = FitzHughNagumo(0.05, 0.5, 0.015, 0.05, UniformStart(), Pacing(110.0, reach=0.15))
@@ -68,7 +68,7 @@ def test_viscous_speed_of_each_cycle_against_a_literal_balance(phase_wave: Excit
 def test_errors_of_cycles_are_honest(name: str, friction: str) -> None:
     """They include that of the wave: against a wave and means that are ten times as accurate."""
     rough, good = (
-        speeds(scene(preset(name).on(SHEET, 200.0, rtol), friction), rtol=rtol, body="line")
+        speeds(scene(excitable_preset(name).on(SHEET, 200.0, rtol), friction), rtol=rtol, body="line")
         for rtol in (1e-2, 1e-3)
     )
     assert np.all(abs(rough.mean - good.mean) <= rough.error + good.error)
@@ -78,7 +78,7 @@ def test_errors_of_cycles_are_honest(name: str, friction: str) -> None:
 
 
 def test_a_symmetric_wave_moves_nothing() -> None:
-    equation = preset("nu = -0.1").but(start=RationalStart(origin=0.0))
+    equation = excitable_preset("nu = -0.1").but(start=RationalStart(origin=0.0))
     found = speeds(scene(equation.on(SHEET, 200.0, 1e-2), "viscous"), body="line")
     assert abs(found.displacement).max() < 1e-8
 

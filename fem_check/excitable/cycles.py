@@ -34,9 +34,9 @@ class Cycles(Tabular):
     within the cycle. drift: largest difference of c to the cycle before at the same phase, NaN for the
     first one. level: c.
 
-    >>> from fem_check.excitable import preset
+    >>> from fem_check.excitable import excitable_preset
     >>> from linear_theory import Sheet
-    >>> cycles = preset("printed").on(Sheet(), until=120.0, rtol=1e-2).cycles
+    >>> cycles = excitable_preset("printed").on(Sheet(), until=120.0, rtol=1e-2).cycles
     >>> print(cycles.period.round(1), cycles.lag.round(1))
     [28.  28.7 29. ] [0.5 0.6 0.7]
     """

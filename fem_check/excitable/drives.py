@@ -15,8 +15,8 @@ from linear_theory.wave.sampled import SampledDrive
 from linear_theory.wave.spectrum import Spectrum
 
 if TYPE_CHECKING:
-    from fem_check.excitable.excitation import Excitation
     from fem_check.excitable.record import Record
+    from fem_check.excitable.solution import Solution
 
 Array = NDArray[np.float64]
 
@@ -30,10 +30,10 @@ SAME = 1e-9
 class ExcitationDrive(SampledDrive):
     """A solution on the body that it was solved on; its rates are those of all the time it is known."""
 
-    wave: "Excitation | CycleWave"
+    wave: "Solution | CycleWave"
 
     def __init__(
-        self, wave: "Excitation | CycleWave", sheet: Sheet, places: Places | None = None
+        self, wave: "Solution | CycleWave", sheet: Sheet, places: Places | None = None
     ) -> None:
         super().__init__(wave, sheet, places)
         check_body(wave.body, wave.equation.start.depends_on_x, sheet)
@@ -96,14 +96,14 @@ class CycleWave(Shown):
 
     def __init__(
         self,
-        whole: "Excitation",
+        whole: "Solution",
         start: float,
         period: float,
         number: int,
         record: "Record | None" = None,
     ) -> None:
         self.whole, self.start, self._period, self.number = whole, start, period, number
-        self.record = whole.fine if record is None else record
+        self._record = whole._fine if record is None else record
 
     def _contents(self) -> Mapping[str, Any]:
         return {"whole": self.whole, "start": self.start, "period": self.period, "number": self.number}
@@ -131,15 +131,15 @@ class CycleWave(Shown):
     @property
     def coarser(self) -> "CycleWave":
         """The same time of the coarser solution."""
-        return CycleWave(self.whole, self.start, self._period, self.number, self.whole.pair.coarse)
+        return CycleWave(self.whole, self.start, self._period, self.number, self.whole._pair.coarse)
 
     def value(self, x: ArrayLike, y: ArrayLike, t: ArrayLike, length: float = 1.0) -> Array:
         """c; x, y, t broadcast. The body is known: `length` has no effect."""
-        return self.record.value(x, y, self.start + np.asarray(t))
+        return self._record.value(x, y, self.start + np.asarray(t))
 
     def rate(self, x: ArrayLike, y: ArrayLike, t: ArrayLike, length: float = 1.0) -> Array:
         """dc/dt likewise."""
-        return self.record.rate(x, y, self.start + np.asarray(t))
+        return self._record.rate(x, y, self.start + np.asarray(t))
 
     def on(self, sheet: Sheet, places: Places | None = None) -> ExcitationDrive:
         """The wave on a body within that rectangle."""

@@ -1,20 +1,15 @@
-"""The FitzHugh–Nagumo equation (eq. 12 of the paper), as plain data."""
+"""The FitzHugh–Nagumo equation (eq. 12 of the paper), and its solution on a body."""
 
-from dataclasses import dataclass, field, replace
-from typing import Any
+from dataclasses import dataclass
 
-import numpy as np
-from numpy.typing import NDArray
-
-from fem_check.excitable.starts import Pacing, RationalStart, Start
-from linear_theory.common import validation
-from linear_theory.common.shown import Value
-
-Array = NDArray[np.float64]
+from fem_check.excitable.excitation import Excitation
+from fem_check.excitable.kinetics import Equation
+from fem_check.excitable.methods import Method
+from fem_check.excitable.space import Body
 
 
 @dataclass(frozen=True)
-class FitzHughNagumo(Value):
+class FitzHughNagumo(Equation):
     """c_t = γ² ∇²c + c (1 - c)(c - ν) - w,  w_t = ε (c - κ w), with Neumann edges (eq. 12).
 
     threshold: ν, > 0 excitable, < -εκ about oscillatory; recovery_decay: κ; recovery_rate: ε, both
@@ -23,50 +18,20 @@ class FitzHughNagumo(Value):
 
     Raises ValueError for numbers that are not finite, rates below 0 and a length that is not positive.
 
-    >>> from fem_check.excitable import FitzHughNagumo
+    >>> from fem_check import FitzHughNagumo
     >>> from linear_theory import Sheet
     >>> equation = FitzHughNagumo(-0.1, 1e-4, 0.05, 0.02)
     >>> solution = equation.on(Sheet(), until=100.0, rtol=1e-3)
     >>> print(f"c from {solution.smallest:.2f} to {solution.largest:.2f}")
-    c from -0.48 to 0.77
+    c from -0.48 to 0.83
     """
 
-    threshold: float
-    recovery_decay: float
-    recovery_rate: float
-    diffusion_length: float
-    start: Start = field(default_factory=RationalStart)
-    pacing: Pacing | None = None
-
-    def __post_init__(self) -> None:
-        validation.real("threshold", self.threshold)
-        for name in ("recovery_decay", "recovery_rate"):
-            if validation.real(name, getattr(self, name)) < 0:
-                raise ValueError(f"{name} = {getattr(self, name):g}: must be >= 0")
-        validation.positive("diffusion_length", self.diffusion_length)
-        validation.instance("start", self.start, Start)  # type: ignore[type-abstract]
-        if self.pacing is not None:
-            validation.instance("pacing", self.pacing, Pacing)
-
-    def but(self, **changes: Any) -> "FitzHughNagumo":
-        """A copy with the given arguments replaced."""
-        return replace(self, **changes)
-
-    def reaction(self, c: Array, w: Array) -> tuple[Array, Array]:
-        """dc/dt without diffusion, and dw/dt."""
-        cubic = c * (1 - c) * (c - self.threshold)
-        return cubic - w, self.recovery_rate * (c - self.recovery_decay * w)
-
-    def slope(self, c: Array) -> Array:
-        """Derivative of the cubic with respect to c."""
-        return -3 * c**2 + 2 * (1 + self.threshold) * c - self.threshold
-
-    def on(self, body: Any, until: float, rtol: float = 1e-3, method: Any = None) -> Any:
+    def on(
+        self, body: Body, until: float, rtol: float = 1e-3, method: Method | None = None
+    ) -> Excitation:
         """The solution on a body from time 0 to `until`, see `Excitation`.
 
         body: a Sheet or an Outline; rtol: largest error of c, relative to the largest |c|; method:
         `Adaptive` by default, or `Euler`.
         """
-        from fem_check.excitable.excitation import Excitation  # which imports the equation
-
         return Excitation(self, body, until, rtol, method)

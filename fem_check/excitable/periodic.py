@@ -9,12 +9,12 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from fem_check.excitable.drives import check_body
-from fem_check.excitable.equation import FitzHughNagumo
-from fem_check.excitable.excitation import SHARE, Excitation
 from fem_check.excitable.expansion import smooth_wave
+from fem_check.excitable.kinetics import Equation
 from fem_check.excitable.methods import Method
 from fem_check.excitable.nodal import NodalWave
 from fem_check.excitable.orbit import ATTRACTS, Orbit, orbit
+from fem_check.excitable.solution import SHARE, Solution
 from fem_check.excitable.space import Body
 from fem_check.excitable.uncertainty import OrbitUncertainty
 from linear_theory.common.shown import Shown, number, with_error
@@ -56,30 +56,30 @@ class PeriodicExcitation(Shown):
 
     Raises NotConvergedError, when it is found, where there is no such orbit.
 
-    >>> from fem_check.excitable import preset
+    >>> from fem_check.excitable import excitable_preset
     >>> from linear_theory import Sheet, line_balance
-    >>> train = preset("pulse train").on(Sheet(), until=450.0, rtol=1e-2).periodic()
+    >>> train = excitable_preset("pulse train").on(Sheet(), until=450.0, rtol=1e-2).periodic()
     >>> print(train.period, train.attracts)
     150.0 True
     >>> speed = line_balance(train, alpha=0.1, length=1.0, rtol=0.05)
     >>> print(f"{speed.mean * train.period:.3f} lengths per pulse, converged {speed.converged}")
-    -0.036 lengths per pulse, converged True
+    -0.009 lengths per pulse, converged True
     """
 
-    equation: FitzHughNagumo
+    equation: Equation
     body: Body
     after: float
     rtol: float = 1e-3
     method: Method | None = None
 
     def __post_init__(self) -> None:
-        start = Excitation(self.equation, self.body, self.after, self.rtol, self.method)
+        start = Solution(self.equation, self.body, self.after, self.rtol, self.method)
         object.__setattr__(self, "after", start.until)
         object.__setattr__(self, "method", start.method)
         object.__setattr__(self, "_start", start)
 
     @classmethod
-    def of(cls, solution: Excitation) -> "PeriodicExcitation":
+    def of(cls, solution: Solution) -> "PeriodicExcitation":
         """The orbit that a solution approaches, without solving for that again."""
         found = cls(solution.equation, solution.body, solution.until, solution.rtol, solution.method)
         object.__setattr__(found, "_start", solution)
@@ -87,10 +87,10 @@ class PeriodicExcitation(Shown):
 
     @cached_property
     @one_blas_thread
-    def found(self) -> Found:
+    def _found(self) -> Found:
         """The orbit and its waves."""
-        solution: Excitation = self._start  # type: ignore[attr-defined]
-        pair, cycles = solution.pair, solution.cycles
+        solution: Solution = self._start  # type: ignore[attr-defined]
+        pair, cycles = solution._pair, solution.cycles
         fine, tolerance = pair.fine, RESIDUAL * self.rtol * solution.size
         start, level = float(fine.times[-1]), cycles.level
         first = orbit(fine.system, fine.states[-1], start, solution.period, level, tolerance)
@@ -104,17 +104,17 @@ class PeriodicExcitation(Shown):
     @property
     def period(self) -> float:
         """Units of time."""
-        return self.found.orbit.period
+        return self._found.orbit.period
 
     @property
     def period_error(self) -> float:
         """Its estimated error."""
-        return SHARE * abs(self.period - self.found.coarse.period)
+        return SHARE * abs(self.period - self._found.coarse.period)
 
     @property
     def multiplier(self) -> float:
         """Factor by which a small deviation grows over a period."""
-        return self.found.orbit.multiplier
+        return self._found.orbit.multiplier
 
     @property
     def attracts(self) -> bool:
@@ -124,19 +124,19 @@ class PeriodicExcitation(Shown):
     @cached_property
     def samples(self) -> Array:
         """c of the orbit and of the coarse one at PHASES times and all nodes, (2, PHASES, n)."""
-        x, y = self.found.orbit.system.space.nodes
+        x, y = self._found.orbit.system.space.nodes
         phases = np.arange(PHASES)[:, None] / PHASES
-        pair = self.found.wave, self.found.other
+        pair = self._found.wave, self._found.other
         return np.stack([wave.value(x, y, wave.period * phases) for wave in pair])
 
     @property
     def error(self) -> float:
         """Estimated error of c at the same phase, absolute."""
-        exact = self.found.orbit.states(PHASES)[:, : self.found.orbit.system.space.size]
-        x, y = self.found.orbit.system.space.nodes
-        times = self.found.orbit.start + self.period * np.arange(PHASES)[:, None] / PHASES
-        series = abs(self.found.wave.value(x, y, times) - exact).max()
-        missed = self.found.orbit.residual / max(abs(1 - self.multiplier), 1e-3)
+        exact = self._found.orbit.states(PHASES)[:, : self._found.orbit.system.space.size]
+        x, y = self._found.orbit.system.space.nodes
+        times = self._found.orbit.start + self.period * np.arange(PHASES)[:, None] / PHASES
+        series = abs(self._found.wave.value(x, y, times) - exact).max()
+        missed = self._found.orbit.residual / max(abs(1 - self.multiplier), 1e-3)
         return float(SHARE * abs(self.samples[0] - self.samples[1]).max() + series + missed)
 
     @property
@@ -163,20 +163,20 @@ class PeriodicExcitation(Shown):
     @property
     def uncertainty(self) -> OrbitUncertainty:
         """How far the true orbit may be."""
-        return OrbitUncertainty(self.found.wave, self.found.other, SHARE)
+        return OrbitUncertainty(self._found.wave, self._found.other, SHARE)
 
     def value(self, x: ArrayLike, y: ArrayLike, t: ArrayLike, length: float = 1.0) -> Array:
         """c; x, y, t broadcast. The body is known: `length` has no effect."""
-        return self.found.wave.value(x, y, t)
+        return self._found.wave.value(x, y, t)
 
     def rate(self, x: ArrayLike, y: ArrayLike, t: ArrayLike, length: float = 1.0) -> Array:
         """dc/dt likewise."""
-        return self.found.wave.rate(x, y, t)
+        return self._found.wave.rate(x, y, t)
 
     def on(self, sheet: Sheet, places: Places | None = None) -> Drive:
         """The wave on a body within that rectangle, which must be the one that it was solved on."""
         check_body(self.body, self.equation.start.depends_on_x, sheet)
-        wave = self.found.wave
+        wave = self._found.wave
         if isinstance(wave, NodalWave):
             return SampledDrive(wave, sheet, places)
         return PolynomialDrive(wave, sheet, places)
@@ -203,7 +203,7 @@ class PeriodicExcitation(Shown):
         return {name: getattr(self, name) for name in names}
 
     def _title(self) -> str:
-        if "found" not in self.__dict__:
+        if "_found" not in self.__dict__:
             return "PeriodicExcitation: not solved yet"
         kind = "uniform oscillation" if self.uniform else "wave"
         if not self.attracts:
@@ -212,7 +212,7 @@ class PeriodicExcitation(Shown):
 
     def _rows(self) -> Mapping[str, Any]:
         rows = dict(self._contents())
-        if "found" in self.__dict__:
+        if "_found" in self.__dict__:
             c = self.samples[0]
             met = "" if self.converged else ", rtol NOT met"
             rows["c"] = f"{number(float(c.min()))} ... {with_error(float(c.max()), self.error)}{met}"

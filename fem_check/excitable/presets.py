@@ -65,13 +65,13 @@ PRESETS = {
 """By name."""
 
 
-def preset(name: str) -> FitzHughNagumo:
-    """The equation of that name. Raises ValueError, with the names, for others.
+def excitable_preset(name: str) -> FitzHughNagumo:
+    """The equation "printed", "nu = -0.1", "nu = -0.05" or "pulse train", see `PRESETS`.
 
-    >>> from fem_check.excitable import PRESETS, preset
-    >>> print(preset("nu = -0.1").threshold)
+    Raises ValueError for other names.
+
+    >>> from fem_check import excitable_preset
+    >>> print(excitable_preset("nu = -0.1").threshold)
     -0.1
-    >>> print(*PRESETS, sep=" | ")
-    printed | nu = -0.1 | nu = -0.05 | pulse train
     """
     return PRESETS[choice("name", name, tuple(PRESETS))].equation

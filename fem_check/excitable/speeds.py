@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fem_check.excitable.drives import CycleWave
-from fem_check.excitable.excitation import SHARE, Excitation
+from fem_check.excitable.excitation import Excitation
+from fem_check.excitable.solution import SHARE
 from linear_theory.balance.crawl import Crawl, first_resolution
 from linear_theory.common import validation
 from linear_theory.common.progress import track
@@ -118,12 +119,12 @@ def speeds(
     Raises ValueError for a scene with another wave, for effects beyond the theory and for cycles that
     there are not.
 
-    >>> from fem_check.excitable import preset, speeds
+    >>> from fem_check import excitable_preset, speeds
     >>> from linear_theory import Scene, Sheet
-    >>> wave = preset("nu = -0.1").on(Sheet(), until=200.0, rtol=1e-2)
+    >>> wave = excitable_preset("nu = -0.1").on(Sheet(), until=200.0, rtol=1e-2)
     >>> found = speeds(Scene(Sheet(), wave, alpha=0.1, growth_law="linear"), body="line")
     >>> print((found.displacement * 1e3).round(1), found.settled)
-    [-2.1 -2.4 -2.5] False
+    [-14.9 -16.3 -15.1] False
     """
     wave, body = scene.wave, validation.choice("body", body, BODIES)
     if not isinstance(wave, Excitation):

@@ -8,7 +8,7 @@ import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
 
-from fem_check.excitable.equation import FitzHughNagumo
+from fem_check.excitable.kinetics import Equation
 from fem_check.excitable.space import Body, Space
 
 Array = NDArray[np.float64]
@@ -18,7 +18,7 @@ Array = NDArray[np.float64]
 class System:
     """States are c and w at all nodes, one after the other, (2 n,)."""
 
-    equation: FitzHughNagumo
+    equation: Equation
     body: Body
     space: Space
 
