@@ -3,7 +3,7 @@
 from fem_check.excitable.equation import FitzHughNagumo
 from fem_check.excitable.excitation import Excitation
 from fem_check.excitable.methods import Adaptive, Euler
-from fem_check.excitable.periodic import PeriodicExcitation
+from fem_check.excitable.periodic.wave import PeriodicExcitation
 from fem_check.excitable.presets import PRESETS, excitable_preset
 from fem_check.excitable.speeds import CycleSpeeds, speeds
 from fem_check.excitable.starts import BumpStart, CrossedStart, Pacing, RationalStart, UniformStart

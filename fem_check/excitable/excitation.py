@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from fem_check.excitable.periodic import PeriodicExcitation
+from fem_check.excitable.periodic.wave import PeriodicExcitation
 from fem_check.excitable.solution import Solution
 
 

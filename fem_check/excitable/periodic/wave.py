@@ -9,14 +9,14 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from fem_check.excitable.drives import check_body
-from fem_check.excitable.expansion import smooth_wave
 from fem_check.excitable.kinetics import Equation
 from fem_check.excitable.methods import Method
-from fem_check.excitable.nodal import NodalWave
-from fem_check.excitable.orbit import ATTRACTS, Orbit, orbit
+from fem_check.excitable.periodic.expansion import smooth_wave
+from fem_check.excitable.periodic.nodal import NodalWave
+from fem_check.excitable.periodic.orbit import ATTRACTS, Orbit, orbit
+from fem_check.excitable.periodic.uncertainty import OrbitUncertainty
 from fem_check.excitable.solution import SHARE, Solution
 from fem_check.excitable.space import Body
-from fem_check.excitable.uncertainty import OrbitUncertainty
 from linear_theory.common.shown import Shown, number, with_error
 from linear_theory.common.threads import one_blas_thread
 from linear_theory.identity import content_key

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from fem_check.excitable.nodal import NodalWave
+from fem_check.excitable.periodic.nodal import NodalWave
 from linear_theory.common.shown import Shown
 from linear_theory.wave.measured.polynomial import PolynomialWave
 from linear_theory.wave.protocol import Wave

@@ -5,8 +5,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from fem_check.excitable.nodal import NodalWave
-from fem_check.excitable.orbit import Orbit
+from fem_check.excitable.periodic.nodal import NodalWave
+from fem_check.excitable.periodic.orbit import Orbit
 from fem_check.excitable.space import Space
 from linear_theory.common.quadrature import gauss_legendre
 from linear_theory.sheet.rectangle import Sheet
