@@ -44,7 +44,7 @@ def train(numbers: Numbers, wavelength: float, c: Array, speed: float) -> tuple[
 
 def pulse_speed(threshold: float, decay: float, rate: float) -> float:
     """Of a single pulse with D = 1, from a train so long that pulses do not feel each other."""
-    wavelength, count = 400.0, 800
+    wavelength, count = 300.0, 480
     y = np.arange(count) * wavelength / count
     found = solve_pulse((threshold, decay, rate, 1.0), y, wavelength)
     return abs(found)
@@ -60,7 +60,7 @@ def solve_pulse(numbers: Numbers, y: Array, wavelength: float) -> float:
     waves = (2 * np.pi * np.fft.rfftfreq(count, step)) ** 2 * length**2
     dt = 0.05
     damp = 1 / (1 + dt * waves)
-    for _ in range(5000):  # semi-implicit Euler: good enough to start Newton
+    for _ in range(4000):  # semi-implicit Euler: good enough to start Newton
         c, w = (
             np.fft.irfft(damp * np.fft.rfft(c + dt * (c * (1 - c) * (c - threshold) - w)), count),
             w + dt * rate * (c - decay * w),

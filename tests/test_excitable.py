@@ -208,7 +208,7 @@ def random_equations(count: int) -> list[FitzHughNagumo]:
     return found
 
 
-@pytest.mark.parametrize(("rtol", "count"), [(1e-2, 10), (1e-3, 6)])
+@pytest.mark.parametrize(("rtol", "count"), [(1e-2, 10), (1e-3, 4)])
 def test_the_error_is_honest(rtol: float, count: int) -> None:
     """True error, at random places and times, against the estimate; and that meets its tolerance."""
     random = np.random.default_rng(5)
@@ -252,7 +252,7 @@ def test_against_a_literal_solution() -> None:
 
 def test_what_the_presets_say_of_themselves() -> None:
     """Periods, ranges and phase lags of the sentences."""
-    cycles = excitable_preset("nu = -0.1").on(SHEET, 300.0, 1e-2).cycles
+    cycles = excitable_preset("nu = -0.1").on(SHEET, 200.0, 3e-2).cycles
     assert cycles.period[-1] == pytest.approx(43, abs=0.5)
     assert (cycles.low[1], cycles.high[1]) == (
         pytest.approx(-0.48, abs=0.01),
@@ -276,7 +276,7 @@ def test_no_stimulus_is_missed_by_long_steps() -> None:
 
 
 def test_a_wave_that_does_not_repeat_is_refused_with_a_remedy() -> None:
-    wave = excitable_preset("nu = -0.1").on(SHEET, 200.0, 1e-2)
+    wave = excitable_preset("nu = -0.1").on(SHEET, 200.0, 5e-2)
     with pytest.raises(ValueError, match=r"not periodic.*take `speeds`"):
         crawl_speed(SHEET, wave, alpha=0.1)
     with pytest.raises(ValueError, match="was solved on a body of length 1"):

@@ -1,5 +1,7 @@
 """Speeds under excitable waves: cycle by cycle, and on periodic orbits."""
 
+from functools import cache
+
 import numpy as np
 import pytest
 from numpy.typing import NDArray
@@ -38,7 +40,12 @@ PACED = FitzHughNagumo(0.05, 0.5, 0.015, 0.05, UniformStart(), Pacing(110.0, rea
 
 @pytest.fixture(scope="module")
 def train() -> PeriodicExcitation:
-    return PACED.on(SHEET, 240.0, 1e-2).periodic()
+    return PACED.on(SHEET, 240.0, 3e-2).periodic()
+
+
+@cache
+def excited(name: str, rtol: float) -> Excitation:
+    return excitable_preset(name).on(SHEET, 170.0, rtol)
 
 
 def viscous_mean(wave: Excitation, alpha: float, start: float, period: float) -> float:
@@ -66,10 +73,9 @@ def test_viscous_speed_of_each_cycle_against_a_literal_balance(phase_wave: Excit
 @pytest.mark.parametrize("friction", ["coulomb", "viscous"])
 @pytest.mark.parametrize("name", ["nu = -0.1", "nu = -0.05"])
 def test_errors_of_cycles_are_honest(name: str, friction: str) -> None:
-    """They include that of the wave: against a wave and means that are ten times as accurate."""
+    """They include that of the wave: against a wave and means that are five times as accurate."""
     rough, good = (
-        speeds(scene(excitable_preset(name).on(SHEET, 200.0, rtol), friction), rtol=rtol, body="line")
-        for rtol in (1e-2, 1e-3)
+        speeds(scene(excited(name, rtol), friction), rtol=rtol, body="line") for rtol in (1e-2, 2e-3)
     )
     assert np.all(abs(rough.mean - good.mean) <= rough.error + good.error)
     assert np.all(rough.error <= 0.02 * abs(rough.mean).max())
@@ -79,7 +85,7 @@ def test_errors_of_cycles_are_honest(name: str, friction: str) -> None:
 
 def test_a_symmetric_wave_moves_nothing() -> None:
     equation = excitable_preset("nu = -0.1").but(start=RationalStart(origin=0.0))
-    found = speeds(scene(equation.on(SHEET, 200.0, 1e-2), "viscous"), body="line")
+    found = speeds(scene(equation.on(SHEET, 150.0, 3e-2), "viscous"), body="line")
     assert abs(found.displacement).max() < 1e-8
 
 
@@ -92,21 +98,21 @@ def test_a_narrow_sheet_is_near_the_line(phase_wave: Excitation) -> None:
 
 
 def test_the_pulse_train_settles_on_its_orbit(train: PeriodicExcitation) -> None:
-    wave = PACED.on(SHEET, 480.0, 1e-2)
-    cycles = speeds(scene(wave, "coulomb"), [-2, -1], body="line", rtol=5e-3)
-    orbit = line_balance(train, 0.1, length=1.0, rtol=5e-3)
+    wave = PACED.on(SHEET, 480.0, 3e-2)
+    cycles = speeds(scene(wave, "coulomb"), [-2, -1], body="line", rtol=2e-2)
+    orbit = line_balance(train, 0.1, length=1.0, rtol=2e-2)
     assert cycles.settled
     assert abs(cycles.mean[-1] - orbit.mean) <= cycles.error[-1] + orbit.error
     assert wave.repeats
 
 
 def test_the_error_of_an_orbit_is_honest(train: PeriodicExcitation) -> None:
-    finer = PACED.on(SHEET, 240.0, 2e-3).periodic()
+    finer = PACED.on(SHEET, 240.0, 6e-3).periodic()
     y, t = np.linspace(-0.5, 0.5, 60), np.linspace(0, 110, 80)[:, None]
     assert abs(train.value(0.0, y, t) - finer.value(0.0, y, t)).max() <= train.error + finer.error
     assert train.converged
     assert train.attracts
-    one, other = (line_balance(wave, 0.1, length=1.0, rtol=3e-3) for wave in (train, finer))
+    one, other = (line_balance(wave, 0.1, length=1.0, rtol=1e-2) for wave in (train, finer))
     assert abs(one.mean - other.mean) <= one.error + other.error
     assert one.wave_error > 0
 

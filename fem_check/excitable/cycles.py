@@ -9,7 +9,6 @@ from numpy.typing import NDArray
 
 from fem_check.excitable.record import Record
 from fem_check.excitable.space import Body
-from linear_theory.common.shown import number
 from linear_theory.common.tables import TIME, Column, Tabular
 
 Array = NDArray[np.float64]
@@ -62,12 +61,12 @@ class Cycles(Tabular):
         """Period or that there is none, phase gradient and drift of the last cycle."""
         if not self.count:
             return "no cycle, no period"
-        last = f"{number(float(self.period[-1]))}"
+        last = f"{self.period[-1]:.4g}"
         if self.count == 1:
             return f"one cycle of {last}; whether it repeats is not known"
-        drift = f"c changes by {100 * self.relative_drift[-1]:.2g} % from cycle to cycle"
+        drift = f"c drifts by {100 * self.relative_drift[-1]:.2g} % a cycle"
         start = f"period {last}" if repeats else f"not periodic, last cycle {last}"
-        return f"{start}; {drift}; {self.lag[-1] / length:.2g} cycles per length along y"
+        return f"{start}; {drift}; lag {self.lag[-1] / length:.2g} cycles per length"
 
     def _title(self) -> str:
         return f"Cycles: {self.count}"
