@@ -332,3 +332,14 @@ def test_a_scene_with_an_excitable_wave_is_data() -> None:
     again = Scene.from_dict(json.loads(json.dumps(scene.to_dict())))
     assert again == scene
     assert again.key() == scene.key()
+
+
+def test_crossed_start_winds_into_a_spiral() -> None:
+    """The phase of (c, dc/dt) turns once around the centre of a square sheet, four cycles on."""
+    square = Sheet(length=1.0, width=1.0)
+    wave = excitable_preset("nu = -0.1").but(start=CrossedStart()).on(square, 165.0, 5e-2)
+    for radius in (0.1, 0.3):
+        angle = np.linspace(0, 2 * np.pi, 200)
+        place = radius * np.cos(angle), radius * np.sin(angle), 165.0
+        phase = np.unwrap(np.arctan2(5 * wave.rate(*place), wave.value(*place) - 0.1))
+        assert abs(phase[-1] - phase[0]) == pytest.approx(2 * np.pi, abs=1e-6)
