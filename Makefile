@@ -47,6 +47,7 @@ figures: $(STAMP)
 	$(RUN) -m figures.draw.reach $(FIGURE_OUT)
 	$(RUN) -m figures.draw.cost $(FIGURE_OUT)
 	$(RUN) -m figures.draw.regimes $(FIGURE_OUT)
+	$(RUN) -m figures.draw.excitable $(FIGURE_OUT)
 	$(RUN) -m figures.draw.readme_movie $(FIGURE_OUT)
 
 test: $(STAMP)
@@ -79,6 +80,7 @@ tables: $(STAMP)
 	$(RUN) -m figures.measure.reach
 	$(RUN) -m figures.measure.regimes
 	$(RUN) -m figures.measure.turning
+	$(RUN) -m figures.measure.excitable
 	$(RUN) -m tests.hard_cases_page
 	$(RUN) -m paper.numbers.shell
 	$(RUN) -m paper.derive

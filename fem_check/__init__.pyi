@@ -4,6 +4,10 @@ Read by `lazy_loader` as it runs, and by type checkers.
 """
 
 from .choice.prediction import Prediction, predict
+from .excitable.equation import FitzHughNagumo
+from .excitable.excitation import Excitation
+from .excitable.presets import excitable_preset
+from .excitable.speeds import speeds
 from .mesh.outline import Outline
 from .output.paraview import write_paraview
 from .plane_stress.field import PlaneStressField, plane_stress_field
@@ -25,6 +29,8 @@ from .version import __version__
 __all__ = [
     "Bending",
     "DeadLoad",
+    "Excitation",
+    "FitzHughNagumo",
     "Friction",
     "Gravity",
     "Ground",
@@ -41,8 +47,10 @@ __all__ = [
     "__version__",
     "bilayer",
     "cycle_speed",
+    "excitable_preset",
     "plane_stress_field",
     "predict",
     "simulate",
+    "speeds",
     "write_paraview",
 ]

@@ -102,6 +102,25 @@ def potential():
     return model.potential(model.rest(0.1))
 
 
+@cache
+def excited():
+    """A wave of two cycles."""
+    found = fem_check.excitable_preset("nu = -0.1").on(SHEET, 150.0, 5e-2)
+    assert found.cycles.count == 2
+    return found
+
+
+def excited_scene():
+    return linear_theory.Scene(SHEET, excited(), alpha=0.1)
+
+
+@cache
+def excited_orbit():
+    orbit = excited().periodic()
+    assert orbit.uniform
+    return orbit
+
+
 MADE = {
     "AiryAmplitudes": lambda: field("AirySeries").amplitudes([0.1, 0.3]),
     "AirySeries": lambda: field("AirySeries"),
@@ -117,6 +136,9 @@ MADE = {
     "CrawlSpeed": lambda: linear_theory.crawl_speed(SHEET, SINE, alpha=0.25, rtol=1e-2),
     "CrawlSpeed at rest": lambda: linear_theory.crawl_speed(SHEET, SINE, alpha=0.0),
     "CrawlSpeed turning": turning,
+    "CycleSpeeds": lambda: fem_check.speeds(excited_scene(), body="line"),
+    "CycleWave": lambda: excited().cycle(0),
+    "Cycles": lambda: excited().cycles,
     "Cycle": lambda: Cycle(planar()),
     "Cylinder": lambda: Cylinder(0.5),
     "DeadLoad": lambda: fem_check.DeadLoad((0.0, 1.0)),
@@ -125,9 +147,15 @@ MADE = {
     "Equilibrium": lambda: Equilibrium(np.zeros(8), 1.0, 3, 1e-9, 0.1),
     "Equilibrium buckled": lambda: Equilibrium(np.zeros(8), 1.0, 3, 1e-9, 0.1, -0.1, np.ones(8)),
     "Estimate": lambda: linear_theory.Estimate(0.1, 0.01),
+    "Excitation": excited,
+    "Excitation not solved": lambda: fem_check.Excitation(
+        fem_check.excitable_preset("printed"), SHEET, 60.0
+    ),
+    "ExcitationDrive": lambda: excited().on(SHEET),
     "Exp": linear_theory.Exp,
     "FieldWave": lambda: linear_theory.FieldWave(lambda x, y, t: np.sin(y - t), 1.0, name="a & <b>"),
     "FieldDrive": lambda: linear_theory.FieldWave(lopsided, period=1.0).on(SHEET),
+    "FitzHughNagumo": lambda: fem_check.excitable_preset("pulse train"),
     "FitUncertainty": lambda: measured().uncertainty,
     "Flat": Flat,
     "Friction": lambda: fem_check.Friction(0.7, 0.01),
@@ -148,6 +176,8 @@ MADE = {
         [[0, 0], [1, 0], [0, 1]], [[[0.1, 0.1], [0.2, 0.1], [0.1, 0.2]]]
     ),
     "Path": lambda: linear_theory.rigid_path(turning(), periods=20),
+    "PeriodicExcitation": excited_orbit,
+    "OrbitUncertainty": lambda: excited_orbit().uncertainty,
     "PlaneStressField": lambda: field("PlaneStressField"),
     "PolynomialDrive": lambda: measured().on(SHEET),
     "PolynomialWave": lambda: measured().smooth,

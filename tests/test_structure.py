@@ -22,7 +22,7 @@ LAYERS = (
     *(f"linear_theory.{part}" for part in ("friction", "motion", "deformation", "scene")),
     *(f"linear_theory.{part}" for part in ("balance", "speed", "line")),
     "linear_theory",
-    *(f"fem_check.{part}" for part in ("version", "scene", "mesh", "plane_stress")),
+    *(f"fem_check.{part}" for part in ("version", "scene", "mesh", "plane_stress", "excitable")),
     *(f"fem_check.shell.{part}" for part in ("material", "kinematics", "effects", "statics")),
     *(f"fem_check.shell.{part}" for part in ("model", "depth", "abilities", "cycle", "stepping")),
     *(

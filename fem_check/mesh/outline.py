@@ -73,6 +73,11 @@ class Outline(Shown):
         )
         return cls([[-a, -c], [a, -c], [b, c], [-b, c]])
 
+    @classmethod
+    def from_data(cls, corners: Any, holes: Any = (), **_: Any) -> "Outline":
+        """The outline of what `to_dict` has written; its size follows from the corners."""
+        return cls(corners, holes)
+
     def _title(self) -> str:
         return f"Outline: {len(self.corners)} corners, {len(self.holes)} holes"
 

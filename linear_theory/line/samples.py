@@ -126,6 +126,13 @@ def coarse_mean(drive: Drive, alpha: float, law: FrictionLaw, growth: Piece, tim
     return float(_snapshots(drive, alpha, law, growth, times, cells).velocity.mean())
 
 
+def speeds_at(
+    drive: Drive, alpha: float, law: FrictionLaw, growth: Piece, times: Array, cells: int
+) -> Array:
+    """Speeds at given times, also of a wave that does not repeat, the length of the body being 1."""
+    return _snapshots(drive, alpha, law, growth, times, cells).velocity
+
+
 def _first_cells(drive: Drive, rtol: float) -> int:
     """A power of two, enough for all but rtol of the wave where that is known: pi to a short wave."""
     degree = drive.degree_along(rtol)

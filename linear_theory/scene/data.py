@@ -36,6 +36,9 @@ KINDS: dict[str, type] = {
 EFFECTS = "fem_check.shell.effects"
 """Module of the effects, imported by name if a scene has any."""
 
+EXCITABLE = "fem_check.excitable"
+"""Module of waves that solve an equation, imported by name if no other knows the class."""
+
 COMPUTED: dict[type, float] = {SampledWave: 1e-6}
 """Relative difference allowed to numbers that a class computes anew when it is read. Their last digits
 depend on the machine."""
@@ -70,7 +73,7 @@ def part_of(value: Any, where: str) -> Any:
     if not isinstance(value, Mapping):
         return value
     kind = _kind_of(value, where)
-    if is_dataclass(kind):
+    if is_dataclass(kind) and not hasattr(kind, "from_data"):
         known = [f.name for f in fields(kind) if f.init and f.compare]
         check_keys(value, ("type", *known), where, f"a {kind.__name__}")
     arguments = {key: part_of(v, f"{where}.{key}") for key, v in value.items() if key != "type"}
@@ -85,13 +88,22 @@ def _kind_of(value: Mapping[str, Any], where: str) -> type:
     if not isinstance(name, str):
         shown = validation.shown(dict(value))
         raise ValueError(f"{where} = {shown}: must have the key 'type', the name of its class")
-    kind = KINDS.get(name) or getattr(import_module(EFFECTS), name, None)
-    if isinstance(kind, type):
+    kind = KINDS.get(name) or _elsewhere(name)
+    if kind is not None:
         return kind
-    known = [*KINDS, *import_module(EFFECTS).__all__]
+    known = [*KINDS, *import_module(EFFECTS).__all__, *import_module(EXCITABLE).__all__]
     close = difflib.get_close_matches(name, known, n=1, cutoff=MISSPELT)
     hint = f", unless {close[0]!r} is meant" if close else ""
     raise NotRestorable(f"{where}: a {name} cannot be restored from data{hint}")
+
+
+def _elsewhere(name: str) -> type | None:
+    """A class of that public name among the effects or the excitable waves."""
+    for module in map(import_module, (EFFECTS, EXCITABLE)):
+        kind = getattr(module, name, None) if name in module.__all__ else None
+        if isinstance(kind, type):
+            return kind
+    return None
 
 
 def _made(kind: type, arguments: Mapping[str, Any], where: str) -> Any:

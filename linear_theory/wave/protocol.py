@@ -154,6 +154,13 @@ class Drive(Shown, ABC):
     def check_period(self) -> None:
         """Raise ValueError if c does not repeat after its period."""
 
+    def check_until(self, end: float) -> None:
+        """Raise ValueError unless c is known from t = 0 to `end`, for solvers that follow it in time.
+
+        A wave that repeats is; one that need not repeat says how far it is known.
+        """
+        self.check_period()
+
     def check(self) -> None:
         """Raise ValueError if c does not repeat after its period or `rate` is not its derivative."""
         self.check_period()

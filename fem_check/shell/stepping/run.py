@@ -85,7 +85,7 @@ class Run:
     def __init__(self, scene: Scene, settings: Settings) -> None:
         self.scene, self.settings, period = scene, settings, scene.period
         self.model = ShellModel(scene)
-        scene.drive.check_period()
+        scene.drive.check_until(period * (settings.ramp + settings.periods))
         self.size = step_size(period, settings.rtol, settings.steps, scene.drive.rates)
         self.size.scale = abs(scene.alpha) * scene.sheet.length / period
         self.start = settings.ramp * period

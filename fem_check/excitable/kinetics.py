@@ -1,0 +1,48 @@
+"""Reaction and diffusion of the FitzHugh–Nagumo equation (eq. 12 of the paper), as plain data."""
+
+from dataclasses import dataclass, field, replace
+from typing import Any, Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fem_check.excitable.starts import Pacing, RationalStart, Start
+from linear_theory.common import validation
+from linear_theory.common.shown import Value
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Equation(Value):
+    """c_t = γ² ∇²c + c (1 - c)(c - ν) - w,  w_t = ε (c - κ w): see `FitzHughNagumo`."""
+
+    threshold: float
+    recovery_decay: float
+    recovery_rate: float
+    diffusion_length: float
+    start: Start = field(default_factory=RationalStart)
+    pacing: Pacing | None = None
+
+    def __post_init__(self) -> None:
+        validation.real("threshold", self.threshold)
+        for name in ("recovery_decay", "recovery_rate"):
+            if validation.real(name, getattr(self, name)) < 0:
+                raise ValueError(f"{name} = {getattr(self, name):g}: must be >= 0")
+        validation.positive("diffusion_length", self.diffusion_length)
+        validation.instance("start", self.start, Start)  # type: ignore[type-abstract]
+        if self.pacing is not None:
+            validation.instance("pacing", self.pacing, Pacing)
+
+    def but(self, **changes: Any) -> Self:
+        """A copy with the given arguments replaced."""
+        return replace(self, **changes)
+
+    def reaction(self, c: Array, w: Array) -> tuple[Array, Array]:
+        """dc/dt without diffusion, and dw/dt."""
+        cubic = c * (1 - c) * (c - self.threshold)
+        return cubic - w, self.recovery_rate * (c - self.recovery_decay * w)
+
+    def slope(self, c: Array) -> Array:
+        """Derivative of the cubic with respect to c."""
+        return -3 * c**2 + 2 * (1 + self.threshold) * c - self.threshold

@@ -1,0 +1,1 @@
+"""Periodic orbits of excitable waves, and the waves that levels take."""
