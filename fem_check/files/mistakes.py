@@ -35,10 +35,11 @@ class SceneFileError(SheetcrawlError, ValueError):
 
 
 class Mistakes:
-    """Collects them while a file is read."""
+    """Collects them while a file is read. inside: the table that holds the scene, if any."""
 
-    def __init__(self) -> None:
+    def __init__(self, inside: Place = ()) -> None:
         self._found: list[tuple[Place, str, str]] = []
+        self._inside = inside
 
     def __bool__(self) -> bool:
         return bool(self._found)
@@ -65,7 +66,11 @@ class Mistakes:
 
     def error(self, path: Path, text: str) -> SceneFileError:
         """All mistakes of a file with that text, in its order."""
-        lines = [(line_of(text, place), f"{table}{words}") for place, table, words in self._found]
+        inside = "".join(f"{name}." for name in self._inside)
+        lines = [
+            (line_of(text, (*self._inside, *place)), re.sub(r"^\[", f"[{inside}", f"{table}{words}"))
+            for place, table, words in self._found
+        ]
         lines.sort(key=lambda found: found[0])
         told = (f"{path}{f':{number}' if number else ''}: {words}" for number, words in lines)
         return SceneFileError("\n".join(told))
