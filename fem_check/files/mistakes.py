@@ -64,6 +64,11 @@ class Mistakes:
             place: Place = (table, *error["loc"])
             self.add(place, f"{_key(place)}{_words(error, keys_at(kind, error['loc'][:-1]))}")
 
+    @property
+    def found(self) -> list[tuple[Place, str]]:
+        """The place of each, and what is wrong there, with the name of the table."""
+        return [(place, f"{table}{words}") for place, table, words in self._found]
+
     def error(self, path: Path, text: str) -> SceneFileError:
         """All mistakes of a file with that text, in its order."""
         inside = "".join(f"{name}." for name in self._inside)
