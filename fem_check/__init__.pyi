@@ -20,6 +20,7 @@ from .shell.effects.terrain import Terrain
 from .shell.material import Material
 from .shell.stepping.simulation import simulate
 from .shell.stepping.trajectory import Trajectory
+from .sweeps.running import sweep
 from .version import __version__
 
 __all__ = [
@@ -44,5 +45,6 @@ __all__ = [
     "plane_stress_field",
     "predict",
     "simulate",
+    "sweep",
     "write_paraview",
 ]

@@ -1,8 +1,8 @@
 """What `fem_check.sweeps` offers: read by `lazy_loader` as it runs, and by type checkers."""
 
 from .axes import Between
-from .designs import Grid, LatinHypercube, Paired, Random
 from .cost import expected
+from .designs import Grid, LatinHypercube, Paired, Random
 from .plan import Plan
 from .result import Sweep, kept
 from .running import run, sweep

@@ -49,7 +49,9 @@ class Between(Value):
         low, high = (_measured(end) for end in (self.low, self.high))
         if low is None or high is None:
             end = self.low if low is None else self.high
-            raise ValueError(f"{validation.shown(end)}: must be a finite number, with or without a unit")
+            raise ValueError(
+                f"{validation.shown(end)}: must be a finite number, with or without a unit"
+            )
         unit = low.unit
         ends = (low.number, _in_unit(high, unit))
         if not ends[0] < ends[1]:
@@ -96,10 +98,12 @@ class Listed(Axis):
 
     @property
     def unit(self) -> str:
+        """Of the first value."""
         return _unit_name(self._parts[0])
 
     @property
     def size(self) -> int:
+        """All are."""
         return len(self.given)
 
     @cached_property
@@ -107,12 +111,14 @@ class Listed(Axis):
         return [_measured(value) if isinstance(value, str) else None for value in self.given]
 
     def values(self) -> list[Any]:
+        """As they are given."""
         first = self._parts[0]
         if first is None or first.unit is None:
             return list(self.given)
         return [_in_unit(part, first.unit) for part in self._parts if part is not None]
 
     def at(self, shares: NDArray[np.float64]) -> list[Any]:
+        """Each as likely as the others."""
         values = self.values()
         return [values[min(int(share * len(values)), len(values) - 1)] for share in shares]
 
@@ -128,13 +134,16 @@ class Range(Axis):
 
     @property
     def unit(self) -> str:
+        """Of both ends."""
         return "" if self.pint_unit is None else f"{self.pint_unit:~P}"
 
     @property
     def size(self) -> int | None:
+        """Where it is given."""
         return self.said_as.count
 
     def values(self) -> list[Any]:
+        """With both ends."""
         assert self.size is not None
         found = self._numbers(np.linspace(0.0, 1.0, self.size))
         if self.said_as.spacing == "log":
@@ -144,6 +153,7 @@ class Range(Axis):
         return self._plain(found)
 
     def at(self, shares: NDArray[np.float64]) -> list[Any]:
+        """Between the ends."""
         if self._whole:  # each number as likely as the others
             low, high = self.ends
             found = low + np.minimum(np.floor(shares * (high - low + 1)), high - low)

@@ -1,10 +1,10 @@
-"""A sweep answered by the workers of a Dask cluster: one on this computer, or one that runs elsewhere."""
+"""A sweep answered by the workers of a Dask cluster, on this computer or elsewhere."""
 
 import logging
 import queue
 import time
 import uuid
-from collections.abc import Iterator
+from collections.abc import Generator, Iterator
 from contextlib import ExitStack, contextmanager
 from typing import Any
 
@@ -96,7 +96,7 @@ def _client(distributed: Any, scheduler: Any) -> Iterator[Any]:
 
 def records(
     client: Any, tasks: Iterator[Task], answering: Answering = record_of
-) -> Iterator[Record | None]:
+) -> Generator[Record | None]:
     """As they arrive, in any order; None where a while has passed without one.
 
     Raises LostScheduler and WrongWorkers.
@@ -181,9 +181,7 @@ class _Flight:
                 "process"
             )
         deaths = "its worker has died each time it was tried (out of memory, or ended from outside)"
-        return Record(
-            task.key, State.FAILED, deaths, **circumstances(task.question, "")
-        )
+        return Record(task.key, State.FAILED, deaths, **circumstances(task.question, ""))
 
     def _lost(self) -> str:
         return "the scheduler is lost"

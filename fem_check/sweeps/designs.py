@@ -41,12 +41,14 @@ class Grid(Design):
     """
 
     def size(self, axes: Sequence[Axis]) -> int:
+        """The product of all."""
         for axis in axes:
             if axis.size is None:
                 raise ValueError(f"over: {axis.path}: must have a count, or be a list, on a grid")
         return _bounded(math.prod(axis.size or 0 for axis in axes))
 
     def points(self, axes: Sequence[Axis]) -> Iterator[tuple[Any, ...]]:
+        """The last changes fastest."""
         return itertools.product(*(axis.values() for axis in axes))
 
 
@@ -55,6 +57,7 @@ class Paired(Design):
     """The first values of all fields, then the second ones, and so on: lists of the same length."""
 
     def size(self, axes: Sequence[Axis]) -> int:
+        """That of each."""
         sizes = {axis.path: axis.size for axis in axes}
         if None in sizes.values() or len(set(sizes.values())) > 1:
             said = ", ".join(f"{path} has {size or 'no count'}" for path, size in sizes.items())
@@ -62,6 +65,7 @@ class Paired(Design):
         return _bounded(axes[0].size or 0)
 
     def points(self, axes: Sequence[Axis]) -> Iterator[tuple[Any, ...]]:
+        """Side by side."""
         return zip(*(axis.values() for axis in axes), strict=True)
 
 
@@ -76,9 +80,11 @@ class Random(Design):
         _check(self.count, self.seed)
 
     def size(self, axes: Sequence[Axis]) -> int:
+        """As it is given."""
         return self.count
 
     def points(self, axes: Sequence[Axis]) -> Iterator[tuple[Any, ...]]:
+        """From the seed."""
         shares = np.random.default_rng(self.seed).random((self.count, len(axes)))
         return _at(axes, shares)
 
@@ -102,9 +108,11 @@ class LatinHypercube(Design):
         _check(self.count, self.seed)
 
     def size(self, axes: Sequence[Axis]) -> int:
+        """As it is given."""
         return self.count
 
     def points(self, axes: Sequence[Axis]) -> Iterator[tuple[Any, ...]]:
+        """From the seed."""
         from scipy.stats import qmc  # half a second, for those who need it
 
         return _at(axes, qmc.LatinHypercube(len(axes), seed=self.seed).random(self.count))

@@ -28,13 +28,13 @@ QUANTITIES = (*NUMBERS, "converged", *TIMES, *WORDS)
 def write(sweep: "Sweep", path: Path) -> Path:
     """See `Sweep.export`."""
     target = writable(path, SUFFIXES)
+    require(target)
     suffix = target.suffix.lower()
     if suffix == ".csv":
         with replacing(target) as part:
             _write_csv(sweep, part)
         return target
     if suffix == ".parquet":
-        optional("pyarrow", "sweep", "a table as .parquet")
         table = frame(sweep)
         table.attrs = {}  # pandas' writer keeps only what JSON holds
         with replacing(target) as part:
@@ -44,6 +44,13 @@ def write(sweep: "Sweep", path: Path) -> Path:
     with replacing(target) as part:
         data.to_netcdf(part, engine="scipy", format="NETCDF3_64BIT")
     return target
+
+
+def require(path: Path) -> None:
+    """Raise ModuleNotFoundError, with what to install, without what writes that kind of file."""
+    needed = {".nc": ("xarray",), ".parquet": ("pandas", "pyarrow")}
+    for package in needed.get(path.suffix.lower(), ()):
+        optional(package, "sweep", f"a sweep as {path.suffix.lower()}")
 
 
 def names(sweep: "Sweep") -> dict[str, str]:
@@ -86,7 +93,8 @@ def dataset(sweep: "Sweep") -> Any:
     dims = tuple(map(_plain, paths)) if grid else ("scene",)
     shape = tuple(map(len, grid.values())) if grid else (len(table),)
     coordinates: dict[str, Any] = {
-        _plain(path): ((_plain(path),), _array(values), _about(path, units)) for path, values in grid.items()
+        _plain(path): ((_plain(path),), _array(values), _about(path, units))
+        for path, values in grid.items()
     }
     if not grid:
         coordinates |= {

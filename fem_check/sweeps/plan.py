@@ -24,6 +24,9 @@ from linear_theory.scene.scene import Scene
 LIMIT = 600.0
 """Seconds to a scene, unless it is given."""
 
+DESIGNS: Any = Design
+"""What a design must be, checked where a call may have given anything."""
+
 THEORIES = tuple(level for level in LEVELS if level not in WAYS)
 """Levels of `predict` that may be asked for by name, beside the ways to answer any scene."""
 
@@ -99,7 +102,10 @@ class Plan(Shown):
 
 @dataclass(frozen=True, eq=False)
 class Varied(Plan):
-    """One scene with other values in some of its fields. level: of ANSWERS, None for that of the scene."""
+    """One scene with other values in some of its fields.
+
+    level: of ANSWERS, None for that of the scene file.
+    """
 
     base: Variation
     axes: tuple[Axis, ...]
@@ -114,16 +120,20 @@ class Varied(Plan):
 
     @property
     def size(self) -> int:
+        """By its design."""
         return self.design.size(self.axes)
 
     @property
     def units(self) -> Units | None:
+        """Of the scene."""
         return self.base.units
 
     def points(self) -> Iterator[tuple[Any, ...]]:
+        """Of its design."""
         return self.design.points(self.axes)
 
     def question(self, point: Sequence[Any]) -> Question:
+        """The scene with the values of a point."""
         found, mistakes = self.base.scene_of(
             {axis.path: axis.said(value) for axis, value in zip(self.axes, point, strict=True)}
         )
@@ -133,9 +143,11 @@ class Varied(Plan):
         return _checked(Question(found.scene, settings))
 
     def told(self, place: Place, words: str) -> str:
+        """With file and line."""
         return self.base.told(place, words)
 
     def definition(self) -> dict[str, Any]:
+        """Scene, fields, design and level."""
         axes = [{"path": a.path, "unit": a.unit, **_said(a)} for a in self.axes]
         design = self.design.to_dict()
         return {**self.base.definition(), "over": axes, "design": design, "level": self.level}
@@ -158,15 +170,19 @@ class Given(Plan):
 
     @property
     def size(self) -> int:
+        """As they are given."""
         return len(self.scenes)
 
     def points(self) -> Iterator[tuple[Any, ...]]:
+        """Their numbers."""
         return ((place,) for place in range(self.size))
 
     def question(self, point: Sequence[Any]) -> Question:
+        """The scene of a number."""
         return _checked(Question(self.scenes[point[0]], self.settings))
 
     def definition(self) -> dict[str, Any]:
+        """Their keys, and how they are answered."""
         keys = [scene.key() for scene in self.scenes]
         return {"scenes": keys, "settings": plain(self.settings)}
 
@@ -204,7 +220,9 @@ def plan_of(
     if isinstance(scene, Scene):
         if over is None:
             raise ValueError("over = None: must be given, as in {'growth.alpha': [0.1, 0.2]}")
-        design = validation.instance("design", design, Design)
+        if not isinstance(design, DESIGNS):
+            shown = validation.shown(design)
+            raise ValueError(f"design = {shown}: must be a Grid, Paired, Random or LatinHypercube")
         level = settings.level if settings.level in THEORIES else None
         told = settings if level is None else replace(settings, level="auto")
         return Varied(Variation.of(scene, told), axes_of(over), design, level, seconds)

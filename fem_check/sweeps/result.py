@@ -126,7 +126,7 @@ def _sweep(path: Path, row: dict[str, Any], counts: dict[str, int]) -> Sweep:
         row["size"],
         counts,
         tuple(AxisName(*axis) for axis in json.loads(row["axes"])),
-        None if units is None else Units(units["length"], units["time"]),
+        None if units is None else Units(*units),
         row["program"],
         json.loads(row["definition"]),
     )

@@ -2,9 +2,10 @@
 
 import contextlib
 import json
+import math
 import os
 import time
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -20,7 +21,6 @@ from fem_check.sweeps.store import Store, StoreError, writing
 from linear_theory.common import validation
 from linear_theory.common.errors import SheetcrawlError
 from linear_theory.common.progress import Progress, Report
-from linear_theory.common.shown import plain
 from linear_theory.common.version import current_version
 from linear_theory.scene.scene import Scene
 
@@ -155,7 +155,7 @@ def _begun(store: Store, plan: Plan, progress: Report | None) -> int:
         "size": plan.size,
         "definition": json.dumps(plan.definition()),
         "axes": json.dumps([[axis.path, axis.unit] for axis in plan.axes]),
-        "units": json.dumps(plain(plan.units)),
+        "units": json.dumps(plan.units and [plan.units.length, plan.units.time]),
         "program": current_version(),
         "begun": datetime.now(UTC).isoformat(timespec="seconds"),
     }
@@ -163,7 +163,7 @@ def _begun(store: Store, plan: Plan, progress: Report | None) -> int:
 
 
 def _checked(plan: Plan, progress: Report | None) -> Iterator[tuple[int, str, Sequence[Any]]]:
-    """Place, key and point of all scenes. Raises RefusedScenes, after the last, where some cannot be."""
+    """Place, key and point of all scenes. Raises RefusedScenes, after the last, for some."""
     reasons: dict[str, int] = {}
     tell = _Telling(progress)
     for place, point in enumerate(plan.points()):
@@ -192,7 +192,7 @@ def _answer(store: Store, number: int, plan: Plan, tally: "_Tally", means: Means
         return
     tasks = (_task(plan, key, point) for key, point in store.open_points(number))
     with contextlib.ExitStack() as held:
-        found: Iterator[Record | None]
+        found: Iterable[Record | None]
         if means.scheduler is None and min(means.workers, tally.open) == 1:
             found = here.records(tasks, means.answering)
         else:
@@ -244,14 +244,18 @@ class _Telling:
 
     def __init__(self, report: Report | None) -> None:
         self._report, self._start, self._last = report, time.perf_counter(), 0.0
+        self._first: tuple[float, int] | None = None
 
     def __call__(self, task: str, done: int, size: int, before: int = 0) -> None:
         now = time.perf_counter()
+        if self._first is None and done > before:
+            self._first = now, done  # what it takes workers to start is no measure of the rest
         if self._report is None or (now - self._last < TELL and done < size):
             return
-        self._last, spent = now, now - self._start
-        left = spent * (size - done) / (done - before) if done > before else float("nan")
-        self._report(Progress(task, done / size, spent, left))
+        self._last, left = now, math.nan
+        if self._first is not None and done > self._first[1]:
+            left = (now - self._first[0]) * (size - done) / (done - self._first[1])
+        self._report(Progress(task, done / size, now - self._start, left))
 
 
 class _Tally:
@@ -279,5 +283,3 @@ class _Tally:
     def words(self, path: Path) -> str:
         """What is kept."""
         return f"{self._done} of {self._size} records are kept in {path}, the rest follows by"
-
-

@@ -131,7 +131,7 @@ class Store:
                     yield key, json.loads(given)
 
     def counts(self, sweep: int) -> dict[str, int]:
-        """Scenes by state, those without a record as "open"; a scene that is there twice counts once."""
+        """Scenes by state, those without a record as "open"; one that is there twice counts once."""
         rows = self._db.execute(
             "SELECT COALESCE(state, 'open'), COUNT(*) FROM (SELECT DISTINCT record FROM points WHERE "
             "sweep = ?) LEFT JOIN records ON key = record GROUP BY 1",
@@ -149,8 +149,8 @@ class Store:
         """Every point in order with its record, None where there is none yet."""
         names = ", ".join(f"records.{name}" for name in COLUMNS)
         found = self._db.execute(
-            f"SELECT given, {names} FROM points LEFT JOIN records ON records.key = record WHERE sweep = ? "
-            "ORDER BY place",
+            f"SELECT given, {names} FROM points LEFT JOIN records ON records.key = record "
+            "WHERE sweep = ? ORDER BY place",
             (sweep,),
         )
         for given, *row in found:
@@ -159,8 +159,8 @@ class Store:
     def cost(self, sweep: int) -> tuple[int, float]:
         """How many scenes of a sweep have a cost, and their processor seconds."""
         row = self._one(
-            "SELECT COUNT(cpu_seconds), COALESCE(SUM(cpu_seconds), 0.0) FROM (SELECT DISTINCT record FROM "
-            "points WHERE sweep = ?) JOIN records ON key = record",
+            "SELECT COUNT(cpu_seconds), COALESCE(SUM(cpu_seconds), 0.0) FROM (SELECT DISTINCT record "
+            "FROM points WHERE sweep = ?) JOIN records ON key = record",
             sweep,
         )
         assert row is not None
@@ -211,7 +211,8 @@ def _opened(path: Path, name: str) -> sqlite3.Connection:
         db.execute("PRAGMA synchronous = NORMAL")
         if not db.execute("SELECT COUNT(*) FROM sqlite_master").fetchone()[0]:
             db.executescript(
-                f"BEGIN; PRAGMA application_id = {MARK}; PRAGMA user_version = {VERSION}; {SCHEMA} COMMIT;"
+                f"BEGIN; PRAGMA application_id = {MARK}; PRAGMA user_version = {VERSION};"
+                f"{SCHEMA} COMMIT;"
             )
         db.execute("BEGIN IMMEDIATE")
         db.execute("ROLLBACK")

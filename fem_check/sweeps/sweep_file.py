@@ -1,14 +1,14 @@
 """Sweep files: a scene, the fields that differ, and how they do, as TOML.
 
-    scene = "hydrogel.toml"            # or its tables here, [scene.sheet], [scene.wave], ...
+scene = "hydrogel.toml"            # or its tables here, [scene.sheet], [scene.wave], ...
 
-    [over]
-    growth.swelling = ["5 %", "10 %"]
-    sheet.width = { low = "10 mm", high = "40 mm", count = 4 }
+[over]
+growth.swelling = ["5 %", "10 %"]
+sheet.width = { low = "10 mm", high = "40 mm", count = 4 }
 
-    [sweep]                            # all of it may be left out
-    design = "grid"                    # "paired", "random" or "latin hypercube", with count and seed
-    time = "10 min"                    # to a scene
+[sweep]                            # all of it may be left out
+design = "grid"                    # "paired", "random" or "latin hypercube", with count and seed
+time = "10 min"                    # to a scene
 """
 
 from collections.abc import Iterator, Mapping
@@ -95,7 +95,9 @@ def parsed(text: str, path: Path) -> SweepFile:
     table = _sweep_table(data.get("sweep", {}), mistakes)
     axes = _axes(data.get("over"), mistakes)
     if "scene" not in data:
-        mistakes.add((), "scene: must be given, the name of a scene file or its tables, [scene.sheet] ...")
+        mistakes.add(
+            (), "scene: must be given, the name of a scene file or its tables, [scene.sheet] ..."
+        )
     if mistakes:
         raise mistakes.error(path, text)
     base = _base(data["scene"], text, path)

@@ -120,7 +120,7 @@ class Variation:
         return found
 
     def _in_unit_of_file(self, path: str, value: Any) -> Any:
-        """Length and period of the base name the units of all numbers, of the speeds, too: they stay."""
+        """Length and period of the base name the units of all numbers, speeds too: they stay."""
         if self.units is None or path not in UNIT_FIELDS or not isinstance(value, str):
             return value
         unit = getattr(self.units, UNIT_FIELDS[path])
