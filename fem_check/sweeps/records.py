@@ -5,6 +5,7 @@ import math
 from dataclasses import dataclass, fields
 from datetime import UTC, datetime
 from enum import StrEnum
+from functools import cache
 from typing import Any
 
 from fem_check.choice.prediction import Prediction
@@ -63,6 +64,12 @@ class Record(Shown):
 COLUMNS = tuple(field.name for field in fields(Record))
 
 
+@cache
+def program() -> str:
+    """The version of this program, read once."""
+    return current_version()
+
+
 def answer_of(found: Prediction) -> dict[str, Any]:
     """The fields of a record that an answer has."""
     speed = found.speed
@@ -87,7 +94,7 @@ def answer_of(found: Prediction) -> dict[str, Any]:
 def circumstances(question: Question, worker: str) -> dict[str, Any]:
     """The fields that every record has: who was asked what, and when that ended."""
     return {
-        "program": current_version(),
+        "program": program(),
         "worker": worker,
         "ended": datetime.now(UTC).isoformat(timespec="milliseconds"),
         "settings": json.dumps(plain(question.settings)),

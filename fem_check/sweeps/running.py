@@ -15,13 +15,12 @@ from fem_check.sweeps import cluster, here
 from fem_check.sweeps.answering import Answering, Task, record_of
 from fem_check.sweeps.designs import Design, Grid
 from fem_check.sweeps.plan import LIMIT, Plan, Refused, plan_of
-from fem_check.sweeps.records import Record, State
+from fem_check.sweeps.records import Record, State, program
 from fem_check.sweeps.result import Sweep, kept
 from fem_check.sweeps.store import Store, StoreError, writing
 from linear_theory.common import validation
 from linear_theory.common.errors import SheetcrawlError
 from linear_theory.common.progress import Progress, Report
-from linear_theory.common.version import current_version
 from linear_theory.scene.scene import Scene
 
 AGAIN = "the same call"
@@ -156,7 +155,7 @@ def _begun(store: Store, plan: Plan, progress: Report | None) -> int:
         "definition": json.dumps(plan.definition()),
         "axes": json.dumps([[axis.path, axis.unit] for axis in plan.axes]),
         "units": json.dumps(plan.units and [plan.units.length, plan.units.time]),
-        "program": current_version(),
+        "program": program(),
         "begun": datetime.now(UTC).isoformat(timespec="seconds"),
     }
     return store.begin(about, _checked(plan, progress))
@@ -222,9 +221,9 @@ def _task(plan: Plan, key: str, point: Sequence[Any]) -> Task:
 
 
 def _check_version(record: Record) -> None:
-    if record.program != current_version():
+    if record.program != program():
         raise cluster.WrongWorkers(
-            f"the worker {record.worker} has sheetcrawl {record.program}, this is {current_version()}"
+            f"the worker {record.worker} has sheetcrawl {record.program}, this is {program()}"
         )
 
 
