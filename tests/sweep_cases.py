@@ -2,6 +2,7 @@
 
 import os
 import time
+from dataclasses import replace
 from pathlib import Path
 
 from fem_check.files import RunSettings
@@ -50,6 +51,24 @@ def free(task: Task) -> Record:
         seconds=0.0,
         **circumstances(task.question, str(os.getpid())),
     )
+
+
+def deadly(task: Task) -> Record:
+    """One scene ends every worker that tries it; the others are free."""
+    scene = task.question.scene
+    if scene.alpha < 0.011 and scene.sheet.poisson == 0.5:
+        os._exit(1)
+    return free(task)
+
+
+def broken(task: Task) -> Record:
+    """What workers raise that lack the program."""
+    raise ModuleNotFoundError("No module named 'fem_check'")
+
+
+def old(task: Task) -> Record:
+    """What workers with another version of the program answer."""
+    return replace(free(task), program="0.0.1")
 
 
 def clean(path: Path) -> None:

@@ -1,11 +1,13 @@
 """A sweep answered by the workers of a Dask cluster, on this computer or elsewhere."""
 
+import asyncio
+import itertools
 import logging
 import queue
 import time
 import uuid
 from collections.abc import Generator, Iterator
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack, contextmanager, suppress
 from typing import Any
 
 from fem_check.sweeps.answering import Answering, Task, record_of
@@ -17,7 +19,7 @@ from linear_theory.common.extras import optional
 USE = "a sweep with several workers (with workers = 1 it needs nothing more)"
 
 PATIENCE = 10.0
-"""Seconds to wait for a scheduler to answer."""
+"""Seconds to wait for a scheduler to answer, and for a result that is said to be there."""
 
 LEAST, EACH = 32, 4
 """Tasks that wait at the workers: in all, and to each thread, so that none is idle."""
@@ -25,12 +27,18 @@ LEAST, EACH = 32, 4
 LOOK = 5.0
 """Seconds after which it is asked again how many workers there are."""
 
-DEATHS = 5
+SILENT = 10 * logging.CRITICAL
+"""Level of the logs of Dask: what goes wrong is told here, in a line."""
+
+DEATHS = 3
 """Workers that may die with a scene, before it counts as the scene's fault; of a local cluster."""
 
 
 class LostScheduler(SheetcrawlError):
     """The scheduler is gone, and with it the answers that were not yet here."""
+
+
+LOST = "the scheduler is lost"
 
 
 class WrongWorkers(SheetcrawlError):
@@ -57,41 +65,57 @@ def connected(workers: int, scheduler: Any = None) -> Iterator[Any]:
         held.enter_context(dask.config.set({"distributed.scheduler.allowed-failures": DEATHS}))
         if scheduler is None:
             scheduler = held.enter_context(_local(distributed, workers))
-        quiet.setLevel(logging.CRITICAL)  # what goes wrong is told below, in a line
+        quiet.setLevel(SILENT)
         yield held.enter_context(_client(distributed, scheduler))
 
 
 @contextmanager
 def _local(distributed: Any, workers: int) -> Iterator[Any]:
     """One thread to a worker: a scene keeps to one core."""
-    cluster = distributed.LocalCluster(
-        n_workers=workers,
-        threads_per_worker=1,
-        dashboard_address=None,
-        silence_logs=logging.CRITICAL,
-    )
+    try:
+        cluster = distributed.LocalCluster(
+            n_workers=workers,
+            threads_per_worker=1,
+            dashboard_address=":0",
+            silence_logs=SILENT,
+            preload="fem_check.sweeps.worker",
+        )
+    except (RuntimeError, OSError) as problem:
+        raise WrongWorkers(
+            f"the workers cannot start ({problem}); a script must begin its sweep under "
+            "`if __name__ == '__main__':`, since each worker imports the script"
+        ) from None
     try:
         yield cluster
     finally:
-        cluster.close(timeout=PATIENCE)
+        with suppress(TimeoutError):  # its processes end with this one at the latest
+            cluster.close(timeout=PATIENCE)
 
 
 @contextmanager
 def _client(distributed: Any, scheduler: Any) -> Iterator[Any]:
     try:
+        if isinstance(scheduler, str):
+            asyncio.run(_tried(distributed, scheduler))
         client = distributed.Client(scheduler, timeout=PATIENCE, set_as_default=False)
-    except (OSError, TimeoutError, ValueError) as problem:
-        shown = validation.shown(scheduler)
-        reason = str(problem).splitlines()[0] if isinstance(problem, ValueError) else ""
+    except Exception as problem:  # whatever answers at an address may be no scheduler at all
+        shown, reason = validation.shown(scheduler), " ".join(str(problem).split())
+        said = f" ({reason})" if isinstance(problem, ValueError) else ""
         raise ValueError(
-            f"scheduler = {shown}: no scheduler answers there within {PATIENCE:g} s"
-            + (f" ({reason})" if reason else "")
-            + "; its address is like tcp://10.0.0.1:8786, as `dask scheduler` prints it"
+            f"scheduler = {shown}: no scheduler answers there within {PATIENCE:g} s{said}; its address "
+            "is like tcp://10.0.0.1:8786, as `dask scheduler` prints it"
         ) from None
     try:
         yield client
     finally:
-        client.close(timeout=1.0)
+        with suppress(TimeoutError):
+            client.close(timeout=PATIENCE)
+
+
+async def _tried(distributed: Any, address: str) -> None:
+    """Raise what is wrong with an address; a client that fails there would not end for a while."""
+    comm = await distributed.comm.connect(address, timeout=PATIENCE)
+    await comm.close()
 
 
 def records(
@@ -102,13 +126,10 @@ def records(
     Raises LostScheduler and WrongWorkers.
     """
     flight = _Flight(client, answering)
-    try:
+    flight.fill(tasks)
+    while flight.tasks:
+        yield from flight.landed()
         flight.fill(tasks)
-        while flight.tasks:
-            yield from flight.landed()
-            flight.fill(tasks)
-    finally:
-        flight.cancel()
 
 
 class _Flight:
@@ -119,6 +140,7 @@ class _Flight:
         self._client, self._answering = client, answering
         self._futures: dict[str, Any] = {}
         self._done: queue.SimpleQueue[Any] = queue.SimpleQueue()
+        self._numbers = itertools.count()
         self._name = f"sheetcrawl-{uuid.uuid4().hex[:12]}"  # another sweep may ask the same scheduler
         self._looked, self._most = -LOOK, LEAST
 
@@ -131,10 +153,14 @@ class _Flight:
             task = next(tasks, None)
             if task is None:
                 return
-            name = f"{self._name}-{task.key}"
-            future = self._client.submit(self._answering, task, key=name, pure=False)
-            self.tasks[name], self._futures[name] = task, future
-            future.add_done_callback(self._done.put)
+            self._send(task)
+
+    def _send(self, task: Task) -> None:
+        """To some worker, under a name that no task had before."""
+        name = f"{self._name}-{next(self._numbers)}"
+        future = self._client.submit(self._answering, task, key=name, pure=False)
+        self.tasks[name], self._futures[name] = task, future
+        future.add_done_callback(self._done.put)
 
     def landed(self) -> Iterator[Record | None]:
         """Records of those that are done, after at most a second."""
@@ -142,30 +168,29 @@ class _Flight:
             done = [self._done.get(timeout=1.0)]
         except queue.Empty:
             if self._client.status != "running":
-                raise LostScheduler(self._lost()) from None
+                raise LostScheduler(LOST) from None
             yield None
             return
         while not self._done.empty():
             done.append(self._done.get())
-        if any(future.status in ("cancelled", "lost") for future in done):
-            raise LostScheduler(self._lost())
-        for future, found in zip(done, self._gathered(done), strict=True):
+        if any(future.status == "cancelled" for future in done):
+            raise LostScheduler(LOST)
+        for future in done:
+            found = self._result(future)
             task = self.tasks.pop(future.key)
             del self._futures[future.key]
-            yield found if isinstance(found, Record) else self._failed(task, found)
-
-    def _gathered(self, done: list[Any]) -> list[Any]:
-        """Their results, or the exceptions instead of which there is none."""
-        if all(future.status == "finished" for future in done):
-            try:
-                return list(self._client.gather(done))
-            except Exception:  # a worker has died with a result: one by one, it is found again
-                pass
-        return [self._result(future) for future in done]
+            if isinstance(found, TimeoutError):
+                self._send(task)
+            else:
+                yield found if isinstance(found, Record) else self._failed(task, found)
 
     def _result(self, future: Any) -> Any:
+        """What it holds, or the exception instead.
+
+        A worker that dies with a result takes it along; Dask may then wait for it without end.
+        """
         try:
-            return future.result()
+            return future.result(timeout=PATIENCE)
         except Exception as problem:
             return problem
 
@@ -173,7 +198,7 @@ class _Flight:
         """Of a scene with which workers die. Raises what else is wrong with the workers."""
         kind = type(problem).__name__
         if kind in ("CancelledError", "FutureCancelledError", "CommClosedError"):
-            raise LostScheduler(self._lost())
+            raise LostScheduler(LOST)
         if kind != "KilledWorker":
             words = " ".join(str(problem).split())
             raise WrongWorkers(
@@ -182,12 +207,3 @@ class _Flight:
             )
         deaths = "its worker has died each time it was tried (out of memory, or ended from outside)"
         return Record(task.key, State.FAILED, deaths, **circumstances(task.question, ""))
-
-    def _lost(self) -> str:
-        return "the scheduler is lost"
-
-    def cancel(self) -> None:
-        """Call off what is not done."""
-        if self._futures and self._client.status == "running":
-            self._client.cancel(list(self._futures.values()), force=True)
-        self._futures.clear()
