@@ -73,25 +73,31 @@ def _between(found: Sweep) -> float:
     return (ends[-1] - ends[0]).total_seconds() * len(ends) / (len(ends) - 1)
 
 
-def told(cost: dict[str, Any]) -> list[str]:
+def table(cost: dict[str, Any]) -> list[str]:
     """For the page."""
     scenes = cost["one"]["scenes"] / WORKING
-    return [
-        "| what | measured |",
-        "| --- | --- |",
-        f"| processor time of the client to a record, two workers | {1e3 * cost['overhead']:.1f} ms |",
-        f"| the same with `--workers 1`, without Dask | {1e3 * cost['overhead_alone']:.1f} ms |",
-        f"| start of two workers, processor time of the client | {cost['start']:.1f} s |",
-        f"| the file, to a record | {cost['bytes'] / 1e3:.1f} kB |",
-        f"| efficiency on two cores by the clock, scenes of {scenes:.2f} s | {cost['efficiency_clock']:.2f} |",
-        f"| the same by processor time | {cost['efficiency_processor']:.2f} |",
-        "",
-        "The client checks each scene, sends it, takes its record and writes it; with a cluster on this",
-        "computer the scheduler is part of that process. The first two rows are of scenes that cost",
-        f"nothing. Efficiency: {WORKING} scenes, the time from the first record to the last in one process",
-        "over twice that with two workers; by processor time, that of the scenes over that of scenes and",
-        f"client. Mean load of the machine by other work meanwhile: {cost['load']:.1f}.",
-    ]
+    rows = {
+        "what": "measured",
+        "---": "---",
+        "processor time of the client to a record, two workers": f"{1e3 * cost['overhead']:.1f} ms",
+        "the same with `--workers 1`, without Dask": f"{1e3 * cost['overhead_alone']:.1f} ms",
+        "start of two workers, processor time of the client": f"{cost['start']:.1f} s",
+        "the file, to a record": f"{cost['bytes'] / 1e3:.1f} kB",
+        f"efficiency on two cores by the clock, scenes of {scenes:.2f} s": f"{cost['efficiency_clock']:.2f}",
+        "the same by processor time": f"{cost['efficiency_processor']:.2f}",
+    }
+    return [f"| {name} | {value} |" for name, value in rows.items()]
+
+
+def words(cost: dict[str, Any]) -> str:
+    """What the table means."""
+    return (
+        "The client checks each scene, sends it, takes its record and writes it; with a cluster on this "
+        "computer the scheduler is part of that process. The first two rows are of scenes that cost "
+        f"nothing. Efficiency: {WORKING} scenes, the time from the first record to the last in one "
+        "process over twice that with two workers; by processor time, that of the scenes over that of "
+        f"scenes and client. Other work meanwhile kept {cost['load']:.1f} processes of the machine busy."
+    )
 
 
 if __name__ == "__main__":

@@ -10,6 +10,7 @@ write docs/sweeps.json (all numbers) and docs/sweeps.md, the page made from it.
 import json
 import sys
 import tempfile
+import textwrap
 from collections import Counter
 from dataclasses import asdict
 from pathlib import Path
@@ -56,30 +57,34 @@ def page(data: Numbers) -> str:
     fine = sum(one["fine"] for one in trials)
     lines = [
         "# Sweeps: kills and overhead",
-        "",
-        "Made by `python -m tests.sweeps_page` (`tests/sweep_kills.py`, `tests/sweep_cost.py`); how to use",
-        "sweeps: [Many scenes](howto/many_scenes.md).",
-        "",
-        "## Kills",
-        "",
-        f"A sweep of {data['scenes']} scenes was killed by SIGKILL at a random instant, {len(trials)} times,",
-        f"and then gone on with. Nothing lost, nothing twice and the same numbers: {fine} of",
-        f"{len(trials)}. A record counts as lost if it was in the file right after the kill and is missing",
-        "or different in the end; as twice if its scene was computed again although it was there. Scenes",
-        "that were at work when it happened have no record yet, and are computed again. After the death of",
-        "a worker the sweep goes on by itself; in the other cases the same command goes on.",
-        "",
-        *_table(trials),
-        "",
-        "Wrong: records whose speed or error differs in any bit from that of the scene alone. Left:",
-        "processes of the sweep that were there ten seconds after the kill. `PRAGMA integrity_check` is",
-        "part of each trial.",
-        "",
-        "## What a sweep costs beside its scenes",
-        "",
-        *sweep_cost.told(cost),
+        *_paragraph(
+            "Made by `python -m tests.sweeps_page` from `tests/sweep_kills.py` and `tests/sweep_cost.py`. "
+            "How to use sweeps: [Many scenes](howto/many_scenes.md)."
+        ),
+        *("", "## Kills"),
+        *_paragraph(
+            f"A sweep of {data['scenes']} scenes was killed by SIGKILL at a random instant, {len(trials)} "
+            "times, and then gone on with: after the death of a worker by itself, else by the same "
+            f"command. Nothing lost, nothing twice and the same numbers: {fine} of {len(trials)}."
+        ),
+        *("", *_table(trials)),
+        *_paragraph(
+            "Lost: records that were in the file right after the kill, and missing or different in the "
+            "end. Twice: scenes that were computed again although they had a record. Missing and wrong: "
+            "records that the finished sweep lacks, or whose speed or error differs in any bit from that "
+            "of the scene alone. Left: processes of the sweep that were there ten seconds after the "
+            "kill. Scenes that were at work when it happened have no record yet and are computed again. "
+            "SQLite's integrity check is part of each trial."
+        ),
+        *("", "## What a sweep costs beside its scenes"),
+        *("", *sweep_cost.table(cost)),
+        *_paragraph(sweep_cost.words(cost)),
     ]
     return "\n".join(lines) + "\n"
+
+
+def _paragraph(text: str) -> list[str]:
+    return ["", *textwrap.wrap(text, 110, break_long_words=False, break_on_hyphens=False)]
 
 
 def _table(trials: list[Numbers]) -> list[str]:

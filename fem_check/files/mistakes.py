@@ -48,6 +48,10 @@ class Mistakes:
         """A mistake at a place; words: what follows the name of the table."""
         self._found.append((place, _table(place), words))
 
+    def add_words(self, place: Place, words: str) -> None:
+        """A mistake at a place; words: all that is said of it."""
+        self._found.append((place, "", words))
+
     def add_raised(self, table: Place, words: str) -> None:
         """What was raised by the work on a table; the words may begin with one of its keys."""
         key = ARGUMENT.match(words)

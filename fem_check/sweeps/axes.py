@@ -189,13 +189,13 @@ def axis_of(path: object, given: Any) -> Axis:
             return given.on(name)
         if isinstance(given, str | int | float) or not isinstance(given, Sequence | np.ndarray):
             raise ValueError("must be a list of values, or a range")
-        values = tuple(plain(given.tolist() if isinstance(given, np.ndarray) else list(given)))
+        values = given.tolist() if isinstance(given, np.ndarray) else list(given)
         if not values:
             raise ValueError("is an empty list, must have a value")
         _check_alike(values)
     except ValueError as problem:
         raise ValueError(f"{name} = {validation.shown(_told(given))}: {problem}") from None
-    return Listed(name, values)
+    return Listed(name, tuple(plain(values)))
 
 
 def axes_of(over: Mapping[str, Any]) -> tuple[Axis, ...]:
@@ -218,7 +218,7 @@ def _told(given: Any) -> Any:
     return given.tolist() if isinstance(given, np.ndarray) else given
 
 
-def _check_alike(values: tuple[Any, ...]) -> None:
+def _check_alike(values: Sequence[Any]) -> None:
     """Raise ValueError unless all values or none are quantities with units of one dimension."""
     for value in values:
         if value is None or (isinstance(value, float) and not math.isfinite(value)):

@@ -223,6 +223,7 @@ def plan_of(
         if not isinstance(design, DESIGNS):
             shown = validation.shown(design)
             raise ValueError(f"design = {shown}: must be a Grid, Paired, Random or LatinHypercube")
+        validation.choice("level", settings.level, ANSWERS)
         level = settings.level if settings.level in THEORIES else None
         told = settings if level is None else replace(settings, level="auto")
         return Varied(Variation.of(scene, told), axes_of(over), design, level, seconds)

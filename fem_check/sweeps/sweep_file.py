@@ -166,14 +166,14 @@ def _axes(given: Any, mistakes: Mistakes) -> tuple[Axis, ...]:
         try:
             checked(path)
         except ValueError as problem:
-            mistakes.add(place, str(problem).replace(f"{path!r}: ", f"{path}: ", 1))
+            mistakes.add_words(place, f"[over] {str(problem).replace(f'{path!r}: ', f'{path}: ', 1)}")
             continue
         range_or_list = _between(value, path, mistakes) if isinstance(value, Mapping) else value
         if range_or_list is not None:
             try:
                 found.append(axis_of(path, range_or_list))
             except ValueError as problem:
-                mistakes.add(place, str(problem))
+                mistakes.add_words(place, f"[over] {problem}")
     return tuple(found)
 
 
@@ -190,6 +190,11 @@ def _between(given: Mapping[str, Any], path: str, mistakes: Mistakes) -> Between
     try:
         table = RangeTable.model_validate(given)
     except ValidationError as problem:
-        mistakes.add_refused(f"over.{path}", problem, RangeTable)
+        inner = Mistakes()
+        inner.add_refused(path, problem, RangeTable)
+        for _, words in inner.found:
+            mistakes.add_words(
+                ("over", *path.split(".")), words.replace(f"[{path}]", f"[over] {path}", 1)
+            )
         return None
     return Between(table.low, table.high, table.count, table.spacing)

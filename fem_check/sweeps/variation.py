@@ -44,7 +44,7 @@ class Variation:
         wave: Any = None,
         source: tuple[Path, str] | None = None,
     ) -> None:
-        mistakes = mistakes or Mistakes()
+        mistakes = Mistakes() if mistakes is None else mistakes
         self._data, self._path, self._made, self._source = data, path, Made(), source
         self._tables = tables_in(data, mistakes)
         self._given_wave = wave

@@ -47,7 +47,7 @@ def built(
 
     made: parts of earlier scenes, which are used again where their tables are the same objects.
     """
-    made = made or Made()
+    made = Made() if made is None else made
     system = system_of(tables, mistakes)
     if system is None:
         return None
