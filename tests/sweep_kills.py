@@ -9,7 +9,7 @@ import sqlite3
 import subprocess
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -80,14 +80,14 @@ def trial(kind: str, seed: int, folder: Path) -> Trial:
     file, log = folder / f"kill{seed}.sqlite", folder / f"kill{seed}.log"
     target = chance.randrange(1, len(truth()))  # so many records are there when it happens
     delay = chance.random() * 0.02
-    environment = {**os.environ, sweep_cases.LOG: str(log)}
-    with _cluster(environment) if kind == SCHEDULER else contextlib.nullcontext("") as address:
+    around = {**environment(), sweep_cases.LOG: str(log)}
+    with _cluster(around) if kind == SCHEDULER else contextlib.nullcontext("") as address:
         means = {CLIENT: "2", ALONE: "1", WORKER: "2"}.get(kind, address)
-        child = _start(file, means, environment)
+        child = _start(file, means, around)
         if kind in (CLIENT, ALONE) and chance.random() < EARLY:
             time.sleep(chance.random() * START)
         else:
-            _await(lambda: _count(file) >= target or child.poll() is not None)
+            wait_until(lambda: count(file) >= target or child.poll() is not None)
             time.sleep(delay)
         family = [p for p in psutil.Process(child.pid).children(recursive=True) if _is_worker(p)]
         _kill(kind, child, family, chance, address)
@@ -97,10 +97,10 @@ def trial(kind: str, seed: int, folder: Path) -> Trial:
         else:
             status = child.wait(PATIENCE)
             kept, computed = _records(file), _lines(log)
-    _await(lambda: not any(p.is_running() for p in family), 10.0)
+    wait_until(lambda: not any(p.is_running() for p in family), 10.0)
     left = sum(p.is_running() for p in family)
     if kind != WORKER:
-        assert _start(file, "1", environment).wait(PATIENCE) == 0
+        assert _start(file, "1", around).wait(PATIENCE) == 0
     return _judged(kind, seed, kept, computed, file, log, status, left)
 
 
@@ -198,15 +198,21 @@ def _is_worker(process: psutil.Process) -> bool:
     return False
 
 
-def _await(done: object, seconds: float = PATIENCE) -> None:
+def wait_until(done: Callable[[], bool], seconds: float = PATIENCE) -> None:
     """Until it is done, or so long."""
-    assert callable(done)
     end = time.monotonic() + seconds
     while not done() and time.monotonic() < end:
         time.sleep(0.002)
 
 
-def _count(file: Path) -> int:
+def environment() -> dict[str, str]:
+    """In which child processes find this project, wherever they run."""
+    root = str(Path(__file__).parents[1])
+    return {**os.environ, "PYTHONPATH": os.pathsep.join([root, os.environ.get("PYTHONPATH", "")])}
+
+
+def count(file: Path) -> int:
+    """Records in a file."""
     return len(_records(file))
 
 

@@ -58,23 +58,24 @@ def page(data: Numbers) -> str:
     lines = [
         "# Sweeps: kills and overhead",
         *_paragraph(
-            "Made by `python -m tests.sweeps_page` from `tests/sweep_kills.py` and `tests/sweep_cost.py`. "
-            "How to use sweeps: [Many scenes](howto/many_scenes.md)."
+            "Made by `python -m tests.sweeps_page` from `tests/sweep_kills.py` and "
+            "`tests/sweep_cost.py`. How to use sweeps: [Many scenes](howto/many_scenes.md)."
         ),
         *("", "## Kills"),
         *_paragraph(
-            f"A sweep of {data['scenes']} scenes was killed by SIGKILL at a random instant, {len(trials)} "
-            "times, and then gone on with: after the death of a worker by itself, else by the same "
-            f"command. Nothing lost, nothing twice and the same numbers: {fine} of {len(trials)}."
+            f"A sweep of {data['scenes']} scenes was killed by SIGKILL at a random instant, "
+            f"{len(trials)} times, and then gone on with: after the death of a worker by itself, else "
+            "by the same command. Nothing lost, nothing twice and the same numbers: "
+            f"{fine} of {len(trials)}."
         ),
         *("", *_table(trials)),
         *_paragraph(
             "Lost: records that were in the file right after the kill, and missing or different in the "
-            "end. Twice: scenes that were computed again although they had a record. Missing and wrong: "
-            "records that the finished sweep lacks, or whose speed or error differs in any bit from that "
-            "of the scene alone. Left: processes of the sweep that were there ten seconds after the "
-            "kill. Scenes that were at work when it happened have no record yet and are computed again. "
-            "SQLite's integrity check is part of each trial."
+            "end. Twice: scenes that were computed again although they had a record. Missing and "
+            "wrong: records that the finished sweep lacks, or whose speed or error differs in any bit "
+            "from that of the scene alone. Left: processes of the sweep that were there ten seconds "
+            "after the kill. Scenes that were at work when it happened have no record yet and are "
+            "computed again. SQLite's integrity check is part of each trial."
         ),
         *("", "## What a sweep costs beside its scenes"),
         *("", *sweep_cost.table(cost)),

@@ -188,6 +188,8 @@ def writing(path: Path) -> Iterator[Store]:
     name = f"file = {str(path)!r}"
     if path.is_dir():
         raise ValueError(f"{name}: is a folder, must be a file")
+    if path.parent.exists() and not path.parent.is_dir():
+        raise ValueError(f"{name}: cannot be written: its folder is a file")
     with ExitStack() as held:
         try:
             path.parent.mkdir(parents=True, exist_ok=True)
