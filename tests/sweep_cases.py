@@ -7,9 +7,9 @@ from pathlib import Path
 
 from fem_check.files import RunSettings
 from fem_check.sweeps import Between, Grid, Plan
-from fem_check.sweeps.answering import Task, record_of
 from fem_check.sweeps.plan import plan_of
-from fem_check.sweeps.records import Record, State, circumstances
+from fem_check.sweeps.records.record import Record, State, circumstances
+from fem_check.sweeps.work.answering import Task, record_of
 from linear_theory import Scene, Sheet, SineWave
 
 LOG = "SHEETCRAWL_TEST_LOG"

@@ -10,12 +10,12 @@ from typing import Any
 
 from fem_check.files import RunSettings
 from fem_check.sweeps import Between, Grid, Sweep, run
-from fem_check.sweeps.answering import Answering, record_of
 from fem_check.sweeps.plan import Plan, plan_of
+from fem_check.sweeps.work.answering import Answering, record_of
 from linear_theory import Scene, Sheet, SineWave
 from tests import sweep_cases
 
-FREE, WORKING = 2000, 300
+FREE, WORKING = 2000, 150
 """Scenes that cost nothing, and scenes that do."""
 
 

@@ -16,7 +16,7 @@ from pathlib import Path
 
 import psutil
 
-from fem_check.sweeps.answering import Task, record_of
+from fem_check.sweeps.work.answering import Task, record_of
 from tests import sweep_cases
 
 CLIENT, ALONE, WORKER, SCHEDULER = "client", "client, one process", "worker", "scheduler"

@@ -40,15 +40,16 @@ Numbers = dict[str, Any]
 
 
 def kills(count: int) -> list[Numbers]:
-    """That many trials, one after the other."""
-    found = []
+    """That many trials, one after the other; those that are there already are not made again."""
+    kept = json.loads(DATA.read_text()).get("kills", []) if DATA.exists() else []
+    found = {one["seed"]: one for one in kept}
     with tempfile.TemporaryDirectory() as folder:
-        for seed in range(count):
+        for seed in sorted(set(range(count)) - found.keys()):
             one = sweep_kills.trial(SHARES[seed % len(SHARES)], seed, Path(folder))
-            found.append({**asdict(one), "fine": one.fine})
+            found[seed] = {**asdict(one), "fine": one.fine}
             print(seed, one, flush=True)
-            _write({"kills": found})
-    return found
+            _write({"kills": [found[key] for key in sorted(found)]})
+    return list(found.values())
 
 
 def page(data: Numbers) -> str:

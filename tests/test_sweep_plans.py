@@ -16,9 +16,9 @@ from fem_check.command.sweep import example
 from fem_check.files import RunSettings, SceneFileError
 from fem_check.files.tables import TABLES
 from fem_check.sweeps import Between, Grid, LatinHypercube, Paired, Plan, Random
-from fem_check.sweeps.axes import axes_of
-from fem_check.sweeps.fields import checked, paths, takes_whole_numbers, with_value
 from fem_check.sweeps.plan import Refused, plan_of
+from fem_check.sweeps.points.axes import axes_of
+from fem_check.sweeps.points.fields import checked, paths, takes_whole_numbers, with_value
 from fem_check.sweeps.schema import schema
 from fem_check.sweeps.sweep_file import parsed
 from linear_theory import FieldWave, Sheet, SineWave, pulse_wave

@@ -59,7 +59,7 @@ def test_workers_that_cannot_answer_are_told(
 def test_no_scheduler_at_the_address(
     address: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("fem_check.sweeps.cluster.PATIENCE", 1.0)
+    monkeypatch.setattr("fem_check.sweeps.work.cluster.PATIENCE", 1.0)
     start = time.monotonic()
     with pytest.raises(ValueError, match=r"scheduler = .*: no scheduler answers there within 1 s"):
         run(sweep_cases.plan(8), tmp_path / "v.sqlite", scheduler=address)

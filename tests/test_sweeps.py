@@ -19,14 +19,16 @@ import pytest
 from fem_check import Scene, predict, sweep
 from fem_check.command import program
 from fem_check.files import RunSettings
-from fem_check.sweeps import Between, Grid, LatinHypercube, Sweep, cluster, expected, kept, run
-from fem_check.sweeps import store as stores
-from fem_check.sweeps.answering import Task, record_of
-from fem_check.sweeps.bound import OutOfTime, bounded
+from fem_check.sweeps import Between, Grid, LatinHypercube, Sweep, expected, kept, run
 from fem_check.sweeps.plan import plan_of
-from fem_check.sweeps.records import Record, State
+from fem_check.sweeps.records import store as stores
+from fem_check.sweeps.records.opening import reading, writing
+from fem_check.sweeps.records.record import Record, State
+from fem_check.sweeps.records.store import Store
 from fem_check.sweeps.running import RefusedScenes
-from fem_check.sweeps.store import Store, reading, writing
+from fem_check.sweeps.work import cluster
+from fem_check.sweeps.work.answering import Task, record_of
+from fem_check.sweeps.work.bound import OutOfTime, bounded
 from linear_theory import FieldWave, Sheet, SheetcrawlError, SineWave
 from linear_theory.common import extras
 from tests import sweep_cases
@@ -124,7 +126,7 @@ def test_failures_are_records_with_their_reason(file: Path, monkeypatch: pytest.
             raise MemoryError("no room")
         return predict(question.scene, rtol=0.1)
 
-    monkeypatch.setattr("fem_check.sweeps.answering.solved", solved)
+    monkeypatch.setattr("fem_check.sweeps.work.answering.solved", solved)
     plan = plan_of(BASE, {"growth.alpha": [0.01, 0.1, 0.2, 0.3]}, Grid(), RunSettings(rtol=0.1))
     found = run(plan, file, workers=1, answering=failing)
     assert found.counts == {"answered": 1, "refused": 1, "could not": 1, "out of time": 1}
@@ -135,7 +137,7 @@ def test_failures_are_records_with_their_reason(file: Path, monkeypatch: pytest.
         "could not": "MemoryError: no room",
     }
     assert all(record.mean is None and record.scene for _, record in found.failures())
-    monkeypatch.setattr("fem_check.sweeps.answering.solved", lambda q: predict(q.scene, rtol=0.1))
+    monkeypatch.setattr("fem_check.sweeps.work.answering.solved", lambda q: predict(q.scene, rtol=0.1))
     assert run(plan, file, workers=1).failed == 3
     assert run(plan, file, workers=1, retry=True).failed == 0
 

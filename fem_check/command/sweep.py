@@ -14,7 +14,7 @@ from linear_theory.common.errors import SheetcrawlError
 if TYPE_CHECKING:
     from fem_check.sweeps.cost import Expected
     from fem_check.sweeps.plan import Plan
-    from fem_check.sweeps.result import Sweep
+    from fem_check.sweeps.records.result import Sweep
 
 SUFFIX = ".toml"
 
@@ -95,7 +95,7 @@ def _again(path: Path, out: Path | None, workers: int | None, scheduler: str | N
 def _check_exports(export: list[Path]) -> None:
     """Before any work: that they can be written, and that the packages are there."""
     from fem_check.output.files import writable
-    from fem_check.sweeps.export import SUFFIXES, require
+    from fem_check.sweeps.records.export import SUFFIXES, require
 
     for target in export:
         writable(target, SUFFIXES)
@@ -107,7 +107,7 @@ def _check_exports(export: list[Path]) -> None:
 
 def _show(path: Path, export: list[Path], dry_run: bool) -> int:
     """What a file with records holds."""
-    from fem_check.sweeps.result import all_kept
+    from fem_check.sweeps.records.result import all_kept
 
     if dry_run:
         raise ValueError(f"--dry-run: needs a sweep file, NAME{SUFFIX}; {path} holds records")
@@ -132,7 +132,7 @@ def _told(found: "Sweep", export: list[Path]) -> int:
 
 
 def _rows(found: "Sweep") -> dict[str, str]:
-    from fem_check.sweeps.summary import summary
+    from fem_check.sweeps.records.summary import summary
 
     told = summary(found)
     rows = {"sweep": _title(found.size, [axis.path for axis in found.axes])}

@@ -1,8 +1,7 @@
 """Sweeps: many scenes that differ in some fields, answered on many cores, kept in one file.
 
-fields, axes, designs    which scenes            store, records, result, export   what is kept
-plan, sweep_file         what is asked, as text  answering, here, cluster         who answers
-running                  all of it               cost                             what it will cost
+points, variation, plan   which scenes      records   what is kept    running, tally   all of it
+sweep_file, schema        as text           work      who answers     cost             beforehand
 """
 
 import lazy_loader

@@ -1,10 +1,10 @@
 """What `fem_check.sweeps` offers: read by `lazy_loader` as it runs, and by type checkers."""
 
-from .axes import Between
 from .cost import expected
-from .designs import Grid, LatinHypercube, Paired, Random
 from .plan import Plan
-from .result import Sweep, kept
+from .points.axes import Between
+from .points.designs import Grid, LatinHypercube, Paired, Random
+from .records.result import Sweep, kept
 from .running import run, sweep
 from .sweep_file import read
 

@@ -7,8 +7,8 @@ from pathlib import Path
 
 from fem_check.choice.ways import expected_seconds, way_of
 from fem_check.sweeps.plan import THEORIES, Plan, Question
+from fem_check.sweeps.records.opening import reading
 from fem_check.sweeps.running import workers_of
-from fem_check.sweeps.store import reading
 from linear_theory.common.shown import Shown
 
 PRICES = {"strip": 0.005, "first order": 0.05, "second order": 0.3}

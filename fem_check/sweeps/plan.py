@@ -13,8 +13,8 @@ from fem_check.choice.levels import LEVELS
 from fem_check.choice.ways import WAYS, way_of
 from fem_check.files.mistakes import Place
 from fem_check.files.parts.scene_file import RunSettings
-from fem_check.sweeps.axes import Axis, axes_of
-from fem_check.sweeps.designs import Design
+from fem_check.sweeps.points.axes import Axis, axes_of
+from fem_check.sweeps.points.designs import Design
 from fem_check.sweeps.variation import Variation
 from linear_theory.common import validation
 from linear_theory.common.shown import Shown, plain

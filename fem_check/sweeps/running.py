@@ -2,34 +2,31 @@
 
 import contextlib
 import json
-import math
 import os
-import time
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any, NamedTuple
 
 from fem_check.files.parts.scene_file import RunSettings
-from fem_check.sweeps import cluster, here
-from fem_check.sweeps.answering import Answering, Task, record_of
-from fem_check.sweeps.designs import Design, Grid
 from fem_check.sweeps.plan import LIMIT, Plan, Refused, plan_of
-from fem_check.sweeps.records import Record, State, program
-from fem_check.sweeps.result import Sweep, kept
-from fem_check.sweeps.store import Store, StoreError, writing
+from fem_check.sweeps.points.designs import Design, Grid
+from fem_check.sweeps.records.opening import writing
+from fem_check.sweeps.records.record import Record, program
+from fem_check.sweeps.records.result import Sweep, kept
+from fem_check.sweeps.records.store import Store, StoreError
+from fem_check.sweeps.tally import Tally, Telling
+from fem_check.sweeps.work import cluster, here
+from fem_check.sweeps.work.answering import Answering, Task, record_of
 from linear_theory.common import validation
 from linear_theory.common.errors import SheetcrawlError
-from linear_theory.common.progress import Progress, Report
+from linear_theory.common.progress import Report
 from linear_theory.scene.scene import Scene
 
 AGAIN = "the same call"
 
 TOLD = 5
 """Of the reasons why scenes are refused, at the most."""
-
-TELL = 0.1
-"""Seconds between two reports of progress."""
 
 
 class RefusedScenes(SheetcrawlError, ValueError):
@@ -123,7 +120,7 @@ def run(
         number = _begun(store, plan, progress)
         if retry:
             store.forget_failures(number)
-        tally = _Tally(store.counts(number), progress)
+        tally = Tally(store.counts(number), progress)
         with _kept(tally, path, again):
             _answer(store, number, plan, tally, Means(count, scheduler, answering))
     return kept(path, plan.key())
@@ -164,7 +161,7 @@ def _begun(store: Store, plan: Plan, progress: Report | None) -> int:
 def _checked(plan: Plan, progress: Report | None) -> Iterator[tuple[int, str, Sequence[Any]]]:
     """Place, key and point of all scenes. Raises RefusedScenes, after the last, for some."""
     reasons: dict[str, int] = {}
-    tell = _Telling(progress)
+    tell = Telling(progress)
     for place, point in enumerate(plan.points()):
         try:
             key = plan.question(point).key()
@@ -185,7 +182,7 @@ def _told(reasons: Mapping[str, int], size: int) -> str:
     return "\n".join([*lines[:TOLD], *more])
 
 
-def _answer(store: Store, number: int, plan: Plan, tally: "_Tally", means: Means) -> None:
+def _answer(store: Store, number: int, plan: Plan, tally: Tally, means: Means) -> None:
     """All scenes that are open."""
     if not tally.open:
         return
@@ -228,7 +225,7 @@ def _check_version(record: Record) -> None:
 
 
 @contextlib.contextmanager
-def _kept(tally: "_Tally", path: Path, again: str) -> Iterator[None]:
+def _kept(tally: Tally, path: Path, again: str) -> Iterator[None]:
     """Say, with what has stopped the sweep, what is kept and how to go on."""
     try:
         yield
@@ -236,49 +233,3 @@ def _kept(tally: "_Tally", path: Path, again: str) -> Iterator[None]:
         raise KeyboardInterrupt(f"interrupted; {tally.words(path)}: {again}") from None
     except (StoreError, cluster.LostScheduler, cluster.WrongWorkers) as stopped:
         raise type(stopped)(f"{stopped}; {tally.words(path)}: {again}") from None
-
-
-class _Telling:
-    """Reports progress, not too often."""
-
-    def __init__(self, report: Report | None) -> None:
-        self._report, self._start, self._last = report, time.perf_counter(), 0.0
-        self._first: tuple[float, int] | None = None
-
-    def __call__(self, task: str, done: int, size: int, before: int = 0) -> None:
-        now = time.perf_counter()
-        if self._first is None and done > before:
-            self._first = now, done  # what it takes workers to start is no measure of the rest
-        if self._report is None or (now - self._last < TELL and done < size):
-            return
-        self._last, left = now, math.nan
-        if self._first is not None and done > self._first[1]:
-            left = (now - self._first[0]) * (size - done) / (done - self._first[1])
-        self._report(Progress(task, done / size, now - self._start, left))
-
-
-class _Tally:
-    """How many scenes have a record, and how many of them are failures."""
-
-    def __init__(self, counts: Mapping[str, int], report: Report | None) -> None:
-        self.open = counts.get("open", 0)
-        self._size = sum(counts.values())
-        self._before = self._done = self._size - self.open
-        self._failed = self._done - counts.get(str(State.ANSWERED), 0)
-        self._telling = _Telling(report)
-
-    def count(self, record: Record) -> None:
-        """One more."""
-        self._done += 1
-        self.open -= 1
-        self._failed += record.state != State.ANSWERED
-
-    def tell(self) -> None:
-        """Report it."""
-        failed = f", {self._failed} failed" if self._failed else ""
-        words = f"{self._done} of {self._size} scenes{failed}"
-        self._telling(words, self._done, self._size, self._before)
-
-    def words(self, path: Path) -> str:
-        """What is kept."""
-        return f"{self._done} of {self._size} records are kept in {path}, the rest follows by"

@@ -4,7 +4,7 @@ from typing import Any
 
 from fem_check.files.schema import DIALECT
 from fem_check.files.schema import schema as of_scenes
-from fem_check.sweeps.fields import paths
+from fem_check.sweeps.points.fields import paths
 from fem_check.sweeps.sweep_file import RangeTable, SweepTable
 
 

@@ -20,10 +20,10 @@ from pydantic import Field, ValidationError
 from fem_check.files.fields import Natural, Table, Time
 from fem_check.files.mistakes import Mistakes, nearest
 from fem_check.files.reading import data_of, text_of
-from fem_check.sweeps.axes import Axis, Between, axis_of
-from fem_check.sweeps.designs import Design, Grid, LatinHypercube, Paired, Random
-from fem_check.sweeps.fields import checked
 from fem_check.sweeps.plan import LIMIT, Varied
+from fem_check.sweeps.points.axes import Axis, Between, axis_of
+from fem_check.sweeps.points.designs import Design, Grid, LatinHypercube, Paired, Random
+from fem_check.sweeps.points.fields import checked
 from fem_check.sweeps.variation import Variation
 
 PARTS = ("scene", "over", "sweep")

@@ -16,8 +16,8 @@ from fem_check.files.reading import tables_of as tables_in
 from fem_check.files.system import BASES, system_of
 from fem_check.files.tables import TABLES
 from fem_check.files.writing import tables_of
-from fem_check.sweeps.axes import Axis
-from fem_check.sweeps.fields import with_value, without_rivals
+from fem_check.sweeps.points.axes import Axis
+from fem_check.sweeps.points.fields import with_value, without_rivals
 from linear_theory.scene.scene import Scene
 from linear_theory.wave.measured import SampledWave
 from linear_theory.wave.travelling import SineWave, TravellingWave

@@ -9,9 +9,9 @@ from typing import Any, NamedTuple
 
 from fem_check.choice.prediction import Prediction, predict
 from fem_check.choice.ways import answer
-from fem_check.sweeps.bound import OutOfTime, bounded
 from fem_check.sweeps.plan import THEORIES, Question
-from fem_check.sweeps.records import Record, State, answer_of, circumstances
+from fem_check.sweeps.records.record import Record, State, answer_of, circumstances
+from fem_check.sweeps.work.bound import OutOfTime, bounded
 from linear_theory.common.threads import one_blas_thread
 
 

@@ -24,7 +24,7 @@ RIVALS = (
 def paths() -> tuple[str, ...]:
     """All of them, table by table.
 
-    >>> from fem_check.sweeps.fields import paths
+    >>> from fem_check.sweeps.points.fields import paths
     >>> print(*(path for path in paths() if "bilayer." in path))
     growth.bilayer.growth growth.bilayer.thickness_ratio growth.bilayer.modulus_ratio \
 growth.bilayer.side
@@ -82,7 +82,7 @@ def takes_whole_numbers(path: str) -> bool:
 def with_value(data: Mapping[str, Any], path: str, value: Any) -> dict[str, Any]:
     """The tables of a scene with another value; those that it is not in are the same objects.
 
-    >>> from fem_check.sweeps.fields import with_value
+    >>> from fem_check.sweeps.points.fields import with_value
     >>> print(with_value({"growth": {"alpha": 0.1}}, "growth.alpha", 0.2))
     {'growth': {'alpha': 0.2}}
     """

@@ -4,7 +4,7 @@ import signal
 import threading
 from typing import Any
 
-import fem_check.sweeps.answering  # noqa: F401, loaded before the first scene is there
+import fem_check.sweeps.work.answering  # noqa: F401, loaded before the first scene is there
 
 
 def dask_setup(worker: Any) -> None:

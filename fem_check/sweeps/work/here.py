@@ -2,8 +2,8 @@
 
 from collections.abc import Generator, Iterable
 
-from fem_check.sweeps.answering import Answering, Task, record_of
-from fem_check.sweeps.records import Record
+from fem_check.sweeps.records.record import Record
+from fem_check.sweeps.work.answering import Answering, Task, record_of
 
 
 def records(tasks: Iterable[Task], answering: Answering = record_of) -> Generator[Record]:

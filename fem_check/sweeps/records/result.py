@@ -8,9 +8,9 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from fem_check.answer.units import Units
-from fem_check.sweeps import export
-from fem_check.sweeps.records import Record, State
-from fem_check.sweeps.store import reading
+from fem_check.sweeps.records import export
+from fem_check.sweeps.records.opening import reading
+from fem_check.sweeps.records.record import Record, State
 from linear_theory.common.shown import Shown
 
 

@@ -16,7 +16,7 @@ def bounded(seconds: float) -> Iterator[None]:
 
     It is raised between two instructions of Python: one long call into a library ends first.
 
-    >>> from fem_check.sweeps.bound import OutOfTime, bounded
+    >>> from fem_check.sweeps.work.bound import OutOfTime, bounded
     >>> try:
     ...     with bounded(0.05):
     ...         while True:

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from fem_check.sweeps.axes import Axis
+from fem_check.sweeps.points.axes import Axis
 from linear_theory.common import validation
 from linear_theory.common.shown import Value
 
@@ -34,7 +34,7 @@ class Grid(Design):
     """Every value of each field with every value of the others; the last field changes fastest.
 
     >>> from fem_check.sweeps import Grid
-    >>> from fem_check.sweeps.axes import axes_of
+    >>> from fem_check.sweeps.points.axes import axes_of
     >>> axes = axes_of({"growth.alpha": [0.1, 0.2], "sheet.width": [0.3, 0.5]})
     >>> print(*Grid().points(axes))
     (0.1, 0.3) (0.1, 0.5) (0.2, 0.3) (0.2, 0.5)
@@ -94,7 +94,7 @@ class LatinHypercube(Design):
     """Points of which each field, cut into `count` equal parts, has one in every part.
 
     >>> from fem_check.sweeps import Between, LatinHypercube
-    >>> from fem_check.sweeps.axes import axes_of
+    >>> from fem_check.sweeps.points.axes import axes_of
     >>> axes = axes_of({"growth.alpha": Between(0.0, 1.0), "sheet.width": Between(1.0, 2.0)})
     >>> points = list(LatinHypercube(10, seed=1).points(axes))
     >>> print(sorted(int(10 * alpha) for alpha, width in points))

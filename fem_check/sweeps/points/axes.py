@@ -9,8 +9,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fem_check.files.quantities import NUMBER, Quantity, registry
-from fem_check.sweeps.fields import checked, takes_whole_numbers
+from fem_check.files.quantities import Quantity
+from fem_check.sweeps.points.fields import checked, takes_whole_numbers
+from fem_check.sweeps.points.measures import in_unit, measured, tidied, unit_name
 from linear_theory.common import validation
 from linear_theory.common.shown import Value, plain
 
@@ -46,14 +47,14 @@ class Between(Value):
 
     def on(self, path: str) -> "Range":
         """As the axis of a field."""
-        low, high = (_measured(end) for end in (self.low, self.high))
+        low, high = (measured(end) for end in (self.low, self.high))
         if low is None or high is None:
             end = self.low if low is None else self.high
             raise ValueError(
                 f"{validation.shown(end)}: must be a finite number, with or without a unit"
             )
         unit = low.unit
-        ends = (low.number, _in_unit(high, unit))
+        ends = (low.number, in_unit(high, unit))
         if not ends[0] < ends[1]:
             raise ValueError(f"from {self.low} to {self.high}: must be from the lower to the higher")
         if self.spacing == "log" and ends[0] <= 0:
@@ -99,7 +100,7 @@ class Listed(Axis):
     @property
     def unit(self) -> str:
         """Of the first value."""
-        return _unit_name(self._parts[0])
+        return unit_name(self._parts[0])
 
     @property
     def size(self) -> int:
@@ -108,14 +109,14 @@ class Listed(Axis):
 
     @cached_property
     def _parts(self) -> list[Quantity | None]:
-        return [_measured(value) if isinstance(value, str) else None for value in self.given]
+        return [measured(value) if isinstance(value, str) else None for value in self.given]
 
     def values(self) -> list[Any]:
         """As they are given."""
         first = self._parts[0]
         if first is None or first.unit is None:
             return list(self.given)
-        return [_in_unit(part, first.unit) for part in self._parts if part is not None]
+        return [in_unit(part, first.unit) for part in self._parts if part is not None]
 
     def at(self, shares: NDArray[np.float64]) -> list[Any]:
         """Each as likely as the others."""
@@ -147,7 +148,7 @@ class Range(Axis):
         assert self.size is not None
         found = self._numbers(np.linspace(0.0, 1.0, self.size))
         if self.said_as.spacing == "log":
-            found = _tidied(found)
+            found = tidied(found)
         if self._whole and len({float(v) for v in found}) < len(found):
             raise ValueError(f"count = {self.size}: there are not so many whole numbers in the range")
         return self._plain(found)
@@ -223,44 +224,10 @@ def _check_alike(values: Sequence[Any]) -> None:
     for value in values:
         if value is None or (isinstance(value, float) and not math.isfinite(value)):
             raise ValueError(f"{value!r}: must be finite")
-    parts = [_measured(value) if isinstance(value, str) else None for value in values]
+    parts = [measured(value) if isinstance(value, str) else None for value in values]
     united = [part for part in parts if part is not None and part.unit is not None]
     if united and len(united) < len(values):
         lone = next(v for v, part in zip(values, parts, strict=True) if part is None or not part.unit)
         raise ValueError(f"{lone!r}: needs a unit, beside {united[0].text!r}")
     for part in united:
-        _in_unit(part, united[0].unit)
-
-
-def _measured(value: Any) -> Quantity | None:
-    """A number, with its unit if it has one; None for anything else."""
-    if isinstance(value, int | float) and not isinstance(value, bool):
-        return Quantity("", str(value), float(value), None) if math.isfinite(value) else None
-    parts = NUMBER.fullmatch(value) if isinstance(value, str) else None
-    if parts is None or not math.isfinite(float(parts[1])):
-        return None
-    try:
-        unit = registry().parse_units(parts[2].replace("%", "percent")) if parts[2] else None
-    except Exception:  # pint fails on text in many ways; the scene file then says what is wrong
-        return None
-    return Quantity("", str(value), float(parts[1]), unit)
-
-
-def _in_unit(part: Quantity, unit: Any) -> float:
-    """The number in that unit. Raises ValueError where it is of something else."""
-    if (part.unit is None) != (unit is None):
-        raise ValueError(f"{part.text!r}: all must have units, or none")
-    if unit is None or part.unit == unit:
-        return part.number
-    if not part.unit.is_compatible_with(unit):
-        raise ValueError(f"{part.text!r}: must be a quantity in {unit:~P} or the like")
-    return part.into(unit)
-
-
-def _unit_name(part: Quantity | None) -> str:
-    return "" if part is None or part.unit is None else f"{part.unit:~P}"
-
-
-def _tidied(found: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Without the rounding of exp and log: 1.0 for 1.0000000000000002."""
-    return np.array([float(f"{value:.14g}") for value in found])
+        in_unit(part, united[0].unit)

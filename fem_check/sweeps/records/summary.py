@@ -5,8 +5,8 @@ from collections import Counter
 from dataclasses import dataclass, field
 from typing import Any
 
-from fem_check.sweeps.records import Record, State
-from fem_check.sweeps.result import Sweep
+from fem_check.sweeps.records.record import Record, State
+from fem_check.sweeps.records.result import Sweep
 from linear_theory.common.shown import Shown
 
 

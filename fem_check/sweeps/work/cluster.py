@@ -10,8 +10,8 @@ from collections.abc import Generator, Iterator
 from contextlib import ExitStack, contextmanager, suppress
 from typing import Any
 
-from fem_check.sweeps.answering import Answering, Task, record_of
-from fem_check.sweeps.records import Record, State, circumstances
+from fem_check.sweeps.records.record import Record, State, circumstances
+from fem_check.sweeps.work.answering import Answering, Task, record_of
 from linear_theory.common import validation
 from linear_theory.common.errors import SheetcrawlError
 from linear_theory.common.extras import optional
@@ -20,6 +20,12 @@ USE = "a sweep with several workers (with workers = 1 it needs nothing more)"
 
 PATIENCE = 10.0
 """Seconds to wait for a scheduler to answer, and for a result that is said to be there."""
+
+SOON = 0.5
+"""Seconds for a result when others before it have not come."""
+
+STALLED = 60.0
+"""Seconds beyond those of a scene, after which workers that are there must have answered."""
 
 LEAST, EACH = 32, 4
 """Tasks that wait at the workers: in all, and to each thread, so that none is idle."""
@@ -78,7 +84,7 @@ def _local(distributed: Any, workers: int) -> Iterator[Any]:
             threads_per_worker=1,
             dashboard_address=":0",
             silence_logs=SILENT,
-            preload="fem_check.sweeps.worker",
+            preload="fem_check.sweeps.work.worker",
         )
     except (RuntimeError, OSError) as problem:
         raise WrongWorkers(
@@ -142,7 +148,7 @@ class _Flight:
         self._done: queue.SimpleQueue[Any] = queue.SimpleQueue()
         self._numbers = itertools.count()
         self._name = f"sheetcrawl-{uuid.uuid4().hex[:12]}"  # another sweep may ask the same scheduler
-        self._looked, self._most = -LOOK, LEAST
+        self._looked, self._most, self._heard = -LOOK, LEAST, time.monotonic()
 
     def fill(self, tasks: Iterator[Task]) -> None:
         """Send tasks until the workers have enough."""
@@ -169,14 +175,18 @@ class _Flight:
         except queue.Empty:
             if self._client.status != "running":
                 raise LostScheduler(LOST) from None
+            self._check_alive()
             yield None
             return
+        self._heard = time.monotonic()
         while not self._done.empty():
             done.append(self._done.get())
         if any(future.status == "cancelled" for future in done):
             raise LostScheduler(LOST)
+        end = time.monotonic() + PATIENCE
         for future in done:
-            found = self._result(future)
+            found = self._result(future, max(end - time.monotonic(), SOON))
+            future.release()  # before it is kept: Dask would compute again what a worker takes along
             task = self.tasks.pop(future.key)
             del self._futures[future.key]
             if isinstance(found, TimeoutError):
@@ -184,13 +194,23 @@ class _Flight:
             else:
                 yield found if isinstance(found, Record) else self._failed(task, found)
 
-    def _result(self, future: Any) -> Any:
+    def _check_alive(self) -> None:
+        """Raise WrongWorkers where none has answered for longer than a scene may take."""
+        most = max(task.seconds for task in self.tasks.values()) + STALLED
+        if time.monotonic() - self._heard < most:
+            return
+        if not self._client.nthreads():  # they may be waiting in the queue of a cluster
+            self._heard = time.monotonic()
+            return
+        raise WrongWorkers(f"the workers have answered nothing for {most:.0f} s")
+
+    def _result(self, future: Any, patience: float) -> Any:
         """What it holds, or the exception instead.
 
         A worker that dies with a result takes it along; Dask may then wait for it without end.
         """
         try:
-            return future.result(timeout=PATIENCE)
+            return future.result(timeout=patience)
         except Exception as problem:
             return problem
 

@@ -12,7 +12,7 @@ from fem_check.output.files import replacing, writable
 from linear_theory.common.extras import optional
 
 if TYPE_CHECKING:
-    from fem_check.sweeps.result import Sweep
+    from fem_check.sweeps.records.result import Sweep
 
 SUFFIXES = (".nc", ".csv", ".parquet")
 
