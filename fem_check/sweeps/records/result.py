@@ -14,11 +14,13 @@ from fem_check.sweeps.records.record import Record, State
 from linear_theory.common.shown import Shown
 
 
-class AxisName(NamedTuple):
-    """A field that differs, and the unit of its values."""
-
+class _AxisName(NamedTuple):
     path: str
     unit: str
+
+
+class AxisName(Shown, _AxisName):
+    """A field that differs, and the unit of its values."""
 
 
 @dataclass(frozen=True)
