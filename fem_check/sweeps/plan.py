@@ -17,6 +17,7 @@ from fem_check.sweeps.points.axes import Axis, axes_of
 from fem_check.sweeps.points.designs import Design
 from fem_check.sweeps.variation import Variation
 from linear_theory.common import validation
+from linear_theory.common.errors import SheetcrawlError
 from linear_theory.common.shown import Shown, plain
 from linear_theory.scene.level import THEORY
 from linear_theory.scene.scene import Scene
@@ -52,12 +53,17 @@ class Question(NamedTuple):
             way_of(self.scene, self.settings.level)
 
 
-class Refused(ValueError):
-    """A scene of a sweep that cannot be: place of what is wrong, and words."""
+class Refused(SheetcrawlError, ValueError):
+    """A scene of a sweep that cannot be; found: the place of each mistake, and words."""
 
-    def __init__(self, found: Sequence[tuple[Place, str]]) -> None:
-        super().__init__("; ".join(words for _, words in found))
+    def __init__(self, message: str, found: Sequence[tuple[Place, str]] = ()) -> None:
+        super().__init__(message)
         self.found = tuple(found)
+
+    @classmethod
+    def by(cls, found: Sequence[tuple[Place, str]]) -> "Refused":
+        """For these mistakes."""
+        return cls("; ".join(words for _, words in found), found)
 
 
 class Plan(Shown):
@@ -138,7 +144,7 @@ class Varied(Plan):
             {axis.path: axis.said(value) for axis, value in zip(self.axes, point, strict=True)}
         )
         if found is None:
-            raise Refused(mistakes.found)
+            raise Refused.by(mistakes.found)
         settings = found.run if self.level is None else replace(found.run, level=self.level)
         return _checked(Question(found.scene, settings))
 
@@ -205,7 +211,7 @@ def _checked(question: Question) -> Question:
     try:
         question.check()
     except ValueError as problem:
-        raise Refused([((), " ".join(str(problem).split()))]) from None
+        raise Refused.by([((), " ".join(str(problem).split()))]) from None
     return question
 
 
