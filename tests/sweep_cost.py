@@ -15,7 +15,7 @@ from fem_check.sweeps.work.answering import Answering, record_of
 from linear_theory import Scene, Sheet, SineWave
 from tests import sweep_cases
 
-FREE, WORKING = 2000, 150
+FREE, WORKING = 1200, 60
 """Scenes that cost nothing, and scenes that do."""
 
 

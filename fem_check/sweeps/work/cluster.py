@@ -8,6 +8,7 @@ import time
 import uuid
 from collections.abc import Generator, Iterator
 from contextlib import ExitStack, contextmanager, suppress
+from functools import partial
 from typing import Any
 
 from fem_check.sweeps.records.record import Record, State, circumstances
@@ -183,16 +184,16 @@ class _Flight:
             done.append(self._done.get())
         if any(future.status == "cancelled" for future in done):
             raise LostScheduler(LOST)
-        end = time.monotonic() + PATIENCE
-        for future in done:
-            found = self._result(future, max(end - time.monotonic(), SOON))
-            future.release()  # before it is kept: Dask would compute again what a worker takes along
+        found = self._gathered(done)
+        for future in done:  # before they are kept: Dask computes again what a worker takes along
+            future.release()
+        for future, result in zip(done, found, strict=True):
             task = self.tasks.pop(future.key)
             del self._futures[future.key]
-            if isinstance(found, TimeoutError):
+            if isinstance(result, TimeoutError):
                 self._send(task)
             else:
-                yield found if isinstance(found, Record) else self._failed(task, found)
+                yield result if isinstance(result, Record) else self._failed(task, result)
 
     def _check_alive(self) -> None:
         """Raise WrongWorkers where none has answered for longer than a scene may take."""
@@ -204,11 +205,19 @@ class _Flight:
             return
         raise WrongWorkers(f"the workers have answered nothing for {most:.0f} s")
 
-    def _result(self, future: Any, patience: float) -> Any:
-        """What it holds, or the exception instead.
+    def _gathered(self, done: list[Any]) -> list[Any]:
+        """What they hold, or the exceptions instead.
 
         A worker that dies with a result takes it along; Dask may then wait for it without end.
         """
+        gather = partial(self._client.gather, done, asynchronous=True)
+        try:
+            return list(self._client.sync(gather, callback_timeout=PATIENCE))
+        except Exception:  # one by one
+            end = time.monotonic() + PATIENCE
+            return [self._result(one, max(end - time.monotonic(), SOON)) for one in done]
+
+    def _result(self, future: Any, patience: float) -> Any:
         try:
             return future.result(timeout=patience)
         except Exception as problem:
