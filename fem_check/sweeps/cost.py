@@ -11,14 +11,14 @@ from fem_check.sweeps.records.opening import reading
 from fem_check.sweeps.running import workers_of
 from linear_theory.common.shown import Shown
 
-PRICES = {"strip": 0.005, "first order": 0.05, "second order": 0.3}
-"""Processor seconds of a level of `predict`, as `make cost` measures them, to a factor of 3."""
+PRICES = {"strip": 0.006, "first order": 0.09, "second order": 0.13}
+"""Processor seconds of a level of `predict` for the paper's sheet to 2 %, to a factor of 5."""
 
-OVERHEAD = 3e-3
+OVERHEAD = 4e-3
 """Processor seconds of this process to a record that a worker finds: checks, messages, the file."""
 
-BYTES = 2000
-"""Of a record in the file, and as many as its scene has in JSON."""
+BYTES = 1200
+"""Of a record in the file; of a scene with a mesh or samples as many more as these have in JSON."""
 
 SAMPLE = 12
 """Scenes whose cost is looked at."""
