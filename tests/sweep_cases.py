@@ -53,14 +53,6 @@ def free(task: Task) -> Record:
     )
 
 
-def deadly(task: Task) -> Record:
-    """One scene ends every worker that tries it; the others are free."""
-    scene = task.question.scene
-    if scene.alpha < 0.011 and scene.sheet.poisson == 0.5:
-        os._exit(1)
-    return free(task)
-
-
 def broken(task: Task) -> Record:
     """What workers raise that lack the program."""
     raise ModuleNotFoundError("No module named 'fem_check'")

@@ -8,12 +8,15 @@ import sys
 import time
 from collections.abc import Iterator
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
 
 from fem_check.command.status import INTERRUPTED
 from fem_check.sweeps import run
+from fem_check.sweeps.work.answering import Task
+from fem_check.sweeps.work.cluster import _Flight
 from linear_theory import SheetcrawlError
 from tests import sweep_cases, sweep_kills, sweeps_page
 
@@ -67,15 +70,13 @@ def test_no_scheduler_at_the_address(
     assert time.monotonic() - start < 30
 
 
-def test_a_scene_with_which_workers_die_is_a_record(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr("fem_check.sweeps.work.cluster.DEATHS", 1)
-    path = tmp_path / "v.sqlite"
-    found = run(sweep_cases.plan(8), path, workers=2, answering=sweep_cases.deadly)
-    assert found.counts == {"answered": 7, "could not": 1}
-    ((point, record),) = found.failures()
-    assert point == (0.01, 0.5)
+def test_a_scene_with_which_workers_die_is_a_record() -> None:
+    plan = sweep_cases.plan(8)
+    question = plan.question(next(plan.points()))
+    flight = _Flight(SimpleNamespace(cluster=None), sweep_cases.free)
+    died = distributed.scheduler.KilledWorker("task", None, 3)
+    record = flight._failed(Task(question.key(), question, 60.0), died)
+    assert (record.key, record.state, record.mean) == (question.key(), "could not", None)
     assert "its worker has died each time it was tried" in record.reason
 
 

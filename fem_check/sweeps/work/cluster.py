@@ -145,6 +145,7 @@ class _Flight:
     def __init__(self, client: Any, answering: Answering) -> None:
         self.tasks: dict[str, Task] = {}
         self._client, self._answering = client, answering
+        self._local = type(getattr(client, "cluster", None)).__name__ == "LocalCluster"
         self._futures: dict[str, Any] = {}
         self._done: queue.SimpleQueue[Any] = queue.SimpleQueue()
         self._numbers = itertools.count()
@@ -197,8 +198,11 @@ class _Flight:
 
     def _check_alive(self) -> None:
         """Raise WrongWorkers where none has answered for longer than a scene may take."""
+        quiet = time.monotonic() - self._heard
+        if quiet > STALLED and self._local and not self._client.nthreads():
+            raise WrongWorkers("the workers have died, and do not start again")
         most = max(task.seconds for task in self.tasks.values()) + STALLED
-        if time.monotonic() - self._heard < most:
+        if quiet < most:
             return
         if not self._client.nthreads():  # they may be waiting in the queue of a cluster
             self._heard = time.monotonic()
