@@ -66,13 +66,14 @@ def page(data: Numbers) -> str:
         *_paragraph(
             f"A sweep of {data['scenes']} scenes was killed by SIGKILL at a random instant, "
             f"{len(trials)} times, and then gone on with: after the death of a worker by itself, else "
-            "by the same command. Nothing lost, nothing twice and the same numbers: "
+            "by the same command. Nothing lost, no record twice and the same numbers: "
             f"{fine} of {len(trials)}."
         ),
         *("", *_table(trials)),
         *_paragraph(
             "Lost: records that were in the file right after the kill, and missing or different in the "
-            "end. Twice: scenes that were computed again although they had a record. Missing and "
+            "end. Twice: scenes that were computed again although they had a record, as Dask may do "
+            "after the death of a worker; the record then stays as it was. Missing and "
             "wrong: records that the finished sweep lacks, or whose speed or error differs in any bit "
             "from that of the scene alone. Left: processes of the sweep that were there ten seconds "
             "after the kill. Scenes that were at work when it happened have no record yet and are "
