@@ -24,6 +24,7 @@ from .shell.effects.terrain import Terrain
 from .shell.material import Material
 from .shell.stepping.simulation import simulate
 from .shell.stepping.trajectory import Trajectory
+from .sweeps.running import sweep
 from .version import __version__
 
 __all__ = [
@@ -52,5 +53,6 @@ __all__ = [
     "predict",
     "simulate",
     "speeds",
+    "sweep",
     "write_paraview",
 ]

@@ -4,9 +4,11 @@ import html
 import inspect
 import json
 import re
+import tempfile
 import typing
 from decimal import Decimal
 from functools import cache
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -95,6 +97,15 @@ def planar(**arguments):
 @cache
 def shapes():
     return cycle_of_shapes(planar(cells=(1, 2)), 8)
+
+
+@cache
+def swept():
+    scene = linear_theory.Scene(SHEET, SINE, alpha=0.1)
+    path = Path(tempfile.mkdtemp()) / "speeds.sqlite"
+    return fem_check.sweep(
+        scene, {"growth.alpha": [0.1, 0.2]}, path, level="strip", rtol=0.1, workers=1
+    )
 
 
 def potential():
@@ -186,6 +197,7 @@ MADE = {
     "Prediction": lambda: fem_check.predict(SHEET, SINE, alpha=0.05, rtol=0.1),
     "Progress": lambda: Progress(0.1, 2.0, 7, 0, 1.0, 20.0),
     "Region": lambda: ShellModel(full_scene()).discretisation.interior,
+    "Record": lambda: next(swept().rows())[1],
     "Response": lambda: Response(linear_theory.Coulomb(), np.ones((2, 3))),
     "RestState": lambda: ShellModel(planar()).rest(0.2),
     "RigidSpeed": lambda: turning().turning,
@@ -203,6 +215,7 @@ MADE = {
     "SpeedErrors": lambda: trajectory().errors,
     "SpherePart": lambda: SpherePart(1.0),
     "Terrain": lambda: fem_check.Terrain(lambda x, y: 0 * x),
+    "Sweep": swept,
     "Tanh": lambda: linear_theory.Tanh(0.1),
     "TimeFactors": lambda: many_harmonics().factors([0.0, 0.1]),
     "Tolerance": lambda: linear_theory.Tolerance(1e-3),

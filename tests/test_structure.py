@@ -27,7 +27,7 @@ LAYERS = (
     *(f"fem_check.shell.{part}" for part in ("model", "depth", "abilities", "cycle", "stepping")),
     *(
         f"fem_check.{part}"
-        for part in ("answer", "choice", "output", "files", "runs", "explorer", "command")
+        for part in ("answer", "choice", "output", "files", "runs", "sweeps", "explorer", "command")
     ),
     "fem_check",
     "figures",

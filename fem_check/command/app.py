@@ -19,6 +19,7 @@ from fem_check.command.screens import (
     SCHEMA_HELP,
     SHOW_HELP,
     SPEED_HELP,
+    SWEEP_HELP,
     examples,
     welcome,
 )
@@ -145,10 +146,38 @@ def _check(scene: Annotated[Path, Parameter(help="A scene file.")], /) -> int:
 
 
 @app.command(name="schema", help=SCHEMA_HELP)
-def _schema() -> int:
+def _schema(
+    *, sweep: Annotated[bool, Parameter(help="Of sweep files instead of scene files.")] = False
+) -> int:
     from fem_check.command.scene_files import schema
 
-    return schema()
+    return schema(sweep)
+
+
+@app.command(name="sweep", help=SWEEP_HELP)
+def _sweep(
+    file: Annotated[
+        Path, Parameter(help="A sweep file, NAME.toml; or a file with records, to be exported.")
+    ],
+    /,
+    *,
+    out: Annotated[
+        Path | None, Parameter(help="For the records; NAME.sqlite here unless given.")
+    ] = None,
+    workers: Annotated[int | None, Parameter(help="Processes; as many as cores unless given.")] = None,
+    scheduler: Annotated[
+        str | None, Parameter(help="Address of a Dask scheduler that runs elsewhere, tcp://...")
+    ] = None,
+    dry_run: Annotated[bool, Parameter(help="Say what it would cost, and do nothing.")] = False,
+    export: Annotated[
+        list[Path] | None,
+        Parameter(help="Write .nc, .csv or .parquet: one file or several.", consume_multiple=True),
+    ] = None,
+    retry: Annotated[bool, Parameter(help="Try scenes again that have failed.")] = False,
+) -> int:
+    from fem_check.command.sweep import sweep
+
+    return sweep(file, out, workers, scheduler, dry_run, export or [], retry)
 
 
 @app.command(name="explore", help=EXPLORE_HELP)

@@ -16,6 +16,9 @@ if TYPE_CHECKING:
 WIDEST = 100
 """Columns of what is said of a scene, at the most."""
 
+SWEEP = "sweep"
+"""Beside the scenes of the gallery, a sweep file to start from."""
+
 WAYS = {
     "predict": "predict: the cheapest theory or cycle of shapes that is known to meet the tolerance",
     "cycle": "cycle: static shapes through one period, then the balance of friction on them",
@@ -32,6 +35,12 @@ def new(name: str | None, path: Path | None) -> int:
         print("\n".join(listed()))
         return MET
     target = path or Path(f"{name}.toml")
+    if name == SWEEP:
+        from fem_check.command.sweep import example
+
+        _write_all({target: example()}, name)
+        print(f"{target} written; next: sheetcrawl sweep {target} --dry-run")
+        return MET
     texts = {target.parent / file: text for file, text in gallery.tables(name).items()}
     _write_all({**texts, target: gallery.text(name)}, name)
     also = f" (and {', '.join(map(str, texts))})" if texts else ""
@@ -59,7 +68,7 @@ def _write_all(texts: dict[Path, str], name: str) -> None:
 
 
 def _other(name: str) -> str:
-    where = "mine" if not gallery.tables(name) else "folder/mine"
+    where = "mine" if name == SWEEP or not gallery.tables(name) else "folder/mine"
     return f"sheetcrawl new {name} {where}.toml"
 
 
@@ -141,9 +150,12 @@ def _rounded(seconds: float) -> str:
     return f"{float(f'{seconds:.1g}'):g} s"
 
 
-def schema() -> int:
-    """Print the JSON Schema."""
-    from fem_check.files.schema import schema as made
+def schema(of_sweeps: bool) -> int:
+    """Print the JSON Schema of scene files, or of sweep files."""
+    if of_sweeps:
+        from fem_check.sweeps.schema import schema as made
+    else:
+        from fem_check.files.schema import schema as made
 
     print(json.dumps(made(), indent=1))
     return MET

@@ -55,10 +55,22 @@ RUNS = (
 )
 """In this order, after `FILES`."""
 
+SWEEPS = (
+    ("Many scenes: a sweep file to start from, with comments", "sheetcrawl new sweep"),
+    ("How many scenes, and at what cost", "sheetcrawl sweep sweep.toml --dry-run"),
+    (
+        "Their records in one file, on all cores, and a table",
+        "sheetcrawl sweep sweep.toml --export v.csv",
+    ),
+    ("What that file holds, as arrays over the fields", "sheetcrawl sweep sweep.sqlite --export v.nc"),
+)
+"""In this order."""
+
 BEYOND = (
     ("the same answer in Python", "fem_check.predict(Sheet(), SineWave(), alpha=0.1)"),
     ("a scene file, read and written", "Scene.from_toml(path), scene.to_toml(path)"),
     ("effects of your own", "Scene(..., effects=[Bending(...), Ground(...), ...])"),
+    ("many scenes, on many cores", "fem_check.sweep(scene, over={'growth.alpha': [...]})"),
     ("the motion in time, step by step", "fem_check.simulate(scene)"),
     ("outlines at small strain", "fem_check.plane_stress_field(Outline(...), wave)"),
     ("waves c(x, y, t), turning, paths", "FieldWave(...), rigid_path(...)"),
@@ -115,6 +127,17 @@ PARAVIEW_HELP = f"""Write the motion of a finished run for ParaView (.xdmf), wit
   {RUNS[4][1]}
 """
 
+SWEEP_HELP = f"""Answer many scenes that differ in some fields, and keep a record of each in one file.
+
+What the file holds is not computed again: after Ctrl-C, a crash or a power cut the same command goes
+on. Scenes that fail have a record with the reason. Needs the extra, but for --workers 1:
+pip install 'sheetcrawl[sweep]'
+
+  {SWEEPS[0][1]}
+  {SWEEPS[1][1]}
+  {SWEEPS[2][1]}
+"""
+
 EXPLORE = "sheetcrawl explore --port 8800 --no-browser"
 
 EXPLORE_HELP = f"""A page with sliders in the browser: shape, friction, V(alpha) and cost, with errors.
@@ -149,6 +172,7 @@ Other commands
   sheetcrawl new --list           scene files with comments: bending, ground, outlines, weight, terrain
   sheetcrawl run scene.toml       all of a scene to a folder: pictures, film, report.html
   sheetcrawl check scene.toml     what a scene file says, by which level it is answered, at what cost
+  sheetcrawl sweep sweep.toml     many scenes on many cores; sheetcrawl new sweep writes such a file
   sheetcrawl explore              a page with sliders, in the browser
   sheetcrawl examples             more examples, pictures and films; what to do in Python
   sheetcrawl --install-completion shell completion of commands and options
@@ -159,7 +183,7 @@ In Python: from fem_check import predict; help(predict)"""
 
 def examples() -> str:
     """Commands by purpose, and the Python calls for everything else."""
-    lines = [f"{title}\n  {command}\n" for title, command in (*MORE, *FILES, *RUNS)]
+    lines = [f"{title}\n  {command}\n" for title, command in (*MORE, *FILES, *RUNS, *SWEEPS)]
     lines += ["Scene files to start from, for sheetcrawl new", *listed(), ""]
     width = max(len(title) for title, _ in BEYOND)
     lines.append("Beyond the command, in Python (help(name) shows an example of each)")

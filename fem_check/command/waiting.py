@@ -57,3 +57,37 @@ def _bar() -> "Bar":
     bar = Bar(*columns, console=Console(stderr=True), transient=True)
     bar.start()
     return bar
+
+
+EVERY = 60.0
+"""Seconds between lines where stderr is no terminal."""
+
+
+class Lines(Waiting):
+    """The same, and where stderr is no terminal a line from time to time, for work of hours."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._said = self._start
+
+    def report(self, progress: Progress) -> None:
+        """Draw the line, or write one."""
+        left = "" if math.isnan(progress.left) else f", {in_words(progress.left)} left"
+        super().report(progress._replace(task=f"{progress.task}{left}", left=math.nan))
+        now = time.monotonic()
+        if not self._terminal and now - self._said >= EVERY:
+            self._said = now
+            print(f"sheetcrawl: {progress.task}{left}", file=sys.stderr, flush=True)
+
+
+def in_words(seconds: float) -> str:
+    """Two digits in the unit that fits.
+
+    >>> from fem_check.command.waiting import in_words
+    >>> print(in_words(0.0123), in_words(75), in_words(2e4), in_words(4e5), sep=", ")
+    0.012 s, 75 s, 5.6 h, 4.6 days
+    """
+    for unit, length in (("days", 86400.0), ("h", 3600.0), ("min", 60.0)):
+        if seconds >= 2 * length:
+            return f"{float(f'{seconds / length:.2g}'):g} {unit}"
+    return f"{float(f'{seconds:.2g}'):g} s"

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 
 COMMANDS = (
-    *("speed", "run", "show", "movie", "plot", "paraview"),
+    *("speed", "run", "show", "movie", "plot", "paraview", "sweep"),
     *("new", "check", "schema", "explore", "examples"),
 )
 

@@ -22,15 +22,16 @@ def keys_at(kind: type[Table], place: Iterable[str | int]) -> tuple[str, ...]:
     """Keys of a table, or of the one that stands at a place in it."""
     for name in place:
         if isinstance(name, str):
-            kind = next(_tables_in(kind.model_fields[name].annotation), kind)  # lists have no keys
+            kind = next(tables_in(kind.model_fields[name].annotation), kind)  # lists have no keys
     return tuple(kind.model_fields)
 
 
-def _tables_in(annotation: Any) -> Iterator[type[Table]]:
+def tables_in(annotation: Any) -> Iterator[type[Table]]:
+    """Tables that a key of that type may hold."""
     if isinstance(annotation, type) and issubclass(annotation, Table):
         yield annotation
     for part in get_args(annotation):
-        yield from _tables_in(part)
+        yield from tables_in(part)
 
 
 SMALLEST = 1e-100

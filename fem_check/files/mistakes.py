@@ -39,11 +39,12 @@ class SceneFileError(SheetcrawlError, ValueError):
 
 
 class Mistakes:
-    """Collects them while a file is read."""
+    """Collects them while a file is read. inside: the table that holds the scene, if any."""
 
-    def __init__(self) -> None:
+    def __init__(self, inside: Place = ()) -> None:
         self._found: list[tuple[Place, str, str]] = []
         self._more = 0
+        self._inside = inside
 
     def __bool__(self) -> bool:
         return bool(self._found)
@@ -51,6 +52,10 @@ class Mistakes:
     def add(self, place: Place, words: str) -> None:
         """A mistake at a place; words: what follows the name of the table."""
         self._found.append((place, _table(place), words))
+
+    def add_words(self, place: Place, words: str) -> None:
+        """A mistake at a place; words: all that is said of it."""
+        self._found.append((place, "", words))
 
     def add_raised(self, table: Place, words: str) -> None:
         """What was raised by the work on a table; the words may begin with one of its keys."""
@@ -76,9 +81,18 @@ class Mistakes:
             place: Place = (table, *error["loc"])
             self.add(place, f"{_key(place)}{_words(error, keys_at(kind, error['loc'][:-1]))}")
 
+    @property
+    def found(self) -> list[tuple[Place, str]]:
+        """The place of each, and what is wrong there, with the name of the table."""
+        return [(place, f"{table}{words}") for place, table, words in self._found]
+
     def error(self, path: Path, text: str) -> SceneFileError:
         """All mistakes of a file with that text, in its order."""
-        lines = [(line_of(text, place), f"{table}{words}") for place, table, words in self._found]
+        inside = "".join(f"{name}." for name in self._inside)
+        lines = [
+            (line_of(text, (*self._inside, *place)), re.sub(r"^\[", f"[{inside}", f"{table}{words}"))
+            for place, table, words in self._found
+        ]
         lines.sort(key=lambda found: found[0])
         told = [f"{path}{f':{number}' if number else ''}: {words}" for number, words in lines]
         if self._more:

@@ -27,26 +27,31 @@ def read(path: str | Path) -> SceneFile:
     line, table and key; and where there is no such file, or none that holds TOML.
     """
     path = Path(path)
-    return parsed(_text(path), path)
+    return parsed(text_of(path), path)
 
 
 def parsed(text: str, path: Path) -> SceneFile:
     """The same of the text of a file; files that it names are looked for beside `path`."""
-    try:
-        data = tomllib.loads(text)
-    except tomllib.TOMLDecodeError as problem:
-        raise SceneFileError(_not_toml(path, str(problem))) from None
-    except RecursionError:
-        raise SceneFileError(f"{path}: is not TOML: its lists are nested too deep") from None
+    data = data_of(text, path)
     mistakes = Mistakes()
-    tables = _tables(data, mistakes)
+    tables = tables_of(data, mistakes)
     found = built(tables, path, mistakes)
     if found is None or mistakes:
         raise mistakes.error(path, text)
     return found
 
 
-def _text(path: Path) -> str:
+def data_of(text: str, path: Path) -> dict[str, Any]:
+    """The entries of a text in TOML. Raises SceneFileError where it is none."""
+    try:
+        return tomllib.loads(text)
+    except tomllib.TOMLDecodeError as problem:
+        raise SceneFileError(_not_toml(path, str(problem))) from None
+    except RecursionError:
+        raise SceneFileError(f"{path}: is not TOML: its lists are nested too deep") from None
+
+
+def text_of(path: Path) -> str:
     """What stands in a file. Raises SceneFileError where there is none."""
     try:
         with open(path, encoding="utf-8-sig") as file:  # which editors on Windows begin with a mark
@@ -76,7 +81,7 @@ def _not_toml(path: Path, problem: str) -> str:
     return f"{path}:{line}: is not TOML: {words} at column {column}"
 
 
-def _tables(data: Mapping[str, Any], mistakes: Mistakes) -> dict[str, Table]:
+def tables_of(data: Mapping[str, Any], mistakes: Mistakes) -> dict[str, Table]:
     """Those that are right, each for itself."""
     found = {}
     mistakes.add_unknown([name for name in data if name not in TABLES], TABLES)

@@ -2,11 +2,11 @@
 
 import contextlib
 import os
-import socket
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import IO, Any
+
+from fem_check.runs.lock import claimed
 
 SCENE, SCENE_DATA = "scene.toml", "scene.json"
 """The scene as it was resolved; the second where no scene file holds it."""
@@ -25,18 +25,16 @@ def locked(folder: Path) -> Iterator[None]:
     no run, and where another run is at work in it. The lock of a process that has died is free.
     """
     _make(folder)
-    try:
-        file = open(folder / LOCK, "a+", encoding="utf-8")  # noqa: SIM115, held to the end of the run
-    except OSError as error:
-        raise ValueError(_unwritable(folder, error)) from None
-    with file:
-        if not _held(file):
-            file.seek(0)
+    with contextlib.ExitStack() as held:
+        try:
+            other = held.enter_context(claimed(folder / LOCK))
+        except OSError as error:
+            raise ValueError(_unwritable(folder, error)) from None
+        if other:
             raise ValueError(
-                f"folder = {str(folder)!r}: another run is at work in it ({file.read().strip()}); wait "
-                "for it, or name another folder"
+                f"folder = {str(folder)!r}: another run is at work in it ({other}); wait for it, or "
+                "name another folder"
             )
-        _sign(file, folder)
         yield
 
 
@@ -63,38 +61,3 @@ def _make(folder: Path) -> None:
 
 def _unwritable(folder: Path, error: OSError) -> str:
     return f"folder = {str(folder)!r}: cannot be written: {error.strerror or error}"
-
-
-def _sign(file: IO[str], folder: Path) -> None:
-    """Say who holds the lock."""
-    try:
-        file.seek(0)
-        file.truncate()
-        file.write(f"process {os.getpid()} on {socket.gethostname()}\n")
-        file.flush()
-    except OSError as error:
-        raise ValueError(_unwritable(folder, error)) from None
-
-
-def _held(file: IO[Any]) -> bool:
-    """Whether the lock is now that of this process."""
-    try:
-        import fcntl
-    except ModuleNotFoundError:
-        return _held_on_windows(file)
-    try:
-        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except BlockingIOError:
-        return False
-    return True
-
-
-def _held_on_windows(file: IO[Any]) -> bool:
-    import msvcrt
-
-    lock: Any = msvcrt
-    with contextlib.suppress(OSError):
-        file.seek(1_000_000)  # beyond the words, which others may read
-        lock.locking(file.fileno(), lock.LK_NBLCK, 1)
-        return True
-    return False

@@ -10,6 +10,10 @@
       Unidentifiable            a value that cannot be identified by its content    ValueError
       SceneFileError            a file from which no scene can be made              ValueError
       NotRestorable             a part of a scene that plain data cannot hold       ValueError
+      Refused, RefusedScenes    scenes of a sweep that cannot be                    ValueError
+      StoreError                records of a sweep that cannot be written
+      LostScheduler             a scheduler of workers that is gone
+      WrongWorkers              workers that cannot answer
       Fault                     a friction law that contradicts itself             ValueError
 
     ViscousRegimeWarning        dry friction that acts as viscous                   UserWarning
@@ -18,8 +22,9 @@
 ConvergenceError and UnstableError are defined in `fem_check.shell.statics.equilibrium`,
 NotPeriodicError and UnresolvedError in `fem_check.shell.cycle`, SnapshotError in
 `fem_check.shell.stepping.snapshot`, SceneFileError in `fem_check.files.mistakes`, NotRestorable in
-`linear_theory.scene.data`, Fault in `linear_theory.friction.trial`, all others here. Bad
-arguments are a plain ValueError.
+`linear_theory.scene.data`, Refused, RefusedScenes, StoreError, LostScheduler and WrongWorkers in
+`fem_check.sweeps`, Fault in `linear_theory.friction.trial`, all others here. Bad arguments are a plain
+ValueError.
 """
 
 from collections.abc import Callable

@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import Any
 
 from fem_check.files.mistakes import Mistakes
+from fem_check.files.parts.made import Made
 from fem_check.files.parts.terrains import terrain_of
 from fem_check.files.quantities import registry
 from fem_check.files.system import System
@@ -43,8 +44,11 @@ TANH = LAWS[Tanh.name]
 class Effects:
     """Makes effects of their tables."""
 
-    def __init__(self, system: System, sheet: Sheet, folder: Path, mistakes: Mistakes) -> None:
+    def __init__(
+        self, system: System, sheet: Sheet, folder: Path, mistakes: Mistakes, made: Made
+    ) -> None:
         self.system, self.sheet, self.folder, self.mistakes = system, sheet, folder, mistakes
+        self.made = made
 
     def material(self, young: Any) -> Material:
         """Of the sheet; with units Young's modulus is the unit of stress."""
@@ -102,8 +106,9 @@ class Effects:
         number = self.system.number
         height = None
         if table.terrain is not None:
+            of = (table.terrain, self.system, self.sheet)
             with self.mistakes.under("ground", "terrain"):
-                height = terrain_of(table.terrain, self.system, self.sheet, self.folder)
+                height = self.made.part("terrain", of, lambda: terrain_of(*of, self.folder))
         return Ground(
             number(table.stiffness), number(table.damping), Load(table.load), height, table.form
         )
@@ -116,7 +121,12 @@ class Effects:
 
 
 def effects_of(
-    tables: Mapping[str, Any], system: System, sheet: Sheet, folder: Path, mistakes: Mistakes
+    tables: Mapping[str, Any],
+    system: System,
+    sheet: Sheet,
+    folder: Path,
+    mistakes: Mistakes,
+    made: Made,
 ) -> list[Any]:
     """Those that tables name; stretching with any of them, and with Young's modulus."""
     named = [name for name in EFFECTS if name in tables]
@@ -125,7 +135,7 @@ def effects_of(
     young = tables["sheet"].young
     if not named and (young is None or young.unit is not None):
         return []
-    maker = Effects(system, sheet, folder, mistakes)
+    maker = Effects(system, sheet, folder, mistakes, made)
     material = maker.material(young)
     found: list[Any] = [Membrane(material)]
     for name in named:

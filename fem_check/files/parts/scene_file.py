@@ -9,6 +9,7 @@ from fem_check.answer.units import Units
 from fem_check.files.fields import Table
 from fem_check.files.mistakes import Mistakes
 from fem_check.files.parts.effects import effects_of, with_contact
+from fem_check.files.parts.made import Made
 from fem_check.files.parts.outlines import mesh_of, sheet_of
 from fem_check.files.parts.waves import growth_of, wave_of
 from fem_check.files.system import System, system_of
@@ -39,19 +40,27 @@ class SceneFile(Shown):
     path: Path
 
 
-def built(tables: Mapping[str, Table], path: Path, mistakes: Mistakes) -> SceneFile | None:
-    """The scene of tables that are right, each for itself; None where mistakes were found."""
+def built(
+    tables: Mapping[str, Table], path: Path, mistakes: Mistakes, made: Made | None = None
+) -> SceneFile | None:
+    """The scene of tables that are right, each for itself; None where mistakes were found.
+
+    made: parts of earlier scenes, which are used again where their tables are the same objects.
+    """
+    made = Made() if made is None else made
     system = system_of(tables, mistakes)
     if system is None:
         return None
     run = _run(tables["run"], system, mistakes) if "run" in tables else None
-    scene = _scene(tables, system, path.parent, mistakes)
+    scene = _scene(tables, system, path.parent, mistakes, made)
     if mistakes or scene is None or run is None:
         return None
     return SceneFile(scene, run, system.units, path)
 
 
-def _scene(tables: Mapping[str, Any], system: System, folder: Path, mistakes: Mistakes) -> Scene | None:
+def _scene(
+    tables: Mapping[str, Any], system: System, folder: Path, mistakes: Mistakes, made: Made
+) -> Scene | None:
     """As far as it can be made; None where a part is missing that others need."""
     sheet = wave = growth = None
     if "sheet" in tables:
@@ -59,13 +68,14 @@ def _scene(tables: Mapping[str, Any], system: System, folder: Path, mistakes: Mi
             sheet = sheet_of(tables["sheet"], tables.get("outline"), system)
     if "wave" in tables:
         with mistakes.under("wave"):
-            wave = wave_of(tables["wave"], system, folder)
+            table = tables["wave"]
+            wave = made.part("wave", (table, system), lambda: wave_of(table, system, folder))
     if "growth" in tables and sheet is not None and wave is not None:
         with mistakes.under("growth"):
             growth = growth_of(tables["growth"], system, sheet, wave)
     if sheet is None:
         return None
-    effects = effects_of(tables, system, sheet, folder, mistakes)
+    effects = effects_of(tables, system, sheet, folder, mistakes, made)
     if mistakes or wave is None or growth is None:
         return None
     scene = None
@@ -74,18 +84,27 @@ def _scene(tables: Mapping[str, Any], system: System, folder: Path, mistakes: Mi
     if scene is not None:
         with mistakes.under("friction"):
             scene = with_contact(scene, tables.get("friction"), system)
-        scene = _with_elements(scene, tables, system, folder, mistakes)
+        scene = _with_elements(scene, tables, system, folder, mistakes, made)
     return scene
 
 
 def _with_elements(
-    scene: Scene, tables: Mapping[str, Any], system: System, folder: Path, mistakes: Mistakes
+    scene: Scene,
+    tables: Mapping[str, Any],
+    system: System,
+    folder: Path,
+    mistakes: Mistakes,
+    made: Made,
 ) -> Scene:
     """With the mesh of its outline, and with the elements that [run] asks for."""
     run, outline = tables.get("run"), tables.get("outline")
     if outline is not None:
         with mistakes.under("outline"):
-            mesh = mesh_of(outline, system, scene.sheet, scene.drive, scene.planar, folder)
+            sheet, plane = scene.sheet, scene.planar
+            of = (outline, system, sheet, scene.wave, plane)
+            mesh = made.part(
+                "mesh", of, lambda: mesh_of(outline, system, sheet, scene.drive, plane, folder)
+            )
             scene = scene.but(mesh=mesh)
     if run is not None:
         with mistakes.under("run"):

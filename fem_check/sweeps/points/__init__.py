@@ -1,0 +1,1 @@
+"""Which scenes a sweep has: fields, what they may be, and designs."""

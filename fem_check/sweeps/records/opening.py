@@ -1,0 +1,109 @@
+"""Files of sweeps opened: to be written by one process, or to be read."""
+
+import sqlite3
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager
+from pathlib import Path
+
+from fem_check.runs.lock import claimed
+from fem_check.sweeps.records.store import SCHEMA, Store
+
+VERSION = 1
+"""Of the tables below."""
+
+MARK = 0x53686565
+"""By which SQLite files of this kind are known: "Shee"."""
+
+PATIENCE = 30.0
+"""Seconds to wait for a process that reads."""
+
+
+@contextmanager
+def writing(path: Path) -> Iterator[Store]:
+    """The file, made where it is not there, with no other process that writes it.
+
+    Raises ValueError, before any work, where it cannot be made or written, is at work for another
+    sweep, holds something else, or is of another version.
+    """
+    name = f"file = {str(path)!r}"
+    if path.is_dir():
+        raise ValueError(f"{name}: is a folder, must be a file")
+    if path.parent.exists() and not path.parent.is_dir():
+        raise ValueError(f"{name}: cannot be written: its folder is a file")
+    with ExitStack() as held:
+        try:
+            path.parent.mkdir(parents=True, exist_ok=True)
+            other = held.enter_context(claimed(path.with_name(f".{path.name}.lock")))
+        except OSError as error:
+            raise ValueError(f"{name}: cannot be written: {error.strerror or error}") from None
+        if other:
+            raise ValueError(
+                f"{name}: another sweep is at work in it ({other}); wait for it, or name another file"
+            )
+        yield held.enter_context(Store(path, _opened(path, name)))
+
+
+def _opened(path: Path, name: str) -> sqlite3.Connection:
+    try:
+        db = sqlite3.connect(path, timeout=PATIENCE, isolation_level=None)
+        _check(db, name, new=True)
+        # The log keeps what is written through the end of the process; after a power cut the last
+        # records may be missing, which are then computed again, and none is damaged.
+        db.execute("PRAGMA journal_mode = WAL")
+        db.execute("PRAGMA synchronous = NORMAL")
+        if not db.execute("SELECT COUNT(*) FROM sqlite_master").fetchone()[0]:
+            db.executescript(
+                f"BEGIN; PRAGMA application_id = {MARK}; PRAGMA user_version = {VERSION};"
+                f"{SCHEMA} COMMIT;"
+            )
+        db.execute("BEGIN IMMEDIATE")
+        db.execute("ROLLBACK")
+    except sqlite3.Error as problem:
+        raise ValueError(f"{name}: {_words(problem)}") from None
+    return db
+
+
+@contextmanager
+def reading(path: Path) -> Iterator[Store]:
+    """The file, to be read, also while a sweep is at work. Raises ValueError where there is none."""
+    name = f"file = {str(path)!r}"
+    if not path.is_file():
+        what = "is a folder, must be the file of a sweep" if path.is_dir() else "there is no such file"
+        raise ValueError(f"{name}: {what}")
+    try:
+        db = sqlite3.connect(path, timeout=PATIENCE, isolation_level=None)
+        _check(db, name, new=False)
+    except sqlite3.Error as problem:
+        raise ValueError(f"{name}: {_words(problem)}") from None
+    with Store(path, db) as store:
+        yield store
+
+
+def _check(db: sqlite3.Connection, name: str, new: bool) -> None:
+    """Raise ValueError for a database of something else, or of another version."""
+    mark, version, tables = (
+        db.execute(statement).fetchone()[0]
+        for statement in (
+            "PRAGMA application_id",
+            "PRAGMA user_version",
+            "SELECT COUNT(*) FROM sqlite_master",
+        )
+    )
+    if not tables and not mark and new:
+        return
+    if mark != MARK:
+        db.close()
+        raise ValueError(f"{name}: is a database, but not of sweeps; name another file")
+    if version != VERSION:
+        db.close()
+        raise ValueError(
+            f"{name}: is of version {version}, this program writes and reads version {VERSION}; name "
+            "another file, or use the program that wrote it"
+        )
+
+
+def _words(problem: sqlite3.Error) -> str:
+    text = str(problem)
+    if "not a database" in text:
+        return "is not a database of sweeps; name another file"
+    return f"cannot be used: {text}"

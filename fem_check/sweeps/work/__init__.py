@@ -1,0 +1,1 @@
+"""Who answers the scenes of a sweep: this process, or workers."""
