@@ -42,7 +42,8 @@ class Step(Shown):
     velocity: of the points as a function of position; None in statics. acceleration: likewise, None
     without inertia. load (points,): normal force at each point (pressure times area), to which friction
     is proportional. area (points,): quadrature weight times current area, for "current" loads.
-    normal (3, points): unit normal of the ground under each point, None if it is e_z.
+    normal (3, points): unit normal of the ground under each point, None if it is e_z. anchor
+    (components, points): places before the step, None unless a `Restraint` holds the sheet to them.
 
     load, area and normal are those of the last state, since as functions of the position they would not
     have a potential. The minimisation is repeated until they no longer change.
@@ -53,6 +54,7 @@ class Step(Shown):
     load: Array | None = None
     area: Array | None = None
     normal: Array | None = None
+    anchor: Array | None = None
 
     @property
     def moving(self) -> Affine:
@@ -74,15 +76,19 @@ class Step(Shown):
         """The current area. Raises ValueError where none is held fixed."""
         return _held(self.area, "area")
 
+    @property
+    def anchored(self) -> Array:
+        """The places before the step. Raises ValueError where none are held fixed."""
+        return _held(self.anchor, "anchor")
+
     def part(self, points: slice) -> "Step":
         """The same for a slice of the points."""
-        load, area, normal = (
-            None if a is None else a[..., points] for a in (self.load, self.area, self.normal)
-        )
+        held = (self.load, self.area, self.normal, self.anchor)
+        load, area, normal, anchor = (None if a is None else a[..., points] for a in held)
         velocity, acceleration = (
             None if r is None else r.part(points) for r in (self.velocity, self.acceleration)
         )
-        return Step(velocity, acceleration, load, area, normal)
+        return Step(velocity, acceleration, load, area, normal, anchor)
 
 
 def _held(value: T | None, name: str) -> T:

@@ -17,9 +17,10 @@ from fem_check.shell.statics.equilibrium import ConvergenceError
 from fem_check.shell.statics.newton import Factorised
 from fem_check.shell.stepping.between import probe_region
 from fem_check.shell.stepping.power import Ledger, Moment, Works
-from fem_check.shell.stepping.record import Record
+from fem_check.shell.stepping.record import Counts, Record
 from fem_check.shell.stepping.settings import Settings
 from fem_check.shell.stepping.sliding import Sliding, sliding
+from fem_check.shell.stepping.snapping import Snap, first_stiffness
 from fem_check.shell.stepping.snapshot import check_writable, load_snapshot, save_snapshot
 from fem_check.shell.stepping.start import first_history
 from fem_check.shell.stepping.step_control import LANDED, History, step_size
@@ -30,10 +31,6 @@ from linear_theory.common.threads import one_blas_thread
 from linear_theory.scene.scene import Scene
 
 Array = NDArray[np.float64]
-
-SNAP, PATIENCE = 3, 10
-"""Number of consecutive failures after which a step may take this multiple of the usual iterations: a
-sheet that snaps through moves far however short the step is."""
 
 CHECKED = 8
 """Interval, in steps, of checks for negative curvature at the end of a step, which cost a Hessian: a
@@ -67,13 +64,13 @@ class Target(NamedTuple):
 class Landing(NamedTuple):
     """State of the run after an accepted step, and the length of the record.
 
-    sizes: next step and largest velocity so far. counts: rejected steps, rows and kept states of the
+    control: step size and restraint of the next step. counts: rejected steps, rows and kept states of the
     record. factor: kept by the minimiser.
     """
 
     history: History
     moment: Moment
-    sizes: tuple[float, float]
+    control: Array
     counts: tuple[int, int, int]
     factor: Factorised | None
 
@@ -88,6 +85,7 @@ class Run:
         scene.drive.check_period()
         self.size = step_size(period, settings.rtol, settings.steps, scene.drive.rates)
         self.size.scale = abs(scene.alpha) * scene.sheet.length / period
+        self.snap = Snap(first_stiffness(scene.sheet))
         self.start = settings.ramp * period
         self.stepper = Stepper(self.model, self.start, self.size.dt)
         self.marks = self.start + period * np.arange(settings.periods + 1)
@@ -141,25 +139,25 @@ class Run:
 
     def _advance(self) -> None:
         """Make one accepted step."""
-        failures, check = 0, len(self.record.rows) % CHECKED == 0
+        check = len(self.record.rows) % CHECKED == 0
         while True:
             dt = self.size.within(self._remaining())
-            patience = PATIENCE if failures >= SNAP else 1
             try:
-                result = self.stepper.attempt(self.history, dt, patience, check)
+                result = self.stepper.attempt(self.history, dt, self.snap.stiffness, check)
             except ConvergenceError as error:
-                self._shorten(dt, error, last=patience > 1)
-                failures += 1
+                self._failed(dt, error)
                 continue
             wrong = self.history.velocity_error(result.state, dt)
             velocity, _ = self.history.rules(dt)
-            if self.size.judge(dt, self._rms(wrong), self._rms(velocity(result.state))):
+            speeds = self._rms(wrong), self._rms(velocity(result.state))
+            if self.size.judge(dt, *speeds, forced=self.snap.restrained):
                 return self._accept(result, dt, wrong, velocity)
             self.record.rejected += 1
 
-    def _shorten(self, dt: float, error: ConvergenceError, last: bool) -> None:
+    def _failed(self, dt: float, error: ConvergenceError) -> None:
+        """Prepare another attempt. Raises ConvergenceError if there is nothing left to try."""
         self.record.rejected += 1
-        if not self.size.halve(dt) and last:
+        if not self.snap.failed(shortest=not self.size.halve(dt)):
             text = f"no time step from t = {self.history.time:g} converges, however short: {error}"
             raise ConvergenceError(text, self.history.state, self.history.time) from error
 
@@ -167,15 +165,15 @@ class Run:
         after = self.ledger.moment(result.state, result.rest, result.step, velocity(result.state))
         works = self.ledger.works(self.moment, after)
         slide = self._sliding(result, wrong)
-        self.history, self.moment = self.history.advanced(result.state, dt), after
-        counts = (result.iterations, result.repeats, result.buckled)
+        snapped = not self.size.resolved
+        self.history, self.moment = self.history.advanced(result.state, dt, snapped), after
+        self.snap.succeeded()
+        counts = Counts(result.iterations, result.repeats, result.buckled, snapped)
         self._note(result.state, works, slide, counts)
         if self.steps % self.settings.keep_every == 0 or self._remaining() <= 0:
             self.record.keep(result.time, result.state)
 
-    def _note(
-        self, state: Array, works: Works, slide: Sliding, counts: tuple[int, int, bool] = (0, 0, False)
-    ) -> None:
+    def _note(self, state: Array, works: Works, slide: Sliding, counts: Counts = Counts()) -> None:
         """Append a row to the record for the state at this time."""
         centre, probes = self._centre(state), self.probes.position(state, (0,))[0].T
         self.record.add(self.history.time, centre, works, slide, probes, counts)
@@ -212,16 +210,25 @@ class Run:
         return float(np.sqrt(square @ self.region.measure / self.region.measure.sum()))
 
     def _land(self) -> Landing:
-        record, size = self.record, self.size
+        record = self.record
         counts = record.rejected, len(record.rows), len(record.times)
         factor = self.stepper.minimiser.kept
-        return Landing(self.history, self.moment, (size.dt, size.scale), counts, factor)
+        return Landing(self.history, self.moment, self._control(), counts, factor)
+
+    def _control(self) -> Array:
+        """What the next step starts from, besides the history."""
+        size, snap = self.size, self.snap
+        return np.array([size.dt, size.scale, size.repeated, snap.stiffness, snap.steps])
+
+    def _set_control(self, values: Array) -> None:
+        self.size.dt, self.size.scale, repeated, self.snap.stiffness, steps = (float(v) for v in values)
+        self.size.repeated, self.snap.steps, self.snap.failures = bool(repeated), int(steps), 0
 
     def rewind(self) -> None:
         """Return to the end of the last accepted step, from any point in the next one."""
         landing = self.landing
         self.history, self.moment = landing.history, landing.moment
-        self.size.dt, self.size.scale = landing.sizes
+        self._set_control(landing.control)
         self.record.rejected, rows, kept = landing.counts
         self.record.cut(rows, kept)
         self.stepper.minimiser.kept = landing.factor
@@ -232,13 +239,14 @@ class Run:
 
     def _arrays(self) -> dict[str, Array]:
         """The full state of the run and its record."""
-        size, record, history = self.size, self.record, self.history
+        record, history = self.record, self.history
         found: dict[str, Any] = {
             "past_times": history.times,
             "past_states": history.states,
             "velocity": history.velocity,
             "acceleration": history.acceleration,
-            "control": np.array([size.dt, size.scale, record.rejected]),
+            "control": self._control(),
+            "rejected": np.array(record.rejected),
             "rows": np.array(record.rows),
             "probes": np.array(record.probes),
             "stored_times": np.array(record.times),
@@ -260,13 +268,13 @@ class Run:
         self.history = History(
             found["past_times"], found["past_states"], get("velocity"), get("acceleration")
         )
-        self.size.dt, self.size.scale = (float(v) for v in found["control"][:2])
+        self._set_control(found["control"])
         self.record = Record(
             list(found["rows"]),
             list(found["probes"]),
             [float(t) for t in found["stored_times"]],
             list(found["states"]),
-            int(found["control"][2]),
+            int(found["rejected"]),
         )
         self.moment = replace(
             self.moment,

@@ -1,12 +1,12 @@
 """The history of a time integration, its extrapolation, and the size of the next step."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from fem_check.shell.kinematics.extrapolation import extrapolated
-from fem_check.shell.kinematics.rates import Affine, newmark, two_step
+from fem_check.shell.kinematics.rates import Affine, backward_euler, newmark, two_step
 from linear_theory.wave.protocol import PER_HARMONIC
 from linear_theory.wave.spectrum import Spectrum
 
@@ -14,6 +14,9 @@ Array = NDArray[np.float64]
 
 GROWTH = 1.6
 """Largest ratio of neighbouring steps; the two-step rule is stable up to 1 + sqrt 2."""
+
+JUMP = 0.5
+"""Error of the velocity relative to it, beyond which a step of given length does not resolve it."""
 
 LANDED = 1e-9
 """Fraction of the period below which two times count as equal."""
@@ -43,10 +46,10 @@ NEWMARK_ERROR = 1 / 12
 
 @dataclass(frozen=True, eq=False)
 class History:
-    """States at the last three times, the latest first; before the start the sheet is at rest.
+    """States at the last times, the latest first; before the start the sheet is at rest.
 
-    times (3,); states (3, size): unknowns. velocity, acceleration (size,): of the unknowns at the
-    latest time, None without inertia.
+    times (n,); states (n, size): unknowns, of the last n <= 3 steps since a jump. velocity,
+    acceleration (size,): of the unknowns at the latest time, None without inertia.
     """
 
     times: Array
@@ -80,23 +83,30 @@ class History:
         """Velocity and (with inertia) acceleration of the unknowns at the end of a step, as rules."""
         if self.velocity is not None and self.acceleration is not None:
             return newmark(self.state, self.velocity, self.acceleration, dt)
+        if self.times.size == 1:
+            return backward_euler(self.state, dt), None
         return two_step(self.state, self.states[1], dt, self.times[0] - self.times[1]), None
 
     def velocity_error(self, state: Array, dt: float) -> Array:
         """Estimated error of the velocity (size,) at the end of a step that led to `state`.
 
         Two-step rule: v = x' + x''' dt (dt + d)/6, d the previous step; the third derivative follows
-        from the deviation from the prediction. Newmark's rule: error of the position over the step.
+        from the deviation from the prediction; unknown, 0, in the two (short) steps after a jump.
+        Newmark's rule: error of the position over the step.
         """
         _, acceleration = self.rules(dt)
         if acceleration is not None and self.acceleration is not None:
             return NEWMARK_ERROR * dt * (acceleration(state) - self.acceleration)
+        if self.times.size < 3:
+            return np.zeros_like(state)
         # x - prediction = x'''/6 dt (dt + d) (dt + d + d'), d' the step before d
         return (state - self.prediction(dt)) / (self.time + dt - self.times[2])
 
-    def advanced(self, state: Array, dt: float) -> "History":
-        """The history one step later."""
+    def advanced(self, state: Array, dt: float, jumped: bool = False) -> "History":
+        """The history one step later; a sheet without inertia that has jumped starts anew, at rest."""
         velocity, acceleration = self.rules(dt)
+        if jumped and acceleration is None:
+            return History(np.array([self.time + dt]), state[None])
         after = replace(
             self,
             times=np.array([self.time + dt, *self.times[:2]]),
@@ -113,7 +123,11 @@ class StepSize:
 
     dt: next step, in (smallest, largest]. rtol: error of the velocity relative to the largest velocity
     so far (`scale`), both as root mean square over the sheet; None: the step is given and only
-    shortened if a minimisation fails.
+    shortened if a minimisation fails. resolved: whether the last accepted step resolves the motion: its
+    error meets rtol (JUMP, if the step is given). Velocities of jumps do not count for the scale.
+    natural: the step for a sine; in shorter ones, where the motion is rough, larger errors are allowed,
+    since their share of the way is small. repeated: whether the step is one that was shortened; the next
+    one is then not longer.
     """
 
     dt: float
@@ -121,28 +135,39 @@ class StepSize:
     largest: float
     rtol: float | None = None
     scale: float = 0.0
+    natural: float = 0.0
+    resolved: bool = field(default=True, init=False)
+    repeated: bool = field(default=False, init=False)
 
     def within(self, remaining: float) -> float:
         """The next step, adjusted so that equal steps fill the remaining time."""
         count = int(np.ceil(remaining / self.dt * (1 - 1e-9)))
         return remaining / max(count, 1)
 
-    def judge(self, dt: float, error: float, speed: float) -> bool:
-        """Whether a step of length dt is accepted; sets the next step (or attempt)."""
-        self.scale = max(self.scale, speed)
-        if self.rtol is None:
+    def judge(self, dt: float, error: float, speed: float, forced: bool = False) -> bool:
+        """Whether a step of length dt is accepted; sets the next step (or attempt).
+
+        forced: whether it is accepted whatever its error, as in a snap-through."""
+        scale = max(self.scale, speed if not forced and error <= JUMP * speed else 0.0)
+        limit = JUMP if self.rtol is None else self.rtol * max(1.0, np.sqrt(self.natural / dt))
+        share = error / (limit * scale) if scale > 0 else 0.0
+        self.resolved = share <= 1 and not forced
+        if self.resolved:
+            self.scale = scale
+        if self.rtol is None or forced:
             self.dt = min(self.largest, GROWTH * dt)
             return True
-        share = error / (self.rtol * self.scale) if self.scale > 0 else 0.0
-        factor = float(np.clip(SAFETY / np.sqrt(max(share, 1e-12)), 0.3, GROWTH))
+        most = 1.0 if self.repeated else GROWTH
+        factor = float(np.clip(SAFETY / np.sqrt(max(share, 1e-12)), 0.3, most))
         accepted = share <= 1 or dt <= (1 + 1e-9) * self.smallest
         if not accepted or not 1 <= factor < DEADBAND:
             self.dt = float(np.clip(factor * dt, self.smallest, self.largest))
+        self.repeated = not accepted
         return accepted
 
     def halve(self, dt: float) -> bool:
         """Halve the step after a failure; False if it cannot be shorter."""
-        self.dt = max(dt / 2, self.smallest)
+        self.dt, self.repeated = max(dt / 2, self.smallest), True
         return dt > (1 + 1e-9) * self.smallest
 
 
@@ -167,7 +192,13 @@ def step_size(period: float, rtol: float | None, steps: int | None, rates: Spect
     # The relative error of the slope of a sine of this period is (2 pi dt/period)^2/3.
     natural = period * np.sqrt(3 * rtol) / (2 * np.pi)
     shortest = natural / SHORTEST / max(harmonic / SHORT_HARMONIC, 1)
-    return StepSize(natural / 8 / harmonic, shortest, period / max(12, PER_HARMONIC * harmonic), rtol)
+    return StepSize(
+        natural / 8 / harmonic,
+        shortest,
+        period / max(12, PER_HARMONIC * harmonic),
+        rtol,
+        natural=natural,
+    )
 
 
 def _harmonic(rates: Spectrum, share: float) -> int:

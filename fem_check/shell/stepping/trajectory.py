@@ -129,6 +129,11 @@ class Trajectory(Drawable, Tabular):
         return self.table["buckled"] > 0
 
     @property
+    def snapped(self) -> NDArray[np.bool_]:
+        """Whether the sheet jumped in the step, (n,), in which its motion is not resolved."""
+        return self.table["snapped"] > 0
+
+    @property
     def iterations(self) -> int:
         """Newton iterations of all accepted steps."""
         return int(self.table["iterations"].sum())
@@ -165,7 +170,7 @@ class Trajectory(Drawable, Tabular):
         steps; for the error of the steps see `errors`. Raises ValueError outside of the kept times.
         """
         t = self._within(t)
-        return interpolation_error(self.times, self.probes, self.buckled, self.stored_times, t)
+        return interpolation_error(self.times, self.probes, self.snapped, self.stored_times, t)
 
     def shape(self, t: float, rtol: float | None = SEEN) -> Array:
         """Unknowns (size,) at time t: of a kept state, or from a cubic through the four nearest.
@@ -256,7 +261,7 @@ class Trajectory(Drawable, Tabular):
         error is a lower bound, since the path depends on the step lengths: never converged.
         """
         last, errors = self._last(1), self.errors
-        snaps = bool(self.buckled[last].any())
+        snaps = bool(self.snapped[last].any())
         unknown = "mesh error not estimated" if np.isnan(errors.mesh) else ""
         snapped = "snaps over" if snaps else ""
         shape, scene = "Koiter shell stepped in time", self.scene
