@@ -114,14 +114,16 @@ def two_step(x: Array, before: Array, dt: float, dt_before: float | None = None)
     return Affine(rate, ((1 + ratio) ** 2 * x - ratio**2 * before) / (1 + 2 * ratio))
 
 
-def newmark(x: Array, v: Array, a: Array, dt: float) -> tuple[Affine, Affine]:
-    """Velocity and acceleration of Newmark's rule with beta = 1/4 and gamma = 1/2 (appendix A.2).
+def newmark(
+    x: Array, v: Array, a: Array, dt: float, beta: float = NEWMARK_BETA, gamma: float = NEWMARK_GAMMA
+) -> tuple[Affine, Affine]:
+    """Velocity and acceleration of Newmark's rule, by default with beta = 1/4, gamma = 1/2 (appendix A.2).
 
     x, v, a: (components, points) at the start of the step.
     """
     dt = validation.positive("dt", dt)
-    guess = x + dt * v + dt**2 * (0.5 - NEWMARK_BETA) * a
-    acceleration = Affine(1 / (NEWMARK_BETA * dt**2), guess)
+    guess = x + dt * v + dt**2 * (0.5 - beta) * a
+    acceleration = Affine(1 / (beta * dt**2), guess)
     # v_new = v + dt ((1 - gamma) a + gamma a_new), written as rate (x_new - base).
-    rate = NEWMARK_GAMMA / (NEWMARK_BETA * dt)
-    return Affine(rate, guess - (v + dt * (1 - NEWMARK_GAMMA) * a) / rate), acceleration
+    rate = gamma / (beta * dt)
+    return Affine(rate, guess - (v + dt * (1 - gamma) * a) / rate), acceleration

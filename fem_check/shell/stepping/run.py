@@ -23,7 +23,8 @@ from fem_check.shell.stepping.sliding import Sliding, sliding
 from fem_check.shell.stepping.snapping import Snap, first_stiffness
 from fem_check.shell.stepping.snapshot import check_writable, load_snapshot, save_snapshot
 from fem_check.shell.stepping.start import first_history
-from fem_check.shell.stepping.step_control import LANDED, History, step_size
+from fem_check.shell.stepping.schemes import History
+from fem_check.shell.stepping.step_control import LANDED, step_size
 from fem_check.shell.stepping.stepper import Stepper, StepResult
 from fem_check.shell.stepping.trajectory import Trajectory
 from linear_theory.common.shown import Shown
@@ -83,7 +84,7 @@ class Run:
         self.scene, self.settings, period = scene, settings, scene.period
         self.model = ShellModel(scene)
         scene.drive.check_period()
-        self.size = step_size(period, settings.rtol, settings.steps, scene.drive.rates)
+        self.size = step_size(period, settings.rtol, settings.steps_of(period), scene.drive.rates)
         self.size.scale = abs(scene.alpha) * scene.sheet.length / period
         self.snap = Snap(first_stiffness(scene.sheet))
         self.start = settings.ramp * period
@@ -91,7 +92,7 @@ class Run:
         self.marks = self.start + period * np.arange(settings.periods + 1)
         self.ledger, self.record = Ledger(self.model), Record()
         self.region, self.probes = self.stepper.region, probe_region(self.model.discretisation)
-        self.history = first_history(self.stepper, self.size.dt, settings.velocity)
+        self.history = first_history(self.stepper, self.size.dt, settings.velocity, settings.scheme)
         self.moment = self._first_moment()
         self.landing = self._land()
 
@@ -243,7 +244,7 @@ class Run:
         found: dict[str, Any] = {
             "past_times": history.times,
             "past_states": history.states,
-            "velocity": history.velocity,
+            "velocities": history.velocities,
             "acceleration": history.acceleration,
             "control": self._control(),
             "rejected": np.array(record.rejected),
@@ -265,9 +266,8 @@ class Run:
             return np.nan
         found = load_snapshot(target.path, target.owner)
         get, minimiser = found.get, self.stepper.minimiser
-        self.history = History(
-            found["past_times"], found["past_states"], get("velocity"), get("acceleration")
-        )
+        past = found["past_times"], found["past_states"], get("velocities"), get("acceleration")
+        self.history = History(*past, self.history.scheme)
         self._set_control(found["control"])
         self.record = Record(
             list(found["rows"]),

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from fem_check.mesh.elements import default_cells
 from fem_check.shell.stepping.run import Progress, Run, Target
+from fem_check.shell.stepping.schemes import Scheme
 from fem_check.shell.stepping.settings import Settings
 from fem_check.shell.stepping.snapshot import check_path, check_writable, run_fingerprint
 from fem_check.shell.stepping.trajectory import Trajectory
@@ -34,6 +35,7 @@ def simulate(
     *,
     ramp: float = 0.5,
     velocity: ArrayLike | None = None,
+    scheme: Scheme | None = None,
     snapshot: str | Path | None = None,
     snapshot_every: int = 50,
     keep_every: int = 1,
@@ -45,7 +47,8 @@ def simulate(
     rtol: error of the velocities, which controls the steps (1e-2 by default) and is about the relative
     error of V; steps: instead, number of equal steps per period. ramp: periods over which growth rises
     to its full amplitude. velocity (components,): of the sheet at the start; with Inertia only.
-    snapshot: file written after every `snapshot_every` steps, at the end, and when Ctrl-C interrupts
+    scheme: `BackwardDifferences`, or `Newmark` as in the paper, which needs Inertia and is the default
+    without Ground; either may give the length of the steps. snapshot: file written after every `snapshot_every` steps, at the end, and when Ctrl-C interrupts
     the run. If it exists, the run resumes from it, and the results are bit for bit those of an
     uninterrupted run (one thread, same machine). keep_every: interval, in steps, of states kept in the
     trajectory; see `Trajectory.shape_error`. mesh_error: estimate the mesh error from a second run on a
@@ -77,7 +80,7 @@ def simulate(
         raise ValueError(f"progress = {validation.shown(progress)}: must be True, False or a function")
     if not (snapshot is None or isinstance(snapshot, str | Path)) or snapshot == "":
         raise ValueError(f"snapshot = {validation.shown(snapshot)}: must be the path of a file")
-    settings = Settings(periods, rtol, steps, ramp, velocity, keep_every)
+    settings = Settings(periods, rtol, steps, ramp, velocity, keep_every, scheme)
     every = validation.integer("snapshot_every", snapshot_every, 1)
     try:
         if snapshot is not None:

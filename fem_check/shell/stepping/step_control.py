@@ -1,16 +1,11 @@
-"""The history of a time integration, its extrapolation, and the size of the next step."""
+"""The size of the next step: given, or controlled by the error of the velocity."""
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import NDArray
 
-from fem_check.shell.kinematics.extrapolation import extrapolated
-from fem_check.shell.kinematics.rates import Affine, backward_euler, newmark, two_step
 from linear_theory.wave.protocol import PER_HARMONIC
 from linear_theory.wave.spectrum import Spectrum
-
-Array = NDArray[np.float64]
 
 GROWTH = 1.6
 """Largest ratio of neighbouring steps; the two-step rule is stable up to 1 + sqrt 2."""
@@ -39,82 +34,6 @@ growth rate that may lie in higher harmonics."""
 
 SINE = Spectrum(np.ones(1), 0.0)
 """Spectrum of a wave that is a sine in time."""
-
-NEWMARK_ERROR = 1 / 12
-"""|beta - 1/6|: error of Newmark's rule in x is this times dt^2 (a_new - a), for beta = 1/4."""
-
-
-@dataclass(frozen=True, eq=False)
-class History:
-    """States at the last times, the latest first; before the start the sheet is at rest.
-
-    times (n,); states (n, size): unknowns, of the last n <= 3 steps since a jump. velocity,
-    acceleration (size,): of the unknowns at the latest time, None without inertia.
-    """
-
-    times: Array
-    states: Array
-    velocity: Array | None = None
-    acceleration: Array | None = None
-
-    @classmethod
-    def at_rest(cls, state: Array, dt: float, start: float = 0.0) -> "History":
-        """The history of a sheet at rest during the steps of length dt before the start."""
-        times = np.asarray(start - dt * np.arange(3), float)
-        return cls(times, np.tile(state, (3, 1)))
-
-    @property
-    def time(self) -> float:
-        """The latest time."""
-        return float(self.times[0])
-
-    @property
-    def state(self) -> Array:
-        """The latest state, (size,)."""
-        return np.asarray(self.states[0])
-
-    def prediction(self, dt: float) -> Array:
-        """Predicted state after dt: parabolic, or Newmark's with constant acceleration."""
-        if self.velocity is not None and self.acceleration is not None:
-            return np.asarray(self.state + dt * self.velocity + dt**2 / 2 * self.acceleration)
-        return extrapolated(self.times, self.states, self.time + dt)
-
-    def rules(self, dt: float) -> tuple[Affine, Affine | None]:
-        """Velocity and (with inertia) acceleration of the unknowns at the end of a step, as rules."""
-        if self.velocity is not None and self.acceleration is not None:
-            return newmark(self.state, self.velocity, self.acceleration, dt)
-        if self.times.size == 1:
-            return backward_euler(self.state, dt), None
-        return two_step(self.state, self.states[1], dt, self.times[0] - self.times[1]), None
-
-    def velocity_error(self, state: Array, dt: float) -> Array:
-        """Estimated error of the velocity (size,) at the end of a step that led to `state`.
-
-        Two-step rule: v = x' + x''' dt (dt + d)/6, d the previous step; the third derivative follows
-        from the deviation from the prediction; unknown, 0, in the two (short) steps after a jump.
-        Newmark's rule: error of the position over the step.
-        """
-        _, acceleration = self.rules(dt)
-        if acceleration is not None and self.acceleration is not None:
-            return NEWMARK_ERROR * dt * (acceleration(state) - self.acceleration)
-        if self.times.size < 3:
-            return np.zeros_like(state)
-        # x - prediction = x'''/6 dt (dt + d) (dt + d + d'), d' the step before d
-        return (state - self.prediction(dt)) / (self.time + dt - self.times[2])
-
-    def advanced(self, state: Array, dt: float, jumped: bool = False) -> "History":
-        """The history one step later; a sheet without inertia that has jumped starts anew, at rest."""
-        velocity, acceleration = self.rules(dt)
-        if jumped and acceleration is None:
-            return History(np.array([self.time + dt]), state[None])
-        after = replace(
-            self,
-            times=np.array([self.time + dt, *self.times[:2]]),
-            states=np.stack([state, *self.states[:2]]),
-        )
-        if acceleration is None:
-            return after
-        return replace(after, velocity=velocity(state), acceleration=acceleration(state))
 
 
 @dataclass
@@ -148,7 +67,7 @@ class StepSize:
         """Whether a step of length dt is accepted; sets the next step (or attempt).
 
         forced: whether it is accepted whatever its error, as in a snap-through."""
-        scale = max(self.scale, speed if not forced and error <= JUMP * speed else 0.0)
+        scale = self.scale if forced else self._raised(dt, error, speed)
         limit = JUMP if self.rtol is None else self.rtol * max(1.0, np.sqrt(self.natural / dt))
         share = error / (limit * scale) if scale > 0 else 0.0
         self.resolved = share <= 1 and not forced
@@ -164,6 +83,12 @@ class StepSize:
             self.dt = float(np.clip(factor * dt, self.smallest, self.largest))
         self.repeated = not accepted
         return accepted
+
+    def _raised(self, dt: float, error: float, speed: float) -> float:
+        """The scale after a step with that speed, of which a short spike is a small part."""
+        if error > JUMP * speed:
+            return self.scale
+        return self.scale + max(speed - self.scale, 0.0) * min(1.0, dt / (self.natural or dt))
 
     def halve(self, dt: float) -> bool:
         """Halve the step after a failure; False if it cannot be shorter."""

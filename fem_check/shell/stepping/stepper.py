@@ -25,7 +25,7 @@ from fem_check.shell.statics.newton import Factorised, Minimiser
 from fem_check.shell.statics.potential import Potential
 from fem_check.shell.statics.ramp import follow_mode
 from fem_check.shell.stepping.lagged import Mixing, change
-from fem_check.shell.stepping.step_control import History
+from fem_check.shell.stepping.schemes import History
 from linear_theory.friction.load import Load
 
 Array = NDArray[np.float64]

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from fem_check.shell.cycle.frame import poses
+from fem_check.shell.kinematics.crossing import Crossings, CrossingsUnknown
 from fem_check.shell.model import ShellModel
 from fem_check.shell.stepping import columns
 from fem_check.shell.stepping.between import between, interpolation_error, motion_around
@@ -132,6 +133,30 @@ class Trajectory(Drawable, Tabular):
     def snapped(self) -> NDArray[np.bool_]:
         """Whether the sheet jumped in the step, (n,), in which its motion is not resolved."""
         return self.table["snapped"] > 0
+
+    @cached_property
+    def crossed(self) -> NDArray[np.bool_] | None:
+        """Whether the sheet passes through itself at `stored_times`, (n,), see `Crossings`.
+
+        None if that could not be found out, for lack of ipctk.
+        """
+        if self.model.planar:
+            return np.zeros(len(self.states), bool)
+        looks = Crossings(self.model.discretisation)
+        try:
+            return np.array([looks.found(u) for u in self.states])
+        except CrossingsUnknown:
+            return None
+
+    @property
+    def _crossing_in_words(self) -> str:
+        """Empty if the sheet does not pass through itself."""
+        crossed = self.crossed
+        if crossed is None:
+            return "not looked at for crossing itself (pip install 'sheetcrawl[contact]')"
+        if not crossed.any():
+            return ""
+        return f"passes through itself from t = {self.stored_times[crossed][0]:.4g}"
 
     @property
     def iterations(self) -> int:
@@ -258,16 +283,19 @@ class Trajectory(Drawable, Tabular):
 
         error: sum of the errors of step, mesh (if requested) and spread between periods; model_error:
         distance to dry friction, see `SpeedErrors`. If the sheet snaps through in that period the
-        error is a lower bound, since the path depends on the step lengths: never converged.
+        error is a lower bound, since the path depends on the step lengths: never converged. Nor is that
+        of a sheet that has passed through itself (`crossed`), which no real sheet does.
         """
         last, errors = self._last(1), self.errors
         snaps = bool(self.snapped[last].any())
         unknown = "mesh error not estimated" if np.isnan(errors.mesh) else ""
         snapped = "snaps over" if snaps else ""
+        crossing = self._crossing_in_words
+        crosses = self.crossed is not None and bool(self.crossed.any())
         shape, scene = "Koiter shell stepped in time", self.scene
         rubs = any(effect.law for effect in self.model.effects)
         contact = scene.contact if rubs else None
-        model = model_words(shape, scene.growth, contact, unknown, snapped)
+        model = model_words(shape, scene.growth, contact, unknown, snapped, crossing)
         mean = float(self.period_speeds[-1])
         error = float(np.nansum([errors.step, errors.spread, errors.mesh]))
         times = self.times[last]
@@ -275,7 +303,9 @@ class Trajectory(Drawable, Tabular):
         return CrawlSpeed(
             estimate=Estimate(mean, error),
             model_error=errors.slip_speed,
-            converged=self.rtol is not None and error <= self.rtol * abs(mean) and not snaps,
+            converged=self.rtol is not None
+            and error <= self.rtol * abs(mean)
+            and not (snaps or crosses),
             times=times,
             velocity=velocity,
             seconds=self.seconds,
@@ -298,6 +328,7 @@ class Trajectory(Drawable, Tabular):
             "regime": self.regime,
             "power": ", ".join(Works._fields),
             "buckled": f"at {np.count_nonzero(self.buckled)} of the times",
+            "snapped": f"at {np.count_nonzero(self.snapped)} of the times",
             **resumed,
             "seconds": self.seconds,
         }
