@@ -33,6 +33,9 @@ from linear_theory.scene.scene import Scene
 
 Array = NDArray[np.float64]
 
+HARD = 50
+"""Newton iterations of a step, above which the next one is not longer."""
+
 CHECKED = 8
 """Interval, in steps, of checks for negative curvature at the end of a step, which cost a Hessian: a
 reused factor, or symmetry, can hide it from the minimisations."""
@@ -84,7 +87,8 @@ class Run:
         self.scene, self.settings, period = scene, settings, scene.period
         self.model = ShellModel(scene)
         scene.drive.check_period()
-        self.size = step_size(period, settings.rtol, settings.steps_of(period), scene.drive.rates)
+        heavy, steps = any(e.areal_mass for e in self.model.effects), settings.steps_of(period)
+        self.size = step_size(period, settings.rtol, steps, scene.drive.rates, heavy)
         self.size.scale = abs(scene.alpha) * scene.sheet.length / period
         self.snap = Snap(first_stiffness(scene.sheet))
         self.start = settings.ramp * period
@@ -169,6 +173,8 @@ class Run:
         snapped = not self.size.resolved
         self.history, self.moment = self.history.advanced(result.state, dt, snapped), after
         self.snap.succeeded()
+        if result.iterations > HARD:
+            self.size.dt = min(self.size.dt, dt)
         counts = Counts(result.iterations, result.repeats, result.buckled, snapped)
         self._note(result.state, works, slide, counts)
         if self.steps % self.settings.keep_every == 0 or self._remaining() <= 0:

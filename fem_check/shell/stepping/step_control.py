@@ -25,6 +25,9 @@ SHORTEST = 32
 """Fraction of the step for a sine wave below which steps are not shortened for their error: a sheet
 that snaps through jumps however short they are, and shorter steps make damping stiff."""
 
+HEAVY_SHORTEST = 512
+"""The same for a sheet with inertia."""
+
 SHORT_HARMONIC = 8
 """Highest harmonic of the wave resolved by such short steps."""
 
@@ -96,11 +99,14 @@ class StepSize:
         return dt > (1 + 1e-9) * self.smallest
 
 
-def step_size(period: float, rtol: float | None, steps: int | None, rates: Spectrum = SINE) -> StepSize:
+def step_size(
+    period: float, rtol: float | None, steps: int | None, rates: Spectrum = SINE, heavy: bool = False
+) -> StepSize:
     """Fixed steps of period/steps, or adaptive ones that start with an eighth of the step for a sine.
 
     rates: spectrum of the growth rate in time; each significant harmonic is resolved by at least
-    PER_HARMONIC steps per period, since the step error does not detect unresolved harmonics.
+    PER_HARMONIC steps per period, since the step error does not detect unresolved harmonics. heavy:
+    whether the sheet has inertia, so that it snaps through in a time that shorter steps can resolve.
     Raises ValueError for too few steps, or a wave too rough to be resolved.
     """
     if steps is not None:
@@ -116,7 +122,7 @@ def step_size(period: float, rtol: float | None, steps: int | None, rates: Spect
     harmonic = _harmonic(rates, rtol)
     # The relative error of the slope of a sine of this period is (2 pi dt/period)^2/3.
     natural = period * np.sqrt(3 * rtol) / (2 * np.pi)
-    shortest = natural / SHORTEST / max(harmonic / SHORT_HARMONIC, 1)
+    shortest = natural / (HEAVY_SHORTEST if heavy else SHORTEST) / max(harmonic / SHORT_HARMONIC, 1)
     return StepSize(
         natural / 8 / harmonic,
         shortest,
