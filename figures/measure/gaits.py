@@ -2,8 +2,8 @@
 
     python -m figures.measure.gaits [--out FILE] [--count 300] [--first 0] [--seconds 180]
 
-Writes figures/data/gaits.csv, one row for each scene; the scene of a number is always the same. Hours of
-computing for all 300; a run goes on where the file ends. alpha is uniform in [-0.4, 0.4], the rest
+Writes figures/data/gaits.csv, one row for each scene; the scene of a number is always the same. Hours
+of computing for all 300; a run goes on where the file ends. alpha is uniform in [-0.4, 0.4], the rest
 curvature per c, kappa, in [-20, 20]/L; the waves have unit amplitude: "sine" one wave on the sheet,
 "phase" half a wave (what an excitable wave does, row F10 of the paper's checks), "pulse" a crest a
 quarter of the sheet wide, "standing" one that stands still. Ground "printed" is that of the paper, in
@@ -76,8 +76,9 @@ class Row:
 
     outcome: "converged", "stated" (a speed whose error misses the tolerance and says so), "stopped" (no
     further step, with the last state), "late" (out of time). V in L/T, its estimated error, that of the
-    mesh among it, shares of the steps in which the sheet snapped and of the states in which it crosses itself; steps and repeated ones; seconds of
-    the processor; said: why it has no speed, or what its speed lacks.
+    mesh among it; shares of the steps in which the sheet snapped and of the states in which it crosses
+    itself; steps and repeated ones; seconds of the processor; said: why it has no speed, or what its
+    speed lacks.
     """
 
     number: int
@@ -134,8 +135,9 @@ def gait(number: int) -> Gait:
     """The scene of that number."""
     random = np.random.default_rng(number)
     alpha, kappa = random.uniform(-0.4, 0.4), random.uniform(-20, 20)
-    names = [str(random.choice(list(kinds))) for kinds in (WAVES, GROUNDS, FRICTIONS)]
-    return Gait(number, round(alpha, 4), round(kappa, 3), *names, int(random.integers(2)))
+    wave, ground, friction = (str(random.choice(list(k))) for k in (WAVES, GROUNDS, FRICTIONS))
+    inertia = int(random.integers(2))
+    return Gait(number, round(alpha, 4), round(kappa, 3), wave, ground, friction, inertia)
 
 
 class LateError(Exception):

@@ -130,7 +130,7 @@ def _quadrilateral() -> tuple[Array, Integers]:
 
 def _triangle() -> tuple[Array, Integers]:
     """The same for an element with three corners."""
-    number = {}
+    number: dict[tuple[int, int], int] = {}
     for i in range(PIECES + 1):
         for j in range(PIECES + 1 - i):
             number[i, j] = len(number)

@@ -117,7 +117,7 @@ def two_step(x: Array, before: Array, dt: float, dt_before: float | None = None)
 def newmark(
     x: Array, v: Array, a: Array, dt: float, beta: float = NEWMARK_BETA, gamma: float = NEWMARK_GAMMA
 ) -> tuple[Affine, Affine]:
-    """Velocity and acceleration of Newmark's rule, by default with beta = 1/4, gamma = 1/2 (appendix A.2).
+    """Velocity and acceleration of Newmark's rule, by default those of appendix A.2.
 
     x, v, a: (components, points) at the start of the step.
     """

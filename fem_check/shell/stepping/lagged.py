@@ -1,13 +1,14 @@
 """The quantities that a step holds fixed, iterated until they agree with the state that they lead to.
 
 Load, areas and normals are functions of the position without a potential: a step is a fixed point
-x = g(x) of "hold x fixed, minimise, evaluate". Plain repetition contracts for a flat sheet, and diverges
+x = g(x) of "hold x fixed, minimise, evaluate". Plain repetition contracts for a flat sheet; it diverges
 for one that stands on few points, whose load shifts as friction tilts it. Anderson's mixing (J. ACM
 12:547, 1965) takes the combination of the last repetitions whose residuals g(x) - x cancel best. It
 equals plain repetition for the first two, so that easy steps cost what they did.
 """
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -83,7 +84,8 @@ def _packed(step: Step, units: dict[str, float]) -> Array:
 
 def _unpacked(values: Array, like: Step, units: dict[str, float]) -> Step:
     """A step with these values; a load that pushes everywhere goes on doing so."""
-    found, start = {}, 0
+    found: dict[str, Any] = {}
+    start = 0
     for name, unit in units.items():
         old = getattr(like, name)
         new = values[start : start + old.size].reshape(old.shape) * unit

@@ -32,6 +32,9 @@ class Counts(NamedTuple):
     snapped: bool = False
 
 
+NO_COUNTS = Counts()
+
+
 @dataclass
 class Record:
     """Rows of COLUMNS, one for the start and one per accepted step, and some of the states.

@@ -17,13 +17,13 @@ from fem_check.shell.statics.equilibrium import ConvergenceError
 from fem_check.shell.statics.newton import Factorised
 from fem_check.shell.stepping.between import probe_region
 from fem_check.shell.stepping.power import Ledger, Moment, Works
-from fem_check.shell.stepping.record import Counts, Record
+from fem_check.shell.stepping.record import NO_COUNTS, Counts, Record
+from fem_check.shell.stepping.schemes import History
 from fem_check.shell.stepping.settings import Settings
 from fem_check.shell.stepping.sliding import Sliding, sliding
 from fem_check.shell.stepping.snapping import Snap, first_stiffness
 from fem_check.shell.stepping.snapshot import check_writable, load_snapshot, save_snapshot
 from fem_check.shell.stepping.start import first_history
-from fem_check.shell.stepping.schemes import History
 from fem_check.shell.stepping.step_control import LANDED, step_size
 from fem_check.shell.stepping.stepper import Stepper, StepResult
 from fem_check.shell.stepping.trajectory import Trajectory
@@ -32,6 +32,9 @@ from linear_theory.common.threads import one_blas_thread
 from linear_theory.scene.scene import Scene
 
 Array = NDArray[np.float64]
+
+MOST_WORK = 60
+"""Steps and repetitions of a run relative to the steps that a smooth motion would take."""
 
 HARD = 50
 """Newton iterations of a step, above which the next one is not longer."""
@@ -68,8 +71,8 @@ class Target(NamedTuple):
 class Landing(NamedTuple):
     """State of the run after an accepted step, and the length of the record.
 
-    control: step size and restraint of the next step. counts: rejected steps, rows and kept states of the
-    record. factor: kept by the minimiser.
+    control: step size and restraint of the next step. counts: rejected steps, rows and kept states of
+    the record. factor: kept by the minimiser.
     """
 
     history: History
@@ -112,6 +115,7 @@ class Run:
         if target is not None and self._remaining() > 0:
             check_writable(target.path)
         while self._remaining() > 0:
+            self._check_work()
             self._advance()
             self.landing = self._land()
             if target is not None and (self.steps % target.every == 0 or self._remaining() <= 0):
@@ -120,6 +124,14 @@ class Run:
                 now, end, spent = self.history.time, self.marks[-1], time.perf_counter() - begin
                 left = spent * (end - now) / max(now - before, 1e-300)
                 report(Progress(now, end, self.steps, self.record.rejected, spent, left))
+
+    def _check_work(self) -> None:
+        """Raise ConvergenceError if far more steps are needed than the wave asks for."""
+        asked = self.marks[-1] / min(self.size.natural or np.inf, self.size.largest)
+        if self.steps + self.record.rejected > MOST_WORK * asked:
+            text = f"{self.steps} steps and {self.record.rejected} repetitions lead to t = "
+            text += f"{self.history.time:g} of {self.marks[-1]:g}: the motion is too rough"
+            raise ConvergenceError(text, self.history.state, self.history.time)
 
     def trajectory(self) -> Trajectory:
         """The trajectory so far."""
@@ -180,7 +192,7 @@ class Run:
         if self.steps % self.settings.keep_every == 0 or self._remaining() <= 0:
             self.record.keep(result.time, result.state)
 
-    def _note(self, state: Array, works: Works, slide: Sliding, counts: Counts = Counts()) -> None:
+    def _note(self, state: Array, works: Works, slide: Sliding, counts: Counts = NO_COUNTS) -> None:
         """Append a row to the record for the state at this time."""
         centre, probes = self._centre(state), self.probes.position(state, (0,))[0].T
         self.record.add(self.history.time, centre, works, slide, probes, counts)

@@ -1,9 +1,9 @@
 """Schemes of time integration: the past of a run, and what they make of it.
 
-A scheme gives velocity and acceleration at the end of a step as affine functions of the positions there,
-a prediction of these, and the error of the velocity. Both schemes are of second order. Newmark's keeps
-the energy of linear vibrations, also of those that the steps do not resolve: after a snap-through the
-sheet rings on, and unresolved ringing can grow. Backward differences damp what is not resolved.
+A scheme gives velocity and acceleration at the end of a step as affine functions of the positions
+there, a prediction of these, and the error of the velocity. Both schemes are of second order. Newmark's
+keeps the energy of linear vibrations, also of those that the steps do not resolve: after a snap-through
+the sheet rings on, and unresolved ringing can grow. Backward differences damp what is not resolved.
 """
 
 from abc import ABC, abstractmethod
@@ -93,10 +93,10 @@ class BackwardDifferences(Value, Scheme):
 
 @dataclass(frozen=True)
 class Newmark(Value, Scheme):
-    """Newmark's rule (appendix A.2 of the paper: beta = 1/4, gamma = 1/2, step 5e-3), with Inertia only.
+    """Newmark's rule (appendix A.2: beta = 1/4, gamma = 1/2, step 5e-3), with Inertia only.
 
-    beta > 0, gamma >= 1/2 (above, it damps, at first order). step: length of equal steps, units of time;
-    None: from rtol or steps of `simulate`. Raises ValueError for values out of range.
+    beta > 0, gamma >= 1/2 (above, it damps, at first order). step: length of equal steps, units of
+    time; None: from rtol or steps of `simulate`. Raises ValueError for values out of range.
 
     >>> from fem_check import Newmark
     >>> print(Newmark(step=5e-3))

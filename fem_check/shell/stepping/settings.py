@@ -1,7 +1,7 @@
 """Settings of a run, checked and normalised."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -39,7 +39,7 @@ class Settings:
             self._set("velocity", np.array(validation.real_array("velocity", self.velocity)))
         if self.scheme is not None:
             hint = "write Newmark() or BackwardDifferences()"
-            validation.instance("scheme", self.scheme, Scheme, hint)
+            validation.instance("scheme", self.scheme, Scheme, hint)  # type: ignore[type-abstract]
             if self.scheme.step is not None:
                 return self._check_step(self.scheme.step)
         if self.steps is None:
@@ -58,9 +58,19 @@ class Settings:
                 )
 
     def steps_of(self, period: float) -> int | None:
-        """Number of equal steps per period, as given or by the scheme; None if they follow from rtol."""
+        """Equal steps per period, as given or by the scheme; None if they follow from rtol."""
         step = None if self.scheme is None else self.scheme.step
         return self.steps if step is None else math.ceil(period / step * (1 - 1e-9))
+
+    def rougher(self) -> "Settings":
+        """The same with steps about twice as long."""
+        if self.rtol is not None:
+            return replace(self, rtol=min(2 * self.rtol, 0.9))
+        if self.steps is not None:
+            return replace(self, steps=self.steps // 2)
+        assert self.scheme is not None
+        assert self.scheme.step is not None
+        return replace(self, scheme=replace(self.scheme, step=2 * self.scheme.step))  # type: ignore
 
     def _set(self, name: str, value: object) -> None:
         object.__setattr__(self, name, value)

@@ -52,7 +52,7 @@ class Snap:
         return self.stiffness > 0
 
     def failed(self, shortest: bool) -> bool:
-        """After a failed step; shortest: whether it cannot be shorter. False if nothing is left to try."""
+        """After a failed step, which may be the `shortest`; False if nothing is left to try."""
         self.failures += 1
         if self.restrained:
             self.stiffness *= STIFFER

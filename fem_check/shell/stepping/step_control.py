@@ -48,8 +48,8 @@ class StepSize:
     shortened if a minimisation fails. resolved: whether the last accepted step resolves the motion: its
     error meets rtol (JUMP, if the step is given). Velocities of jumps do not count for the scale.
     natural: the step for a sine; in shorter ones, where the motion is rough, larger errors are allowed,
-    since their share of the way is small. repeated: whether the step is one that was shortened; the next
-    one is then not longer.
+    since their share of the way is small. repeated: whether the step is one that was shortened; the
+    next one is then not longer.
     """
 
     dt: float

@@ -49,6 +49,7 @@ class _Errors(NamedTuple):
     spread: float
     mesh: float
     slip_speed: float
+    snaps: float
 
 
 class SpeedErrors(Shown, _Errors):
@@ -58,7 +59,8 @@ class SpeedErrors(Shown, _Errors):
     one. mesh: from a run on a coarser mesh if requested, else NaN. slip_speed: distance to dry
     friction, twice the change on halving the slip speed (it decreases at least proportionally), NaN if
     the slip ratio is above 0.3 and friction far from dry; not part of the error of the speed at the
-    given slip speed.
+    given slip speed. snaps: of the path through snap-throughs in the last period, from a run with
+    longer steps; NaN if there are none.
     """
 
 
@@ -75,7 +77,7 @@ class Trajectory(Drawable, Tabular):
     ramp of growth. table: columns of `record.COLUMNS`. stored_times (n,), states (n, size): kept
     states. probes (steps + 1, points, components): positions of a few points at all `times`. rejected:
     repeated steps. resumed_at: time of the snapshot from which the run resumed, NaN if none.
-    mesh_error: see `SpeedErrors`. seconds: computing time in this process.
+    mesh_error, snap_error: see `SpeedErrors`. seconds: computing time in this process.
 
     >>> from fem_check import Friction, Gravity, Material, Membrane, Scene, simulate
     >>> from linear_theory import Sheet, SineWave
@@ -97,6 +99,7 @@ class Trajectory(Drawable, Tabular):
     resumed_at: float = np.nan
     rtol: float | None = None
     mesh_error: float = np.nan
+    snap_error: float = np.nan
 
     @property
     def scene(self) -> Scene:
@@ -256,6 +259,11 @@ class Trajectory(Drawable, Tabular):
         """
         return poses(self.model.discretisation, self.stored_times, self.states)
 
+    @property
+    def last_period(self) -> slice:
+        """Rows of the last period, without the one at its start."""
+        return self._last(1)
+
     @cached_property
     def period_speeds(self) -> Array:
         """Mean velocity along y over each counted period, (periods,)."""
@@ -275,21 +283,19 @@ class Trajectory(Drawable, Tabular):
         step = MARGIN * abs(self._mean("step_y")) + UNCERTAIN * self._mean("step_y", size=True)
         dry = self.slip_ratio <= DRY
         slip = abs(self._mean("slip_y")) / (1 - COMPARED) if dry else np.nan
-        return SpeedErrors(step, float(spread), self.mesh_error, slip)
+        return SpeedErrors(step, float(spread), self.mesh_error, slip, self.snap_error)
 
     @cached_property
     def speed(self) -> CrawlSpeed:
         """Mean velocity of the last period.
 
-        error: sum of the errors of step, mesh (if requested) and spread between periods; model_error:
-        distance to dry friction, see `SpeedErrors`. If the sheet snaps through in that period the
-        error is a lower bound, since the path depends on the step lengths: never converged. Nor is that
-        of a sheet that has passed through itself (`crossed`), which no real sheet does.
+        error: sum of the errors of step, mesh (if requested), spread between periods and path through
+        snap-throughs; model_error: distance to dry friction, see `SpeedErrors`. The speed of a sheet
+        that has passed through itself (`crossed`), which no real sheet does, is never converged.
         """
         last, errors = self._last(1), self.errors
-        snaps = bool(self.snapped[last].any())
         unknown = "mesh error not estimated" if np.isnan(errors.mesh) else ""
-        snapped = "snaps over" if snaps else ""
+        snapped = "snaps over" if self.snapped[last].any() else ""
         crossing = self._crossing_in_words
         crosses = self.crossed is not None and bool(self.crossed.any())
         shape, scene = "Koiter shell stepped in time", self.scene
@@ -297,15 +303,13 @@ class Trajectory(Drawable, Tabular):
         contact = scene.contact if rubs else None
         model = model_words(shape, scene.growth, contact, unknown, snapped, crossing)
         mean = float(self.period_speeds[-1])
-        error = float(np.nansum([errors.step, errors.spread, errors.mesh]))
+        error = float(np.nansum([errors.step, errors.spread, errors.mesh, errors.snaps]))
         times = self.times[last]
         velocity = np.gradient(self.centre[1], self.times)[last]
         return CrawlSpeed(
             estimate=Estimate(mean, error),
             model_error=errors.slip_speed,
-            converged=self.rtol is not None
-            and error <= self.rtol * abs(mean)
-            and not (snaps or crosses),
+            converged=self.rtol is not None and error <= self.rtol * abs(mean) and not crosses,
             times=times,
             velocity=velocity,
             seconds=self.seconds,
