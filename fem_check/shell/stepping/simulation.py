@@ -57,8 +57,8 @@ def simulate(
     `snapshot_every` steps, at the end, and when Ctrl-C interrupts the run. If it exists, the run
     resumes from it, and the results are bit for bit those of an uninterrupted run (one thread, same
     machine). keep_every: interval, in steps, of states kept in the trajectory, see
-    `Trajectory.shape_error`. mesh_error: estimate the mesh error from a second run on a coarser mesh. progress: True prints, a
-    function is called after each step.
+    `Trajectory.shape_error`. mesh_error: estimate the mesh error from a second run on a coarser mesh.
+    progress: True prints, a function is called after each step.
 
     Steps are short enough to resolve the significant harmonics in time of the wave. A sheet that snaps
     through is simulated a second time with longer steps, for the error of V.

@@ -36,9 +36,10 @@ points of the sheet move in a period."""
 ROUNDOFF = 1e-8
 """Error of any shape from the minimisations, relative to the size of the sheet (see `Minimiser`)."""
 
-MARGIN, UNCERTAIN = 1.25, 0.1
+MARGIN, UNCERTAIN, UNEQUAL = 1.25, 0.1, 0.65
 """Safety factor of the step error, whose estimate neglects higher orders, and fraction of its mean
-absolute value, for the case that its mean over the period is 0 by chance."""
+absolute value, for the case that its mean over the period is 0 by chance. With steps that follow from
+rtol the errors of neighbouring steps differ in size and cancel less than their mean says."""
 
 DRY = 0.3
 """Largest slip ratio for which the distance to dry friction is estimated."""
@@ -280,7 +281,8 @@ class Trajectory(Drawable, Tabular):
         """Estimated errors of the mean speed of the last period."""
         speeds = self.period_speeds
         spread = abs(speeds[-1] - speeds[-2]) if speeds.size > 1 else np.nan
-        step = MARGIN * abs(self._mean("step_y")) + UNCERTAIN * self._mean("step_y", size=True)
+        share = UNCERTAIN if self.rtol is None else UNEQUAL
+        step = MARGIN * abs(self._mean("step_y")) + share * self._mean("step_y", size=True)
         dry = self.slip_ratio <= DRY
         slip = abs(self._mean("slip_y")) / (1 - COMPARED) if dry else np.nan
         return SpeedErrors(step, float(spread), self.mesh_error, slip, self.snap_error)
