@@ -1,6 +1,7 @@
 """A sheet that passes through itself is found, one that only comes near is not."""
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -10,12 +11,12 @@ from fem_check.mesh.elements import grid
 from fem_check.shell.kinematics import crossing
 from fem_check.shell.kinematics.crossing import Crossings, CrossingsUnknown
 from fem_check.shell.kinematics.discretisation import Discretisation
+from fem_check.shell.stepping.simulation import simulate
+from fem_check.shell.stepping.trajectory import Trajectory
 from linear_theory import Sheet
+from tests.shell_scenes import lying, planar
 
 SHEET = Sheet()
-
-Curve = Callable[[np.ndarray], tuple[np.ndarray, np.ndarray, np.ndarray]]
-"""Tangent angle, curvature and place (2, n) at arc lengths (n,)."""
 
 
 def bent(angle: Callable[[np.ndarray], np.ndarray]) -> Callable[..., np.ndarray]:
@@ -102,3 +103,48 @@ def test_without_the_package_only_open_sheets_are_known(monkeypatch: pytest.Monk
     assert looks.found(discretisation.interpolate(bent(loop(1.0)))) is False
     with pytest.raises(CrossingsUnknown, match=r"through itself needs ipctk: pip install"):
         looks.found(discretisation.interpolate(bent(loop(2 * np.pi))))
+
+
+@pytest.fixture(scope="module")
+def flat() -> Trajectory:
+    """A sheet that does not cross itself."""
+    return simulate(lying(alpha=0.01, bending=0.1, slip=0.002, cells=(2, 4)), periods=1, rtol=0.2)
+
+
+def curled(motion: Trajectory, turn: float) -> Trajectory:
+    """The same with its last kept shape replaced by one that is bent by hand."""
+    shape = motion.model.discretisation.interpolate(bent(loop(turn)))
+    return replace(motion, states=np.concatenate([motion.states[:-1], shape[None]]))
+
+
+def test_a_speed_beyond_a_crossing_is_not_converged(flat: Trajectory) -> None:
+    assert flat.crossed is not None
+    assert not flat.crossed.any()
+    assert "itself" not in flat.speed.model
+    loose = replace(flat, rtol=1e3)
+    assert loose.speed.converged
+    assert curled(loose, np.pi).speed.converged
+    crossing = curled(loose, 2 * np.pi)
+    assert crossing.crossed is not None
+    assert crossing.crossed.tolist() == [False] * (len(flat.states) - 1) + [True]
+    assert not crossing.speed.converged
+    assert f"passes through itself from t = {flat.times[-1]:g}" in crossing.speed.model
+
+
+def test_what_was_not_looked_for_is_said(flat: Trajectory, monkeypatch: pytest.MonkeyPatch) -> None:
+    def missing(package: str, extra: str, use: str) -> None:
+        raise ModuleNotFoundError(package)
+
+    monkeypatch.setattr(crossing, "optional", missing)
+    unknown = curled(flat, 2 * np.pi)
+    assert unknown.crossed is None
+    assert (
+        "not looked at for crossing itself (pip install 'sheetcrawl[contact]')" in unknown.speed.model
+    )
+
+
+def test_a_planar_sheet_cannot_cross_itself(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(Crossings, "found", None)
+    motion = simulate(planar(0.1, cells=(1, 2), slip=0.02), periods=1, rtol=0.2)
+    assert motion.crossed is not None
+    assert not motion.crossed.any()

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fem_check.shell.kinematics.discretisation import Discretisation
+from linear_theory.common.errors import SheetcrawlError
 from linear_theory.common.extras import optional
 
 Array = NDArray[np.float64]
@@ -24,7 +25,7 @@ PIECES = 3
 USE = "looking for places where the sheet passes through itself"
 
 
-class CrossingsUnknown(Exception):
+class CrossingsUnknown(SheetcrawlError, RuntimeError):
     """It cannot be said whether a sheet crosses itself, for lack of a package."""
 
 

@@ -100,6 +100,7 @@ class Run:
         self.ledger, self.record = Ledger(self.model), Record()
         self.region, self.probes = self.stepper.region, probe_region(self.model.discretisation)
         self.history = first_history(self.stepper, self.size.dt, settings.velocity, settings.scheme)
+        self.free = self.history  # the last one that no restraint has led to
         self.moment = self._first_moment()
         self.landing = self._land()
 
@@ -175,8 +176,8 @@ class Run:
         """Prepare another attempt. Raises ConvergenceError if there is nothing left to try."""
         self.record.rejected += 1
         if not self.snap.failed(shortest=not self.size.halve(dt)):
-            text = f"no time step from t = {self.history.time:g} converges, however short: {error}"
-            raise ConvergenceError(text, self.history.state, self.history.time) from error
+            text = f"no time step from t = {self.free.time:g} converges, however short: {error}"
+            raise ConvergenceError(text, self.free.state, self.free.time) from error
 
     def _accept(self, result: StepResult, dt: float, wrong: Array, velocity: Affine) -> None:
         after = self.ledger.moment(result.state, result.rest, result.step, velocity(result.state))
@@ -184,6 +185,8 @@ class Run:
         slide = self._sliding(result, wrong)
         snapped = not self.size.resolved
         self.history, self.moment = self.history.advanced(result.state, dt, snapped), after
+        if not self.snap.restrained:
+            self.free = self.history
         self.snap.succeeded()
         if result.iterations > HARD:
             self.size.dt = min(self.size.dt, dt)
@@ -285,7 +288,7 @@ class Run:
         found = load_snapshot(target.path, target.owner)
         get, minimiser = found.get, self.stepper.minimiser
         past = found["past_times"], found["past_states"], get("velocities"), get("acceleration")
-        self.history = History(*past, self.history.scheme)
+        self.history = self.free = History(*past, self.history.scheme)
         self._set_control(found["control"])
         self.record = Record(
             list(found["rows"]),

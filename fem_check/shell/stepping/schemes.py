@@ -152,7 +152,7 @@ class History:
     def at_rest(cls, state: Array, dt: float, scheme: Scheme | None = None) -> "History":
         """The history of a sheet at rest during the steps of length dt before time 0."""
         scheme = BackwardDifferences() if scheme is None else scheme
-        return cls(-dt * np.arange(3.0), np.tile(state, (3, 1)), scheme=scheme)
+        return cls(0.0 - dt * np.arange(3.0), np.tile(state, (3, 1)), scheme=scheme)
 
     def thrown(self, velocity: Array, acceleration: Array) -> "History":
         """The same with that velocity and acceleration (size,) at the start, constant before it."""

@@ -3,7 +3,8 @@
 Without inertia a sheet that loses its equilibrium jumps, however short the step: the minimisation has
 far to go, and the load on the ground that it holds fixed is that of another shape. Steps that fail are
 therefore made again with a `Restraint`, a drag that lets the sheet move a little at a time; it is
-stiffened until steps succeed and relaxed until it is no longer needed.
+stiffened until steps succeed and relaxed until it is no longer needed. Restrained steps stay as short
+as the last failed one: in the limit a snap-through takes no time.
 """
 
 import math
@@ -24,8 +25,9 @@ RELEASED = 1e-3
 STIFFEST = 1e6
 """Multiple of the first stiffness beyond which a step has failed for another reason than a snap."""
 
-MOST = 600
-"""Largest number of restrained steps in a row."""
+MOST = 60
+"""Largest number of restrained steps without a free one between them: a snap-through takes about 15. A
+sheet that then still moves slides or falls without end."""
 
 
 def first_stiffness(sheet: Sheet) -> float:
@@ -58,7 +60,7 @@ class Snap:
             self.stiffness *= STIFFER
         elif shortest or self.failures >= SHORTENED:
             self.stiffness = self.first
-        return self.stiffness <= STIFFEST * self.first and self.steps <= MOST
+        return self.stiffness <= STIFFEST * self.first and self.steps < MOST
 
     def succeeded(self) -> None:
         """After an accepted step."""

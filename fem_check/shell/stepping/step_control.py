@@ -69,14 +69,17 @@ class StepSize:
     def judge(self, dt: float, error: float, speed: float, forced: bool = False) -> bool:
         """Whether a step of length dt is accepted; sets the next step (or attempt).
 
-        forced: whether it is accepted whatever its error, as in a snap-through."""
+        forced: accepted whatever its error, as in a snap-through; the next one is as long.
+        """
         scale = self.scale if forced else self._raised(dt, error, speed)
         limit = JUMP if self.rtol is None else self.rtol * max(1.0, np.sqrt(self.natural / dt))
         share = error / (limit * scale) if scale > 0 else 0.0
         self.resolved = share <= 1 and not forced
         if self.resolved:
             self.scale = scale
-        if self.rtol is None or forced:
+        if forced:
+            return True
+        if self.rtol is None:
             self.dt = min(self.largest, GROWTH * dt)
             return True
         most = 1.0 if self.repeated else GROWTH
