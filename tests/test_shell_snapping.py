@@ -12,7 +12,11 @@ from fem_check.shell.stepping.lagged import Mixing, change
 from fem_check.shell.stepping.schemes import History
 from fem_check.shell.stepping.snapping import RELEASED, SHORTENED, STIFFEST, Snap
 from fem_check.shell.stepping.step_control import JUMP, StepSize
+from figures.measure.gaits import FRICTIONS, GROUNDS, RTOL, TABLE, WAVES, gait, tried
 from tests.shell_scenes import MATERIAL, planar
+
+CHEAP = (1, 3, 4, 6)
+"""Numbers of random gaits: two heavy sheets that bend strongly, two that bend little."""
 
 
 @pytest.mark.parametrize("slope", [0.5, -0.9, -1.8, 3.0])
@@ -172,3 +176,39 @@ def test_too_much_work_is_an_error_with_the_state_reached(monkeypatch: pytest.Mo
         simulate(planar(0.1, cells=(1, 2)), periods=1, steps=16)
     assert found.value.state.size
     assert 0 < found.value.parameter < 1.5
+
+
+def test_random_gaits_are_what_they_are_said_to_be() -> None:
+    gaits = [gait(number) for number in range(300)]
+    assert gait(7) == gaits[7]
+    assert max(abs(g.alpha) for g in gaits) <= 0.4
+    assert 19 < max(abs(g.kappa) for g in gaits) <= 20
+    for name, kinds in (("wave", WAVES), ("ground", GROUNDS), ("friction", FRICTIONS)):
+        counts = [sum(getattr(g, name) == kind for g in gaits) for kind in kinds]
+        assert min(counts) > 0.7 * len(gaits) / len(kinds)
+    assert 100 < sum(g.inertia for g in gaits) < 200
+
+
+@pytest.mark.parametrize("number", CHEAP)
+def test_random_gaits_end_with_a_speed_or_a_reason(number: int) -> None:
+    """Some of the table, at lower accuracy."""
+    row = tried(gait(number), 30, rtol=0.3, mesh_error=False, periods=1)
+    assert row.outcome in ("converged", "stated")
+    assert np.isfinite(row.speed)
+    assert row.error > 0
+    if row.crossed > 0:
+        assert row.outcome == "stated"
+        assert "passes through itself" in row.said
+
+
+def test_no_random_gait_ends_without_a_word() -> None:
+    for row in TABLE.read():
+        assert row.said
+        if row.outcome in ("stopped", "late"):
+            assert np.isnan(row.speed)
+        else:
+            assert np.isfinite(row.speed)
+            assert np.isfinite(row.error) or row.snapped > 0
+        if row.outcome == "converged":
+            assert row.error <= RTOL * abs(row.speed)
+            assert row.crossed == 0

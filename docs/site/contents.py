@@ -38,6 +38,7 @@ HOWTO = {
     "own_friction_law": "A friction law of your own",
     "outline": "Another outline",
     "slope": "A slope",
+    "bending": "A sheet that bends",
     "movie": "A movie",
     "many_scenes": "Many scenes",
 }

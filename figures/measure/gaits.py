@@ -148,7 +148,13 @@ def _ring(signum: int, frame: FrameType | None) -> None:
     raise LateError
 
 
-def tried(chosen: Gait, seconds: float, rtol: float = RTOL, mesh_error: bool = True) -> Row:
+def tried(
+    chosen: Gait,
+    seconds: float,
+    rtol: float = RTOL,
+    mesh_error: bool = True,
+    periods: int = PERIODS,
+) -> Row:
     """Simulate within that many seconds of the processor."""
     begin = time.process_time()
     found: Trajectory | None = None
@@ -157,7 +163,7 @@ def tried(chosen: Gait, seconds: float, rtol: float = RTOL, mesh_error: bool = T
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
-            found = simulate(chosen.scene, PERIODS, rtol, mesh_error=mesh_error)
+            found = simulate(chosen.scene, periods, rtol, mesh_error=mesh_error)
         outcome, said = "converged" if found.speed.converged else "stated", found.speed.model
     except LateError:
         outcome, said = "late", f"not done within {seconds:g} s"

@@ -21,10 +21,10 @@ from fem_check.shell.stepping.record import NO_COUNTS, Counts, Record
 from fem_check.shell.stepping.schemes import History
 from fem_check.shell.stepping.settings import Settings
 from fem_check.shell.stepping.sliding import Sliding, sliding
-from fem_check.shell.stepping.snapping import Snap, first_stiffness
+from fem_check.shell.stepping.snapping import LONGEST, Snap, first_stiffness
 from fem_check.shell.stepping.snapshot import check_writable, load_snapshot, save_snapshot
 from fem_check.shell.stepping.start import first_history
-from fem_check.shell.stepping.step_control import LANDED, step_size
+from fem_check.shell.stepping.step_control import GROWTH, LANDED, step_size
 from fem_check.shell.stepping.stepper import Stepper, StepResult
 from fem_check.shell.stepping.trajectory import Trajectory
 from linear_theory.common.shown import Shown
@@ -127,7 +127,10 @@ class Run:
                 report(Progress(now, end, self.steps, self.record.rejected, spent, left))
 
     def _check_work(self) -> None:
-        """Raise ConvergenceError if far more steps are needed than the wave asks for."""
+        """Raise ConvergenceError for a sheet that finds no rest, and for far too many steps."""
+        if self.history.time - self.free.time > LONGEST * self.scene.period:
+            text = f"no time step from t = {self.free.time:g} converges: the sheet moves on without end"
+            raise ConvergenceError(text, self.free.state, self.free.time)
         asked = self.marks[-1] / min(self.size.natural or np.inf, self.size.largest)
         if self.steps + self.record.rejected > MOST_WORK * asked:
             text = f"{self.steps} steps and {self.record.rejected} repetitions lead to t = "
@@ -187,6 +190,8 @@ class Run:
         self.history, self.moment = self.history.advanced(result.state, dt, snapped), after
         if not self.snap.restrained:
             self.free = self.history
+        elif self.snap.weak:
+            self.size.dt = min(self.size.largest, GROWTH * dt)
         self.snap.succeeded()
         if result.iterations > HARD:
             self.size.dt = min(self.size.dt, dt)

@@ -3,8 +3,8 @@
 Without inertia a sheet that loses its equilibrium jumps, however short the step: the minimisation has
 far to go, and the load on the ground that it holds fixed is that of another shape. Steps that fail are
 therefore made again with a `Restraint`, a drag that lets the sheet move a little at a time; it is
-stiffened until steps succeed and relaxed until it is no longer needed. Restrained steps stay as short
-as the last failed one: in the limit a snap-through takes no time.
+stiffened until steps succeed and relaxed until it is no longer needed. Such steps stay as short as the
+last failed one until the drag is weak: in the limit a snap-through takes no time.
 """
 
 import math
@@ -29,6 +29,9 @@ MOST = 60
 """Largest number of restrained steps without a free one between them: a snap-through takes about 15. A
 sheet that then still moves slides or falls without end."""
 
+LONGEST = 0.15
+"""Longest time, in periods, of such steps."""
+
 
 def first_stiffness(sheet: Sheet) -> float:
     """That of the bending of one wave along the sheet, force per length^3."""
@@ -47,6 +50,11 @@ class Snap:
     stiffness: float = 0.0
     failures: int = 0
     steps: int = 0
+
+    @property
+    def weak(self) -> bool:
+        """Whether the drag is so weak that steps may become longer."""
+        return self.stiffness < self.first
 
     @property
     def restrained(self) -> bool:
