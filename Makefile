@@ -36,7 +36,7 @@ export MKL_NUM_THREADS := 1
 FIGURE_OUT = $(if $(OUT),--out "$(OUT)")
 FIGURE_RTOL = $(if $(RTOL),--rtol $(RTOL))
 
-.PHONY: figures test test-browser paper docs cost bench-shell bench-threads tables lock clean distclean
+.PHONY: figures test test-browser paper docs cost bench-shell bench-threads gaits tables lock clean distclean
 .DEFAULT_GOAL := figures
 .DELETE_ON_ERROR:
 
@@ -69,6 +69,10 @@ cost: $(STAMP)
 bench-shell: $(STAMP)
 	$(RUN) -m figures.measure.bench.shell
 
+# Hours; goes on where its table ends.
+gaits: $(STAMP)
+	$(RUN) -m figures.measure.gaits
+
 bench-threads: $(STAMP)
 	$(RUN) -m figures.measure.bench.threads
 
@@ -79,6 +83,7 @@ tables: $(STAMP)
 	$(RUN) -m figures.measure.nonlinear
 	$(RUN) -m figures.measure.reach
 	$(RUN) -m figures.measure.regimes
+	$(RUN) -m figures.measure.schemes
 	$(RUN) -m figures.measure.turning
 	$(RUN) -m figures.measure.excitable
 	$(RUN) -m tests.hard_cases_page

@@ -22,12 +22,14 @@ from .shell.effects.koiter import Bending, Membrane
 from .shell.effects.loads import DeadLoad
 from .shell.effects.terrain import Terrain
 from .shell.material import Material
+from .shell.stepping.schemes import BackwardDifferences, Newmark
 from .shell.stepping.simulation import simulate
 from .shell.stepping.trajectory import Trajectory
 from .sweeps.running import sweep
 from .version import __version__
 
 __all__ = [
+    "BackwardDifferences",
     "Bending",
     "DeadLoad",
     "Excitation",
@@ -39,6 +41,7 @@ __all__ = [
     "Inertia",
     "Material",
     "Membrane",
+    "Newmark",
     "Outline",
     "PlaneStressField",
     "Prediction",

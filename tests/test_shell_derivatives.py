@@ -14,6 +14,7 @@ from fem_check.shell.effects.ground import Ground
 from fem_check.shell.effects.inertia import Inertia
 from fem_check.shell.effects.koiter import Bending, Membrane
 from fem_check.shell.effects.loads import DeadLoad, EdgeMoment
+from fem_check.shell.effects.restraint import Restraint
 from fem_check.shell.kinematics.discretisation import Discretisation
 from fem_check.shell.kinematics.rates import Affine, Step
 from fem_check.shell.kinematics.rest_state import grown_state, tensor_state
@@ -131,6 +132,7 @@ def moving(d: Discretisation, seed: int) -> Step:
         rng.uniform(0.1, 1, d.interior.size),
         rng.uniform(0.1, 1, d.interior.size),
         normal / np.linalg.norm(normal, axis=0),
+        d.interior.reference[0] + 0.01 * rng.normal(size=shape),
     )
 
 
@@ -145,6 +147,7 @@ CONTACT = {
     "gravity on the current area": (Gravity(2.5, "current"),),
     "dead load": (DeadLoad((0.3, -0.2, 0.7)),),
     "inertia": (Inertia(3.0, MATERIALS["soft"]),),
+    "restraint": (Restraint(0.7),),
     "inertia of a thin sheet": (Inertia(3e-6, MATERIALS["stiff"]),),
 }
 

@@ -21,6 +21,7 @@ from fem_check.shell.stepping.run import Run
 from fem_check.shell.stepping.settings import Settings
 from fem_check.shell.stepping.simulation import simulate
 from fem_check.shell.stepping.snapshot import (
+    VERSION,
     SnapshotError,
     fingerprint,
     load_snapshot,
@@ -409,7 +410,7 @@ def test_other_versions_and_other_files_are_refused(tmp_path: Path, written: byt
     old = {name: array for name, array in arrays.items() if name != "python"}
     for version, contents in ((99, arrays), (1, old)):
         np.savez(path, **{**contents, "version": np.array(version)})
-        with pytest.raises(SnapshotError, match=rf"version {version}, must be 2 .*; remove"):
+        with pytest.raises(SnapshotError, match=rf"version {version}, must be {VERSION} .*; remove"):
             simulate(planar(), snapshot=path, **OPTIONS)
     np.savez(path, x=np.ones(3))
     with pytest.raises(SnapshotError, match="not a snapshot"):

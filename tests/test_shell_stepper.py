@@ -22,8 +22,9 @@ from fem_check.shell.material import Material
 from fem_check.shell.model import ShellModel
 from fem_check.shell.statics.equilibrium import ConvergenceError
 from fem_check.shell.statics.newton import Minimiser
+from fem_check.shell.stepping.schemes import History
 from fem_check.shell.stepping.simulation import Progress, simulate
-from fem_check.shell.stepping.step_control import History, StepSize
+from fem_check.shell.stepping.step_control import StepSize
 from fem_check.shell.stepping.trajectory import Trajectory
 from linear_theory import Sheet, SineWave, TravellingWave, ViscousRegimeWarning
 from linear_theory.scene.scene import Scene

@@ -21,6 +21,7 @@ from fem_check.shell.cycle.frame import BodyFrame
 from fem_check.shell.cycle.shapes import cycle_of_shapes
 from fem_check.shell.cycle.speed import Cycle
 from fem_check.shell.effects.loads import EdgeMoment
+from fem_check.shell.kinematics.rates import Affine
 from fem_check.shell.kinematics.surface import AnnulusSector, Cylinder, Flat, SpherePart
 from fem_check.shell.model import ShellModel
 from fem_check.shell.statics.equilibrium import Equilibrium
@@ -150,6 +151,8 @@ MADE = {
     "CycleSpeeds": lambda: fem_check.speeds(excited_scene(), body="line"),
     "CycleWave": lambda: excited().cycle(0),
     "Cycles": lambda: excited().cycles,
+    "BackwardDifferences": lambda: fem_check.BackwardDifferences(0.01),
+    "Affine": lambda: Affine(30.0, np.zeros((2, 5))),
     "Cycle": lambda: Cycle(planar()),
     "Cylinder": lambda: Cylinder(0.5),
     "DeadLoad": lambda: fem_check.DeadLoad((0.0, 1.0)),
@@ -181,6 +184,7 @@ MADE = {
     "Material": lambda: MATERIAL,
     "Membrane": lambda: MEMBRANE,
     "Metric": linear_theory.Metric,
+    "Newmark": lambda: fem_check.Newmark(step=5e-3),
     "Motion": lambda: field("PlaneStressField").motion([0.0, 0.1], None, 2),
     "Outline": lambda: fem_check.Outline.trapezoid(0.6, 0.4, 1.0),
     "Outline with a hole": lambda: fem_check.Outline(

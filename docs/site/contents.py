@@ -40,6 +40,7 @@ HOWTO = {
     "slope": "A slope",
     "scene_file": "A scene in a file",
     "run": "A run with all its pictures",
+    "bending": "A sheet that bends",
     "movie": "A movie",
     "explorer": "A page with sliders",
     "many_scenes": "Many scenes",

@@ -5,6 +5,7 @@
       ConvergenceError          no equilibrium, or no next time step, was found     RuntimeError
         UnstableError           an equilibrium that exists on a coarse mesh only
         NotPeriodicError        shapes that do not repeat with the wave
+      CrossingsUnknown          whether a sheet passes through itself               RuntimeError
       UnresolvedError           too few phases for rapidly changing shapes          ArithmeticError
       SnapshotError             a snapshot from which a run cannot be continued     ValueError
       Unidentifiable            a value that cannot be identified by its content    ValueError
@@ -20,6 +21,7 @@
     BeyondReachWarning          growth too large for the theory                     UserWarning
 
 ConvergenceError and UnstableError are defined in `fem_check.shell.statics.equilibrium`,
+CrossingsUnknown in `fem_check.shell.kinematics.crossing`,
 NotPeriodicError and UnresolvedError in `fem_check.shell.cycle`, SnapshotError in
 `fem_check.shell.stepping.snapshot`, SceneFileError in `fem_check.files.mistakes`, NotRestorable in
 `linear_theory.scene.data`, Refused, RefusedScenes, StoreError, LostScheduler and WrongWorkers in

@@ -42,7 +42,8 @@ class Step(Shown):
     velocity: of the points as a function of position; None in statics. acceleration: likewise, None
     without inertia. load (points,): normal force at each point (pressure times area), to which friction
     is proportional. area (points,): quadrature weight times current area, for "current" loads.
-    normal (3, points): unit normal of the ground under each point, None if it is e_z.
+    normal (3, points): unit normal of the ground under each point, None if it is e_z. anchor
+    (components, points): places before the step, None unless a `Restraint` holds the sheet to them.
 
     load, area and normal are those of the last state, since as functions of the position they would not
     have a potential. The minimisation is repeated until they no longer change.
@@ -53,6 +54,7 @@ class Step(Shown):
     load: Array | None = None
     area: Array | None = None
     normal: Array | None = None
+    anchor: Array | None = None
 
     @property
     def moving(self) -> Affine:
@@ -74,15 +76,19 @@ class Step(Shown):
         """The current area. Raises ValueError where none is held fixed."""
         return _held(self.area, "area")
 
+    @property
+    def anchored(self) -> Array:
+        """The places before the step. Raises ValueError where none are held fixed."""
+        return _held(self.anchor, "anchor")
+
     def part(self, points: slice) -> "Step":
         """The same for a slice of the points."""
-        load, area, normal = (
-            None if a is None else a[..., points] for a in (self.load, self.area, self.normal)
-        )
+        held = (self.load, self.area, self.normal, self.anchor)
+        load, area, normal, anchor = (None if a is None else a[..., points] for a in held)
         velocity, acceleration = (
             None if r is None else r.part(points) for r in (self.velocity, self.acceleration)
         )
-        return Step(velocity, acceleration, load, area, normal)
+        return Step(velocity, acceleration, load, area, normal, anchor)
 
 
 def _held(value: T | None, name: str) -> T:
@@ -108,14 +114,16 @@ def two_step(x: Array, before: Array, dt: float, dt_before: float | None = None)
     return Affine(rate, ((1 + ratio) ** 2 * x - ratio**2 * before) / (1 + 2 * ratio))
 
 
-def newmark(x: Array, v: Array, a: Array, dt: float) -> tuple[Affine, Affine]:
-    """Velocity and acceleration of Newmark's rule with beta = 1/4 and gamma = 1/2 (appendix A.2).
+def newmark(
+    x: Array, v: Array, a: Array, dt: float, beta: float = NEWMARK_BETA, gamma: float = NEWMARK_GAMMA
+) -> tuple[Affine, Affine]:
+    """Velocity and acceleration of Newmark's rule, by default those of appendix A.2.
 
     x, v, a: (components, points) at the start of the step.
     """
     dt = validation.positive("dt", dt)
-    guess = x + dt * v + dt**2 * (0.5 - NEWMARK_BETA) * a
-    acceleration = Affine(1 / (NEWMARK_BETA * dt**2), guess)
+    guess = x + dt * v + dt**2 * (0.5 - beta) * a
+    acceleration = Affine(1 / (beta * dt**2), guess)
     # v_new = v + dt ((1 - gamma) a + gamma a_new), written as rate (x_new - base).
-    rate = NEWMARK_GAMMA / (NEWMARK_BETA * dt)
-    return Affine(rate, guess - (v + dt * (1 - NEWMARK_GAMMA) * a) / rate), acceleration
+    rate = gamma / (beta * dt)
+    return Affine(rate, guess - (v + dt * (1 - gamma) * a) / rate), acceleration

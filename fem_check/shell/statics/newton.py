@@ -146,7 +146,7 @@ class _Search:
         self.energy, gradient = potential.energy_and_gradient(state)
         self.gradient = gradient[minimiser.sparsity.order]
         self.current: Factorised | None = minimiser.kept if minimiser.keep_factor else None
-        self.fresh = False
+        self.fresh = self.inverts = False
         self.correction = np.inf
         if not np.isfinite(self.energy):
             raise ConvergenceError("the energy of the initial state is not finite", state)
@@ -158,11 +158,22 @@ class _Search:
             self._factorise()
             size = self._correct()
         if size is None:
-            raise ConvergenceError("line search failed: every step inverts an element", self.state)
+            raise ConvergenceError(self._why(), self.state)
         if not self.minimiser.keep_factor:
             self.current = None
         self.correction, self.fresh = size, False
         return size
+
+    def _why(self) -> str:
+        """Why no step is possible."""
+        if not self.inverts:
+            return "line search failed: the energy does not decrease along any step"
+        areas = np.sqrt((self.directors**2).sum(0))
+        x, y = self.minimiser.region.parameters.reshape(2, -1)[:, areas.argmin()]
+        return (
+            f"line search failed: every step inverts an element, near x = {x:.3g}, y = {y:.3g}, where "
+            f"the area is {areas.min():.3g} of the undeformed one"
+        )
 
     def _factorise(self) -> None:
         before = 0.0 if self.minimiser.kept is None else self.minimiser.kept.shift
@@ -178,7 +189,7 @@ class _Search:
         size = self.minimiser.rms(change)
         if not self.fresh and (self.current.shift > 0 or size > CONTRACTION * self.correction):
             return None
-        share, slope = 1.0, float(step @ self.gradient)
+        share, slope, self.inverts = 1.0, float(step @ self.gradient), True
         while share >= (SMALLEST_STEP if self.fresh else 1.0):
             if self._accept(self.state + share * change, share * slope):
                 return size
@@ -190,6 +201,7 @@ class _Search:
         directors = orientation.directors(trial)
         if not orientation.keeps(self.directors, directors):
             return False
+        self.inverts = False
         energy, gradient = self.potential.energy_and_gradient(trial)
         allowed = self.energy + SUFFICIENT_DECREASE * slope + ROUNDOFF * abs(self.energy)
         unseen = -slope <= ROUNDOFF * max(abs(self.energy), abs(energy))

@@ -47,6 +47,7 @@ def columns(trajectory: "Trajectory") -> list[Column]:
         Column(
             "buckled", trajectory.buckled, "whether a negative curvature of the energy was met", NUMBER
         ),
+        Column("snapped", trajectory.snapped, "whether the sheet jumped: motion not resolved", NUMBER),
     ]
 
 

@@ -1,6 +1,7 @@
 """The record of every accepted step."""
 
 from dataclasses import dataclass, field
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,10 +16,23 @@ COLUMNS = (
     *("centre_x", "centre_y", "centre_z"),
     *Works._fields,
     *("fastest", "linear", "step_x", "step_y", "slip_x", "slip_y"),
-    *("iterations", "repeats", "buckled"),
+    *("iterations", "repeats", "buckled", "snapped"),
 )
-"""time and centre at the end of the step; increments of each of `power.Works`;
-`sliding.Sliding` at its end; Newton iterations, minimisations, whether negative curvature was met."""
+"""time and centre at the end of the step; increments of each of `power.Works`; `sliding.Sliding` at its
+end; `Counts`."""
+
+
+class Counts(NamedTuple):
+    """Newton iterations, minimisations, whether negative curvature was met, and whether the sheet
+    jumped: the step does not resolve its motion."""
+
+    iterations: int = 0
+    repeats: int = 0
+    buckled: bool = False
+    snapped: bool = False
+
+
+NO_COUNTS = Counts()
 
 
 @dataclass
@@ -42,7 +56,7 @@ class Record:
         works: Works,
         slide: Sliding,
         probes: Array,
-        counts: tuple[int, int, bool],
+        counts: Counts,
     ) -> None:
         """Append a row; centre (components,)."""
         place = np.zeros(3)

@@ -17,12 +17,14 @@ from fem_check.shell.statics.equilibrium import ConvergenceError
 from fem_check.shell.statics.newton import Factorised
 from fem_check.shell.stepping.between import probe_region
 from fem_check.shell.stepping.power import Ledger, Moment, Works
-from fem_check.shell.stepping.record import Record
+from fem_check.shell.stepping.record import NO_COUNTS, Counts, Record
+from fem_check.shell.stepping.schemes import History
 from fem_check.shell.stepping.settings import Settings
 from fem_check.shell.stepping.sliding import Sliding, sliding
+from fem_check.shell.stepping.snapping import LONGEST, Snap, first_stiffness
 from fem_check.shell.stepping.snapshot import check_writable, load_snapshot, save_snapshot
 from fem_check.shell.stepping.start import first_history
-from fem_check.shell.stepping.step_control import LANDED, History, step_size
+from fem_check.shell.stepping.step_control import GROWTH, LANDED, step_size
 from fem_check.shell.stepping.stepper import Stepper, StepResult
 from fem_check.shell.stepping.trajectory import Trajectory
 from linear_theory.common.shown import Shown
@@ -31,9 +33,11 @@ from linear_theory.scene.scene import Scene
 
 Array = NDArray[np.float64]
 
-SNAP, PATIENCE = 3, 10
-"""Number of consecutive failures after which a step may take this multiple of the usual iterations: a
-sheet that snaps through moves far however short the step is."""
+MOST_WORK = 60
+"""Steps and repetitions of a run relative to the steps that a smooth motion would take."""
+
+HARD = 50
+"""Newton iterations of a step, above which the next one is not longer."""
 
 CHECKED = 8
 """Interval, in steps, of checks for negative curvature at the end of a step, which cost a Hessian: a
@@ -67,13 +71,13 @@ class Target(NamedTuple):
 class Landing(NamedTuple):
     """State of the run after an accepted step, and the length of the record.
 
-    sizes: next step and largest velocity so far. counts: rejected steps, rows and kept states of the
-    record. factor: kept by the minimiser.
+    control: step size and restraint of the next step. counts: rejected steps, rows and kept states of
+    the record. factor: kept by the minimiser.
     """
 
     history: History
     moment: Moment
-    sizes: tuple[float, float]
+    control: Array
     counts: tuple[int, int, int]
     factor: Factorised | None
 
@@ -86,14 +90,17 @@ class Run:
         self.scene, self.settings, period = scene, settings, scene.period
         self.model = ShellModel(scene)
         scene.drive.check_until(period * (settings.ramp + settings.periods))
-        self.size = step_size(period, settings.rtol, settings.steps, scene.drive.rates)
+        heavy, steps = any(e.areal_mass for e in self.model.effects), settings.steps_of(period)
+        self.size = step_size(period, settings.rtol, steps, scene.drive.rates, heavy)
         self.size.scale = abs(scene.alpha) * scene.sheet.length / period
+        self.snap = Snap(first_stiffness(scene.sheet))
         self.start = settings.ramp * period
         self.stepper = Stepper(self.model, self.start, self.size.dt)
         self.marks = self.start + period * np.arange(settings.periods + 1)
         self.ledger, self.record = Ledger(self.model), Record()
         self.region, self.probes = self.stepper.region, probe_region(self.model.discretisation)
-        self.history = first_history(self.stepper, self.size.dt, settings.velocity)
+        self.history = first_history(self.stepper, self.size.dt, settings.velocity, settings.scheme)
+        self.free = self.history  # the last one that no restraint has led to
         self.moment = self._first_moment()
         self.landing = self._land()
 
@@ -109,6 +116,7 @@ class Run:
         if target is not None and self._remaining() > 0:
             check_writable(target.path)
         while self._remaining() > 0:
+            self._check_work()
             self._advance()
             self.landing = self._land()
             if target is not None and (self.steps % target.every == 0 or self._remaining() <= 0):
@@ -117,6 +125,17 @@ class Run:
                 now, end, spent = self.history.time, self.marks[-1], time.perf_counter() - begin
                 left = spent * (end - now) / max(now - before, 1e-300)
                 report(Progress(now, end, self.steps, self.record.rejected, spent, left))
+
+    def _check_work(self) -> None:
+        """Raise ConvergenceError for a sheet that finds no rest, and for far too many steps."""
+        if self.history.time - self.free.time > LONGEST * self.scene.period:
+            text = f"no time step from t = {self.free.time:g} converges: the sheet moves on without end"
+            raise ConvergenceError(text, self.free.state, self.free.time)
+        asked = self.marks[-1] / min(self.size.natural or np.inf, self.size.largest)
+        if self.steps + self.record.rejected > MOST_WORK * asked:
+            text = f"{self.steps} steps and {self.record.rejected} repetitions lead to t = "
+            text += f"{self.history.time:g} of {self.marks[-1]:g}: the motion is too rough"
+            raise ConvergenceError(text, self.history.state, self.history.time)
 
     def trajectory(self) -> Trajectory:
         """The trajectory so far."""
@@ -141,41 +160,47 @@ class Run:
 
     def _advance(self) -> None:
         """Make one accepted step."""
-        failures, check = 0, len(self.record.rows) % CHECKED == 0
+        check = len(self.record.rows) % CHECKED == 0
         while True:
             dt = self.size.within(self._remaining())
-            patience = PATIENCE if failures >= SNAP else 1
             try:
-                result = self.stepper.attempt(self.history, dt, patience, check)
+                result = self.stepper.attempt(self.history, dt, self.snap.stiffness, check)
             except ConvergenceError as error:
-                self._shorten(dt, error, last=patience > 1)
-                failures += 1
+                self._failed(dt, error)
                 continue
             wrong = self.history.velocity_error(result.state, dt)
             velocity, _ = self.history.rules(dt)
-            if self.size.judge(dt, self._rms(wrong), self._rms(velocity(result.state))):
+            speeds = self._rms(wrong), self._rms(velocity(result.state))
+            if self.size.judge(dt, *speeds, forced=self.snap.restrained):
                 return self._accept(result, dt, wrong, velocity)
             self.record.rejected += 1
 
-    def _shorten(self, dt: float, error: ConvergenceError, last: bool) -> None:
+    def _failed(self, dt: float, error: ConvergenceError) -> None:
+        """Prepare another attempt. Raises ConvergenceError if there is nothing left to try."""
         self.record.rejected += 1
-        if not self.size.halve(dt) and last:
-            text = f"no time step from t = {self.history.time:g} converges, however short: {error}"
-            raise ConvergenceError(text, self.history.state, self.history.time) from error
+        if not self.snap.failed(shortest=not self.size.halve(dt)):
+            text = f"no time step from t = {self.free.time:g} converges, however short: {error}"
+            raise ConvergenceError(text, self.free.state, self.free.time) from error
 
     def _accept(self, result: StepResult, dt: float, wrong: Array, velocity: Affine) -> None:
         after = self.ledger.moment(result.state, result.rest, result.step, velocity(result.state))
         works = self.ledger.works(self.moment, after)
         slide = self._sliding(result, wrong)
-        self.history, self.moment = self.history.advanced(result.state, dt), after
-        counts = (result.iterations, result.repeats, result.buckled)
+        snapped = not self.size.resolved
+        self.history, self.moment = self.history.advanced(result.state, dt, snapped), after
+        if not self.snap.restrained:
+            self.free = self.history
+        elif self.snap.weak:
+            self.size.dt = min(self.size.largest, GROWTH * dt)
+        self.snap.succeeded()
+        if result.iterations > HARD:
+            self.size.dt = min(self.size.dt, dt)
+        counts = Counts(result.iterations, result.repeats, result.buckled, snapped)
         self._note(result.state, works, slide, counts)
         if self.steps % self.settings.keep_every == 0 or self._remaining() <= 0:
             self.record.keep(result.time, result.state)
 
-    def _note(
-        self, state: Array, works: Works, slide: Sliding, counts: tuple[int, int, bool] = (0, 0, False)
-    ) -> None:
+    def _note(self, state: Array, works: Works, slide: Sliding, counts: Counts = NO_COUNTS) -> None:
         """Append a row to the record for the state at this time."""
         centre, probes = self._centre(state), self.probes.position(state, (0,))[0].T
         self.record.add(self.history.time, centre, works, slide, probes, counts)
@@ -212,16 +237,25 @@ class Run:
         return float(np.sqrt(square @ self.region.measure / self.region.measure.sum()))
 
     def _land(self) -> Landing:
-        record, size = self.record, self.size
+        record = self.record
         counts = record.rejected, len(record.rows), len(record.times)
         factor = self.stepper.minimiser.kept
-        return Landing(self.history, self.moment, (size.dt, size.scale), counts, factor)
+        return Landing(self.history, self.moment, self._control(), counts, factor)
+
+    def _control(self) -> Array:
+        """What the next step starts from, besides the history."""
+        size, snap = self.size, self.snap
+        return np.array([size.dt, size.scale, size.repeated, snap.stiffness, snap.steps])
+
+    def _set_control(self, values: Array) -> None:
+        self.size.dt, self.size.scale, repeated, self.snap.stiffness, steps = (float(v) for v in values)
+        self.size.repeated, self.snap.steps, self.snap.failures = bool(repeated), int(steps), 0
 
     def rewind(self) -> None:
         """Return to the end of the last accepted step, from any point in the next one."""
         landing = self.landing
         self.history, self.moment = landing.history, landing.moment
-        self.size.dt, self.size.scale = landing.sizes
+        self._set_control(landing.control)
         self.record.rejected, rows, kept = landing.counts
         self.record.cut(rows, kept)
         self.stepper.minimiser.kept = landing.factor
@@ -232,13 +266,14 @@ class Run:
 
     def _arrays(self) -> dict[str, Array]:
         """The full state of the run and its record."""
-        size, record, history = self.size, self.record, self.history
+        record, history = self.record, self.history
         found: dict[str, Any] = {
             "past_times": history.times,
             "past_states": history.states,
-            "velocity": history.velocity,
+            "velocities": history.velocities,
             "acceleration": history.acceleration,
-            "control": np.array([size.dt, size.scale, record.rejected]),
+            "control": self._control(),
+            "rejected": np.array(record.rejected),
             "rows": np.array(record.rows),
             "probes": np.array(record.probes),
             "stored_times": np.array(record.times),
@@ -257,16 +292,15 @@ class Run:
             return np.nan
         found = load_snapshot(target.path, target.owner)
         get, minimiser = found.get, self.stepper.minimiser
-        self.history = History(
-            found["past_times"], found["past_states"], get("velocity"), get("acceleration")
-        )
-        self.size.dt, self.size.scale = (float(v) for v in found["control"][:2])
+        past = found["past_times"], found["past_states"], get("velocities"), get("acceleration")
+        self.history = self.free = History(*past, self.history.scheme)
+        self._set_control(found["control"])
         self.record = Record(
             list(found["rows"]),
             list(found["probes"]),
             [float(t) for t in found["stored_times"]],
             list(found["states"]),
-            int(found["control"][2]),
+            int(found["rejected"]),
         )
         self.moment = replace(
             self.moment,

@@ -1,10 +1,12 @@
 """Settings of a run, checked and normalised."""
 
-from dataclasses import dataclass
+import math
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from fem_check.shell.stepping.schemes import Scheme
 from linear_theory.common import validation
 
 Array = NDArray[np.float64]
@@ -14,7 +16,8 @@ Array = NDArray[np.float64]
 class Settings:
     """Arguments of `simulate` that determine its results; numpy numbers become plain ones.
 
-    rtol and steps: at most one of them; by default rtol is 1e-2. velocity: array or None.
+    rtol, steps and a step of the scheme: at most one of them; by default rtol is 1e-2. velocity: array
+    or None.
     Raises ValueError for values out of range.
     """
 
@@ -24,6 +27,7 @@ class Settings:
     ramp: float = 0.5
     velocity: ArrayLike | None = None
     keep_every: int = 1
+    scheme: Scheme | None = None
 
     def __post_init__(self) -> None:
         self._set("periods", validation.integer("periods", self.periods, 1))
@@ -33,12 +37,40 @@ class Settings:
             raise ValueError(f"ramp = {self.ramp:g}: must be >= 0")
         if self.velocity is not None:
             self._set("velocity", np.array(validation.real_array("velocity", self.velocity)))
+        if self.scheme is not None:
+            hint = "write Newmark() or BackwardDifferences()"
+            validation.instance("scheme", self.scheme, Scheme, hint)  # type: ignore[type-abstract]
+            if self.scheme.step is not None:
+                return self._check_step(self.scheme.step)
         if self.steps is None:
             self._set("rtol", validation.tolerance(1e-2 if self.rtol is None else self.rtol))
             return
         if self.rtol is not None:
             raise ValueError(f"steps = {self.steps!r}: must be None if rtol = {self.rtol!r} is given")
         self._set("steps", validation.integer("steps", self.steps, 4))
+
+    def _check_step(self, step: float) -> None:
+        """Raise ValueError if the lengths of the steps are given twice."""
+        for name in ("rtol", "steps"):
+            if getattr(self, name) is not None:
+                raise ValueError(
+                    f"{name} = {getattr(self, name)!r}: must be None if the scheme has step = {step:g}"
+                )
+
+    def steps_of(self, period: float) -> int | None:
+        """Equal steps per period, as given or by the scheme; None if they follow from rtol."""
+        step = None if self.scheme is None else self.scheme.step
+        return self.steps if step is None else math.ceil(period / step * (1 - 1e-9))
+
+    def rougher(self) -> "Settings":
+        """The same with steps about twice as long."""
+        if self.rtol is not None:
+            return replace(self, rtol=min(2 * self.rtol, 0.9))
+        if self.steps is not None:
+            return replace(self, steps=self.steps // 2)
+        assert self.scheme is not None
+        assert self.scheme.step is not None
+        return replace(self, scheme=replace(self.scheme, step=2 * self.scheme.step))  # type: ignore
 
     def _set(self, name: str, value: object) -> None:
         object.__setattr__(self, name, value)

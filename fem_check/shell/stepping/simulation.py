@@ -11,7 +11,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from fem_check.mesh.elements import default_cells
+from fem_check.shell.statics.equilibrium import ConvergenceError
 from fem_check.shell.stepping.run import Progress, Run, Target
+from fem_check.shell.stepping.schemes import Scheme
 from fem_check.shell.stepping.settings import Settings
 from fem_check.shell.stepping.snapshot import check_path, check_writable, run_fingerprint
 from fem_check.shell.stepping.trajectory import Trajectory
@@ -25,6 +27,10 @@ MESH_MARGIN = 2
 """Mesh error relative to the difference to a mesh 1.5 times coarser. The elastic part is far smaller;
 with dry friction the quadrature of a discontinuous force dominates, which converges irregularly."""
 
+SNAP_MARGIN = 2
+"""Error of a speed with snap-throughs relative to the difference to a run with steps twice as long,
+whose snaps start elsewhere and take another way."""
+
 
 def simulate(
     scene: Scene,
@@ -34,6 +40,7 @@ def simulate(
     *,
     ramp: float = 0.5,
     velocity: ArrayLike | None = None,
+    scheme: Scheme | None = None,
     snapshot: str | Path | None = None,
     snapshot_every: int = 50,
     keep_every: int = 1,
@@ -45,22 +52,25 @@ def simulate(
     rtol: error of the velocities, which controls the steps (1e-2 by default) and is about the relative
     error of V; steps: instead, number of equal steps per period. ramp: periods over which growth rises
     to its full amplitude. velocity (components,): of the sheet at the start; with Inertia only.
-    snapshot: file written after every `snapshot_every` steps, at the end, and when Ctrl-C interrupts
-    the run. If it exists, the run resumes from it, and the results are bit for bit those of an
-    uninterrupted run (one thread, same machine). keep_every: interval, in steps, of states kept in the
-    trajectory; see `Trajectory.shape_error`. mesh_error: estimate the mesh error from a second run on a
-    coarser mesh. progress: True prints, a function is called after each step.
+    scheme: `BackwardDifferences`, or `Newmark` as in the paper, which needs Inertia and is the default
+    without Ground; either may give the length of the steps. snapshot: file written after every
+    `snapshot_every` steps, at the end, and when Ctrl-C interrupts the run. If it exists, the run
+    resumes from it, and the results are bit for bit those of an uninterrupted run (one thread, same
+    machine). keep_every: interval, in steps, of states kept in the trajectory, see
+    `Trajectory.shape_error`. mesh_error: estimate the mesh error from a second run on a coarser mesh.
+    progress: True prints, a function is called after each step.
 
-    Steps are short enough to resolve the significant harmonics in time of the wave.
+    Steps are short enough to resolve the significant harmonics in time of the wave. A sheet that snaps
+    through is simulated a second time with longer steps, for the error of V.
 
     A scene without Friction and Inertia is not time dependent; use `cycle_speed.cycle_speed`.
     Raises ValueError for such scenes, for values out of range, for too few `steps` to resolve the wave
     and for a wave that does not repeat after its period; SnapshotError, a ValueError, for a snapshot
     that is damaged or belongs to another scene or run, for a path that cannot be written to, and for a
     wave or ground whose function has neither identifiable content nor a name; ConvergenceError (with
-    the last state and its time as `parameter`) if steps become too small; KeyboardInterrupt after
-    Ctrl-C, with a line that says what is kept. Warns (ViscousRegimeWarning) if Friction, regularised
-    dry friction, acts as viscous: see `CrawlSpeed.regime`.
+    the last state and its time as `parameter`) if no further step is found, or too many are needed;
+    KeyboardInterrupt after Ctrl-C, with a line that says what is kept. Warns (ViscousRegimeWarning) if
+    Friction, regularised dry friction, acts as viscous: see `CrawlSpeed.regime`.
 
     >>> from fem_check import Friction, Gravity, Material, Membrane, Scene, simulate
     >>> from linear_theory import Sheet, SineWave
@@ -77,7 +87,7 @@ def simulate(
         raise ValueError(f"progress = {validation.shown(progress)}: must be True, False or a function")
     if not (snapshot is None or isinstance(snapshot, str | Path)) or snapshot == "":
         raise ValueError(f"snapshot = {validation.shown(snapshot)}: must be the path of a file")
-    settings = Settings(periods, rtol, steps, ramp, velocity, keep_every)
+    settings = Settings(periods, rtol, steps, ramp, velocity, keep_every, scheme)
     every = validation.integer("snapshot_every", snapshot_every, 1)
     try:
         if snapshot is not None:
@@ -87,6 +97,7 @@ def simulate(
             resumed = run.resume(target)
         run.finish(target, (_printed if progress is True else progress) or None)
         difference = _mesh_error(run) if mesh_error else np.nan
+        jumps = _snap_error(run)
     except KeyboardInterrupt:
         if progress is True:
             print(file=sys.stderr)
@@ -98,6 +109,7 @@ def simulate(
         seconds=time.perf_counter() - begin,
         resumed_at=resumed,
         mesh_error=difference,
+        snap_error=jumps,
     )
     warn_if_viscous(scene.contact.friction, found.slip_ratio)
     return found
@@ -117,6 +129,23 @@ def _mesh_error(run: Run) -> float:
     coarse.finish(None, None)
     difference = coarse.trajectory().period_speeds[-1] - run.trajectory().period_speeds[-1]
     return float(MESH_MARGIN * abs(difference))
+
+
+def _snap_error(run: Run) -> float:
+    """Error of the mean speed of a sheet that snaps through, from the same run with longer steps.
+
+    NaN if it does not snap in the last period, infinite if the run with longer steps fails.
+    """
+    found = run.trajectory()
+    if not found.snapped[found.last_period].any():
+        return np.nan
+    try:
+        rough = Run(run.scene, run.settings.rougher())
+        rough.finish(None, None)
+    except (ConvergenceError, ValueError):
+        return np.inf
+    difference = rough.trajectory().period_speeds[-1] - found.period_speeds[-1]
+    return float(SNAP_MARGIN * abs(difference))
 
 
 def _interrupted(run: Run | None, target: Target | None) -> str:

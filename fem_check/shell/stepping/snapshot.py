@@ -24,7 +24,7 @@ from linear_theory.scene.scene import PARTS, Scene
 
 Array = NDArray[np.float64]
 
-VERSION = 2
+VERSION = 3
 
 _DAMAGED = (
     *(zipfile.BadZipFile, zlib.error, struct.error, UnicodeDecodeError),

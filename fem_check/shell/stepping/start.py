@@ -1,7 +1,5 @@
 """The initial state of a simulation: the ungrown sheet at rest, or in uniform motion."""
 
-from dataclasses import replace
-
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
@@ -10,8 +8,9 @@ from fem_check.shell.effects.ground import Ground
 from fem_check.shell.kinematics.discretisation import Discretisation
 from fem_check.shell.kinematics.rates import Affine, Step
 from fem_check.shell.kinematics.supports import Supports
+from fem_check.shell.model import ShellModel
 from fem_check.shell.statics.newton import Minimiser
-from fem_check.shell.stepping.step_control import History
+from fem_check.shell.stepping.schemes import BackwardDifferences, History, Newmark, Scheme
 from fem_check.shell.stepping.stepper import Stepper
 from linear_theory.common import validation
 
@@ -41,16 +40,31 @@ def resting_state(stepper: Stepper) -> Array:
     return state
 
 
-def first_history(stepper: Stepper, dt: float, velocity: ArrayLike | None) -> History:
+def default_scheme(model: ShellModel) -> Scheme:
+    """Newmark's for a sheet with inertia that vibrates freely, whose energy it keeps.
+
+    One on a ground bounces and snaps through in times that steps do not resolve: backward differences.
+    """
+    heavy = any(effect.areal_mass for effect in model.effects)
+    return Newmark() if heavy and model.find(Ground) is None else BackwardDifferences()
+
+
+def first_history(
+    stepper: Stepper, dt: float, velocity: ArrayLike | None, scheme: Scheme | None = None
+) -> History:
     """The history before the first step: at rest, or (with inertia) moving with `velocity`.
 
-    velocity: (components,), length per time. Raises ValueError for a velocity without inertia.
+    velocity: (components,), length per time. scheme: None for `default_scheme`. Raises ValueError for a
+    velocity or Newmark's scheme without inertia.
     """
     model = stepper.model
-    history = History.at_rest(resting_state(stepper), dt)
+    scheme = default_scheme(model) if scheme is None else scheme
+    history = History.at_rest(resting_state(stepper), dt, scheme)
     if not any(effect.areal_mass for effect in model.effects):
         if velocity is not None:
             raise ValueError(f"velocity = {velocity!r}: must be None without Inertia")
+        if isinstance(scheme, Newmark):
+            raise ValueError(f"scheme = {scheme}: must be BackwardDifferences without Inertia")
         return history
     wanted = np.zeros(model.components) if velocity is None else velocity
     speed = validation.real_array("velocity", wanted)
@@ -58,7 +72,7 @@ def first_history(stepper: Stepper, dt: float, velocity: ArrayLike | None) -> Hi
         raise ValueError(f"velocity has shape {speed.shape}: must be ({model.components},)")
     moving = translation(model.discretisation, speed)
     acceleration = first_acceleration(stepper, history.state, moving)
-    return replace(history, velocity=moving, acceleration=acceleration)
+    return history.thrown(moving, acceleration)
 
 
 def first_acceleration(stepper: Stepper, state: Array, velocity: Array) -> Array:

@@ -1,19 +1,17 @@
-"""The history of a time integration, its extrapolation, and the size of the next step."""
+"""The size of the next step: given, or controlled by the error of the velocity."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import NDArray
 
-from fem_check.shell.kinematics.extrapolation import extrapolated
-from fem_check.shell.kinematics.rates import Affine, newmark, two_step
 from linear_theory.wave.protocol import PER_HARMONIC
 from linear_theory.wave.spectrum import Spectrum
 
-Array = NDArray[np.float64]
-
 GROWTH = 1.6
 """Largest ratio of neighbouring steps; the two-step rule is stable up to 1 + sqrt 2."""
+
+JUMP = 0.5
+"""Error of the velocity relative to it, beyond which a step of given length does not resolve it."""
 
 LANDED = 1e-9
 """Fraction of the period below which two times count as equal."""
@@ -27,6 +25,9 @@ SHORTEST = 32
 """Fraction of the step for a sine wave below which steps are not shortened for their error: a sheet
 that snaps through jumps however short they are, and shorter steps make damping stiff."""
 
+HEAVY_SHORTEST = 512
+"""The same for a sheet with inertia."""
+
 SHORT_HARMONIC = 8
 """Highest harmonic of the wave resolved by such short steps."""
 
@@ -37,75 +38,6 @@ growth rate that may lie in higher harmonics."""
 SINE = Spectrum(np.ones(1), 0.0)
 """Spectrum of a wave that is a sine in time."""
 
-NEWMARK_ERROR = 1 / 12
-"""|beta - 1/6|: error of Newmark's rule in x is this times dt^2 (a_new - a), for beta = 1/4."""
-
-
-@dataclass(frozen=True, eq=False)
-class History:
-    """States at the last three times, the latest first; before the start the sheet is at rest.
-
-    times (3,); states (3, size): unknowns. velocity, acceleration (size,): of the unknowns at the
-    latest time, None without inertia.
-    """
-
-    times: Array
-    states: Array
-    velocity: Array | None = None
-    acceleration: Array | None = None
-
-    @classmethod
-    def at_rest(cls, state: Array, dt: float, start: float = 0.0) -> "History":
-        """The history of a sheet at rest during the steps of length dt before the start."""
-        times = np.asarray(start - dt * np.arange(3), float)
-        return cls(times, np.tile(state, (3, 1)))
-
-    @property
-    def time(self) -> float:
-        """The latest time."""
-        return float(self.times[0])
-
-    @property
-    def state(self) -> Array:
-        """The latest state, (size,)."""
-        return np.asarray(self.states[0])
-
-    def prediction(self, dt: float) -> Array:
-        """Predicted state after dt: parabolic, or Newmark's with constant acceleration."""
-        if self.velocity is not None and self.acceleration is not None:
-            return np.asarray(self.state + dt * self.velocity + dt**2 / 2 * self.acceleration)
-        return extrapolated(self.times, self.states, self.time + dt)
-
-    def rules(self, dt: float) -> tuple[Affine, Affine | None]:
-        """Velocity and (with inertia) acceleration of the unknowns at the end of a step, as rules."""
-        if self.velocity is not None and self.acceleration is not None:
-            return newmark(self.state, self.velocity, self.acceleration, dt)
-        return two_step(self.state, self.states[1], dt, self.times[0] - self.times[1]), None
-
-    def velocity_error(self, state: Array, dt: float) -> Array:
-        """Estimated error of the velocity (size,) at the end of a step that led to `state`.
-
-        Two-step rule: v = x' + x''' dt (dt + d)/6, d the previous step; the third derivative follows
-        from the deviation from the prediction. Newmark's rule: error of the position over the step.
-        """
-        _, acceleration = self.rules(dt)
-        if acceleration is not None and self.acceleration is not None:
-            return NEWMARK_ERROR * dt * (acceleration(state) - self.acceleration)
-        # x - prediction = x'''/6 dt (dt + d) (dt + d + d'), d' the step before d
-        return (state - self.prediction(dt)) / (self.time + dt - self.times[2])
-
-    def advanced(self, state: Array, dt: float) -> "History":
-        """The history one step later."""
-        velocity, acceleration = self.rules(dt)
-        after = replace(
-            self,
-            times=np.array([self.time + dt, *self.times[:2]]),
-            states=np.stack([state, *self.states[:2]]),
-        )
-        if acceleration is None:
-            return after
-        return replace(after, velocity=velocity(state), acceleration=acceleration(state))
-
 
 @dataclass
 class StepSize:
@@ -113,7 +45,11 @@ class StepSize:
 
     dt: next step, in (smallest, largest]. rtol: error of the velocity relative to the largest velocity
     so far (`scale`), both as root mean square over the sheet; None: the step is given and only
-    shortened if a minimisation fails.
+    shortened if a minimisation fails. resolved: whether the last accepted step resolves the motion: its
+    error meets rtol (JUMP, if the step is given). Velocities of jumps do not count for the scale.
+    natural: the step for a sine; in shorter ones, where the motion is rough, larger errors are allowed,
+    since their share of the way is small. repeated: whether the step is one that was shortened; the
+    next one is then not longer.
     """
 
     dt: float
@@ -121,36 +57,59 @@ class StepSize:
     largest: float
     rtol: float | None = None
     scale: float = 0.0
+    natural: float = 0.0
+    resolved: bool = field(default=True, init=False)
+    repeated: bool = field(default=False, init=False)
 
     def within(self, remaining: float) -> float:
         """The next step, adjusted so that equal steps fill the remaining time."""
         count = int(np.ceil(remaining / self.dt * (1 - 1e-9)))
         return remaining / max(count, 1)
 
-    def judge(self, dt: float, error: float, speed: float) -> bool:
-        """Whether a step of length dt is accepted; sets the next step (or attempt)."""
-        self.scale = max(self.scale, speed)
+    def judge(self, dt: float, error: float, speed: float, forced: bool = False) -> bool:
+        """Whether a step of length dt is accepted; sets the next step (or attempt).
+
+        forced: accepted whatever its error, as in a snap-through; the next one is as long.
+        """
+        scale = self.scale if forced else self._raised(dt, error, speed)
+        limit = JUMP if self.rtol is None else self.rtol * max(1.0, np.sqrt(self.natural / dt))
+        share = error / (limit * scale) if scale > 0 else 0.0
+        self.resolved = share <= 1 and not forced
+        if self.resolved:
+            self.scale = scale
+        if forced:
+            return True
         if self.rtol is None:
             self.dt = min(self.largest, GROWTH * dt)
             return True
-        share = error / (self.rtol * self.scale) if self.scale > 0 else 0.0
-        factor = float(np.clip(SAFETY / np.sqrt(max(share, 1e-12)), 0.3, GROWTH))
+        most = 1.0 if self.repeated else GROWTH
+        factor = float(np.clip(SAFETY / np.sqrt(max(share, 1e-12)), 0.3, most))
         accepted = share <= 1 or dt <= (1 + 1e-9) * self.smallest
         if not accepted or not 1 <= factor < DEADBAND:
             self.dt = float(np.clip(factor * dt, self.smallest, self.largest))
+        self.repeated = not accepted
         return accepted
+
+    def _raised(self, dt: float, error: float, speed: float) -> float:
+        """The scale after a step with that speed, of which a short spike is a small part."""
+        if error > JUMP * speed:
+            return self.scale
+        return self.scale + max(speed - self.scale, 0.0) * min(1.0, dt / (self.natural or dt))
 
     def halve(self, dt: float) -> bool:
         """Halve the step after a failure; False if it cannot be shorter."""
-        self.dt = max(dt / 2, self.smallest)
+        self.dt, self.repeated = max(dt / 2, self.smallest), True
         return dt > (1 + 1e-9) * self.smallest
 
 
-def step_size(period: float, rtol: float | None, steps: int | None, rates: Spectrum = SINE) -> StepSize:
+def step_size(
+    period: float, rtol: float | None, steps: int | None, rates: Spectrum = SINE, heavy: bool = False
+) -> StepSize:
     """Fixed steps of period/steps, or adaptive ones that start with an eighth of the step for a sine.
 
     rates: spectrum of the growth rate in time; each significant harmonic is resolved by at least
-    PER_HARMONIC steps per period, since the step error does not detect unresolved harmonics.
+    PER_HARMONIC steps per period, since the step error does not detect unresolved harmonics. heavy:
+    whether the sheet has inertia, so that it snaps through in a time that shorter steps can resolve.
     Raises ValueError for too few steps, or a wave too rough to be resolved.
     """
     if steps is not None:
@@ -166,8 +125,14 @@ def step_size(period: float, rtol: float | None, steps: int | None, rates: Spect
     harmonic = _harmonic(rates, rtol)
     # The relative error of the slope of a sine of this period is (2 pi dt/period)^2/3.
     natural = period * np.sqrt(3 * rtol) / (2 * np.pi)
-    shortest = natural / SHORTEST / max(harmonic / SHORT_HARMONIC, 1)
-    return StepSize(natural / 8 / harmonic, shortest, period / max(12, PER_HARMONIC * harmonic), rtol)
+    shortest = natural / (HEAVY_SHORTEST if heavy else SHORTEST) / max(harmonic / SHORT_HARMONIC, 1)
+    return StepSize(
+        natural / 8 / harmonic,
+        shortest,
+        period / max(12, PER_HARMONIC * harmonic),
+        rtol,
+        natural=natural,
+    )
 
 
 def _harmonic(rates: Spectrum, share: float) -> int:

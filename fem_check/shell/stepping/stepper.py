@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from fem_check.shell.abilities import STEPPED
 from fem_check.shell.effects.effect import Effect
+from fem_check.shell.effects.restraint import Restraint
 from fem_check.shell.kinematics.point_state import PointState
 from fem_check.shell.kinematics.rates import Affine, Step
 from fem_check.shell.kinematics.rest_state import RestState
@@ -23,7 +24,8 @@ from fem_check.shell.statics.equilibrium import ConvergenceError, Equilibrium
 from fem_check.shell.statics.newton import Factorised, Minimiser
 from fem_check.shell.statics.potential import Potential
 from fem_check.shell.statics.ramp import follow_mode
-from fem_check.shell.stepping.step_control import History
+from fem_check.shell.stepping.lagged import Mixing, change
+from fem_check.shell.stepping.schemes import History
 from linear_theory.friction.load import Load
 
 Array = NDArray[np.float64]
@@ -114,10 +116,11 @@ class Stepper:
         return self.model.rest(t, self.amplitude(t))
 
     def attempt(
-        self, history: History, dt: float, patience: int = 1, check: bool = False
+        self, history: History, dt: float, restraint: float = 0.0, check: bool = False
     ) -> StepResult:
-        """Try one step of length dt, within `patience` times the usual iterations.
+        """Try one step of length dt.
 
+        restraint: stiffness of a `Restraint` to the last state, in which a snap-through is then made.
         check: test for negative curvature at its end even if no Hessian during the step had any.
 
         Raises ConvergenceError if no minimum is found.
@@ -129,17 +132,25 @@ class Stepper:
         moving = Step(
             self.at_points(velocity), None if acceleration is None else self.at_points(acceleration)
         )
-        guess = self._start(history, dt)
-        step, count = self.held(moving, guess, rest), 0
+        effects = self.model.effects
+        if restraint > 0:
+            effects = (*effects, Restraint(restraint))
+            moving = replace(moving, anchor=self.region.position(history.state, (0,))[0])
+        guess = history.state if restraint > 0 else self._start(history, dt)
+        step, count, mixing = self.held(moving, guess, rest), 0, Mixing()
         for repeat in range(1, MOST_REPEATS + 1):
-            result = self._minimum(self.model.potential(rest, step), guess, patience)
+            result = self._minimum(self.model.potential(rest, step, effects), guess)
             count, guess = count + result.iterations, result.state
             after = self.held(moving, guess, rest)
-            if not self.shape_changes_load or change(step, after) <= LOAD_TOLERANCE:
+            moved = change(step, after) if self.shape_changes_load else 0.0
+            if moved <= LOAD_TOLERANCE:
                 buckled = self.minimiser.shifts > shifts
                 return StepResult(guess, t, rest, step, count, repeat, buckled)
-            step = after
-        raise ConvergenceError(f"the load still changes after {MOST_REPEATS} repetitions", guess)
+            if mixing.stalls(moved):
+                break
+            step = mixing.next(step, after)
+        text = f"the load still changes by {moved:.1%} after {repeat} minimisations"
+        raise ConvergenceError(text, guess)
 
     def _start(self, history: History, dt: float) -> Array:
         """The predicted state, or the last one if the prediction is inverted."""
@@ -147,8 +158,8 @@ class Stepper:
         before, after = orientation.directors(history.state), orientation.directors(guess)
         return guess if orientation.keeps(before, after) else history.state
 
-    def _minimum(self, potential: Potential, guess: Array, patience: int) -> Equilibrium:
-        result = self.minimiser.minimise(potential, guess, patience)
+    def _minimum(self, potential: Potential, guess: Array) -> Equilibrium:
+        result = self.minimiser.minimise(potential, guess)
         if not result.buckled:
             return result
         return follow_mode(self.minimiser, potential, result, PUSH * self.model.scene.sheet.thickness)
@@ -177,18 +188,3 @@ def amplitude(t: float, ramp: float) -> float:
     """0 at t = 0 and before, 1 from t = ramp on, with two continuous derivatives."""
     s = min(max(t, 0.0) / ramp, 1.0) if ramp > 0 else 1.0
     return s**3 * (10 - 15 * s + 6 * s**2)
-
-
-def change(before: Step, after: Step) -> float:
-    """Largest relative change of the quantities held fixed in two steps, summed over the points."""
-    pairs = [(before.load, after.load), (before.area, after.area), (before.normal, after.normal)]
-    changes = [_relative(old, new) for old, new in pairs if old is not None and new is not None]
-    return max(changes, default=0.0)
-
-
-def _relative(before: Array, after: Array) -> float:
-    """Sum of absolute changes over the sum of absolute new values; 0 if nothing changes."""
-    moved, size = float(np.abs(after - before).sum()), float(np.abs(after).sum())
-    if moved == 0:
-        return 0.0
-    return moved / size if size > 0 else np.inf

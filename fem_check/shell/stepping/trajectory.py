@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from fem_check.shell.cycle.frame import poses
+from fem_check.shell.kinematics.crossing import Crossings, CrossingsUnknown
 from fem_check.shell.model import ShellModel
 from fem_check.shell.stepping import columns
 from fem_check.shell.stepping.between import between, interpolation_error, motion_around
@@ -35,9 +36,10 @@ points of the sheet move in a period."""
 ROUNDOFF = 1e-8
 """Error of any shape from the minimisations, relative to the size of the sheet (see `Minimiser`)."""
 
-MARGIN, UNCERTAIN = 1.25, 0.1
+MARGIN, UNCERTAIN, UNEQUAL = 1.25, 0.1, 0.65
 """Safety factor of the step error, whose estimate neglects higher orders, and fraction of its mean
-absolute value, for the case that its mean over the period is 0 by chance."""
+absolute value, for the case that its mean over the period is 0 by chance. With steps that follow from
+rtol the errors of neighbouring steps differ in size and cancel less than their mean says."""
 
 DRY = 0.3
 """Largest slip ratio for which the distance to dry friction is estimated."""
@@ -48,6 +50,7 @@ class _Errors(NamedTuple):
     spread: float
     mesh: float
     slip_speed: float
+    snaps: float
 
 
 class SpeedErrors(Shown, _Errors):
@@ -57,7 +60,8 @@ class SpeedErrors(Shown, _Errors):
     one. mesh: from a run on a coarser mesh if requested, else NaN. slip_speed: distance to dry
     friction, twice the change on halving the slip speed (it decreases at least proportionally), NaN if
     the slip ratio is above 0.3 and friction far from dry; not part of the error of the speed at the
-    given slip speed.
+    given slip speed. snaps: of the path through snap-throughs in the last period, from a run with
+    longer steps; NaN if there are none.
     """
 
 
@@ -74,7 +78,7 @@ class Trajectory(Drawable, Tabular):
     ramp of growth. table: columns of `record.COLUMNS`. stored_times (n,), states (n, size): kept
     states. probes (steps + 1, points, components): positions of a few points at all `times`. rejected:
     repeated steps. resumed_at: time of the snapshot from which the run resumed, NaN if none.
-    mesh_error: see `SpeedErrors`. seconds: computing time in this process.
+    mesh_error, snap_error: see `SpeedErrors`. seconds: computing time in this process.
 
     >>> from fem_check import Friction, Gravity, Material, Membrane, Scene, simulate
     >>> from linear_theory import Sheet, SineWave
@@ -96,6 +100,7 @@ class Trajectory(Drawable, Tabular):
     resumed_at: float = np.nan
     rtol: float | None = None
     mesh_error: float = np.nan
+    snap_error: float = np.nan
 
     @property
     def scene(self) -> Scene:
@@ -127,6 +132,35 @@ class Trajectory(Drawable, Tabular):
     def buckled(self) -> NDArray[np.bool_]:
         """Whether a negative curvature of the energy was met in the step, (n,): buckling."""
         return self.table["buckled"] > 0
+
+    @property
+    def snapped(self) -> NDArray[np.bool_]:
+        """Whether the sheet jumped in the step, (n,), in which its motion is not resolved."""
+        return self.table["snapped"] > 0
+
+    @cached_property
+    def crossed(self) -> NDArray[np.bool_] | None:
+        """Whether the sheet passes through itself at `stored_times`, (n,), see `Crossings`.
+
+        None if that could not be found out, for lack of ipctk.
+        """
+        if self.model.planar:
+            return np.zeros(len(self.states), bool)
+        looks = Crossings(self.model.discretisation)
+        try:
+            return np.array([looks.found(u) for u in self.states])
+        except CrossingsUnknown:
+            return None
+
+    @property
+    def _crossing_in_words(self) -> str:
+        """Empty if the sheet does not pass through itself."""
+        crossed = self.crossed
+        if crossed is None:
+            return "not looked at for crossing itself (pip install 'sheetcrawl[contact]')"
+        if not crossed.any():
+            return ""
+        return f"passes through itself from t = {self.stored_times[crossed][0]:.4g}"
 
     @property
     def iterations(self) -> int:
@@ -165,7 +199,7 @@ class Trajectory(Drawable, Tabular):
         steps; for the error of the steps see `errors`. Raises ValueError outside of the kept times.
         """
         t = self._within(t)
-        return interpolation_error(self.times, self.probes, self.buckled, self.stored_times, t)
+        return interpolation_error(self.times, self.probes, self.snapped, self.stored_times, t)
 
     def shape(self, t: float, rtol: float | None = SEEN) -> Array:
         """Unknowns (size,) at time t: of a kept state, or from a cubic through the four nearest.
@@ -226,6 +260,11 @@ class Trajectory(Drawable, Tabular):
         """
         return poses(self.model.discretisation, self.stored_times, self.states)
 
+    @property
+    def last_period(self) -> slice:
+        """Rows of the last period, without the one at its start."""
+        return self._last(1)
+
     @cached_property
     def period_speeds(self) -> Array:
         """Mean velocity along y over each counted period, (periods,)."""
@@ -242,35 +281,37 @@ class Trajectory(Drawable, Tabular):
         """Estimated errors of the mean speed of the last period."""
         speeds = self.period_speeds
         spread = abs(speeds[-1] - speeds[-2]) if speeds.size > 1 else np.nan
-        step = MARGIN * abs(self._mean("step_y")) + UNCERTAIN * self._mean("step_y", size=True)
+        share = UNCERTAIN if self.rtol is None else UNEQUAL
+        step = MARGIN * abs(self._mean("step_y")) + share * self._mean("step_y", size=True)
         dry = self.slip_ratio <= DRY
         slip = abs(self._mean("slip_y")) / (1 - COMPARED) if dry else np.nan
-        return SpeedErrors(step, float(spread), self.mesh_error, slip)
+        return SpeedErrors(step, float(spread), self.mesh_error, slip, self.snap_error)
 
     @cached_property
     def speed(self) -> CrawlSpeed:
         """Mean velocity of the last period.
 
-        error: sum of the errors of step, mesh (if requested) and spread between periods; model_error:
-        distance to dry friction, see `SpeedErrors`. If the sheet snaps through in that period the
-        error is a lower bound, since the path depends on the step lengths: never converged.
+        error: sum of the errors of step, mesh (if requested), spread between periods and path through
+        snap-throughs; model_error: distance to dry friction, see `SpeedErrors`. The speed of a sheet
+        that has passed through itself (`crossed`), which no real sheet does, is never converged.
         """
         last, errors = self._last(1), self.errors
-        snaps = bool(self.buckled[last].any())
         unknown = "mesh error not estimated" if np.isnan(errors.mesh) else ""
-        snapped = "snaps over" if snaps else ""
+        snapped = "snaps over" if self.snapped[last].any() else ""
+        crossing = self._crossing_in_words
+        crosses = self.crossed is not None and bool(self.crossed.any())
         shape, scene = "Koiter shell stepped in time", self.scene
         rubs = any(effect.law for effect in self.model.effects)
         contact = scene.contact if rubs else None
-        model = model_words(shape, scene.growth, contact, unknown, snapped)
+        model = model_words(shape, scene.growth, contact, unknown, snapped, crossing)
         mean = float(self.period_speeds[-1])
-        error = float(np.nansum([errors.step, errors.spread, errors.mesh]))
+        error = float(np.nansum([errors.step, errors.spread, errors.mesh, errors.snaps]))
         times = self.times[last]
         velocity = np.gradient(self.centre[1], self.times)[last]
         return CrawlSpeed(
             estimate=Estimate(mean, error),
             model_error=errors.slip_speed,
-            converged=self.rtol is not None and error <= self.rtol * abs(mean) and not snaps,
+            converged=self.rtol is not None and error <= self.rtol * abs(mean) and not crosses,
             times=times,
             velocity=velocity,
             seconds=self.seconds,
@@ -293,6 +334,7 @@ class Trajectory(Drawable, Tabular):
             "regime": self.regime,
             "power": ", ".join(Works._fields),
             "buckled": f"at {np.count_nonzero(self.buckled)} of the times",
+            "snapped": f"at {np.count_nonzero(self.snapped)} of the times",
             **resumed,
             "seconds": self.seconds,
         }

@@ -191,7 +191,7 @@ class Run(NamedTuple):
     seconds: float
     steps: int
     iterations: int
-    buckled: int
+    snapped: int
     memory: float
 
 
@@ -207,7 +207,7 @@ def stepped(cells: tuple[int, int], steps: int | None) -> Run:
         run.seconds,
         run.times.size - 1,
         run.iterations,
-        int(run.buckled.sum()),
+        int(run.snapped.sum()),
         resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * RSS_UNIT / 1e6,
     )
 
@@ -232,17 +232,17 @@ def print_periods(runs: Sequence[Run]) -> None:
     print("\n2. Bending, on the ground, with friction: ramp (1/2 period) and one period, stepped")
     given = f"alpha {PERIOD_ALPHA:g}, beta {PERIOD_COUPLING:g}, v0 {PERIOD_SLIP:g}"
     print(f"{given}; last row: what errors are measured against")
-    print("aims: 1 % of V, 20 s, 15-30 ms a step, 1 GB; buckled: steps at which it snaps over")
+    print("aims: 1 % of V, 20 s, 15-30 ms a step, 1 GB; snapped: steps at which it snaps over")
     print(
         f"{'cells':<7}{'steps':>6}{'unknowns':>9}{'V':>10}{'error':>9}{'claimed':>9}{'s':>7}"
-        f"{'20 s/s':>7}{'ms/step':>9}{'it./step':>9}{'buckled':>8}{'MB':>6}{'1 GB/MB':>8}"
+        f"{'20 s/s':>7}{'ms/step':>9}{'it./step':>9}{'snapped':>8}{'MB':>6}{'1 GB/MB':>8}"
     )
     for (cells, steps), run in zip((*PERIODS, FINE), runs, strict=True):
         print(
             f"{cells[0]}x{cells[1]:<5}{steps or '1e-2':>6}{run.unknowns:>9}{run.mean:10.5f}"
             f"{abs(run.mean / exact - 1):9.1e}{run.error / abs(run.mean):9.1e}{run.seconds:7.2f}"
             f"{20 / run.seconds:7.1f}{1e3 * run.seconds / run.steps:9.1f}"
-            f"{run.iterations / run.steps:9.1f}{run.buckled:>8}{run.memory:6.0f}"
+            f"{run.iterations / run.steps:9.1f}{run.snapped:>8}{run.memory:6.0f}"
             f"{1e3 / run.memory:8.1f}"
         )
 

@@ -1,0 +1,164 @@
+"""Whether a sheet passes through itself.
+
+Nothing in the energy keeps two parts of a sheet apart: one that rolls up may cross itself, and what it
+does from then on is the motion of no real sheet. Crossings are looked for on a triangulation of the
+middle surface whose vertices are points of the sheet, a linear map of the unknowns. Its triangles
+are flat, so that parts closer than their sagitta may be missed, or be taken to touch.
+"""
+
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fem_check.shell.kinematics.discretisation import Discretisation
+from linear_theory.common.errors import SheetcrawlError
+from linear_theory.common.extras import optional
+
+Array = NDArray[np.float64]
+Integers = NDArray[np.int64]
+
+PIECES = 3
+"""Parts into which the side of an element is divided."""
+
+USE = "looking for places where the sheet passes through itself"
+
+
+class CrossingsUnknown(SheetcrawlError, RuntimeError):
+    """It cannot be said whether a sheet crosses itself, for lack of a package."""
+
+
+class Crossings:
+    """Looks for places where the surface of a discretisation in space intersects itself.
+
+    >>> import numpy as np
+    >>> from fem_check.shell.kinematics.crossing import Crossings
+    >>> from fem_check.shell.model import ShellModel
+    >>> from linear_theory import Sheet, SineWave
+    >>> from fem_check import Bending, Material, Membrane, Scene
+    >>> stiff = [Membrane(Material(0.03, 0.5)), Bending(Material(0.03, 0.5))]
+    >>> sheet = ShellModel(Scene(Sheet(), SineWave(), 0.1, effects=stiff, cells=(2, 4))).discretisation
+    >>> print(Crossings(sheet).found(sheet.zeros()))
+    False
+    """
+
+    def __init__(self, discretisation: Discretisation) -> None:
+        self.discretisation = discretisation
+
+    @cached_property
+    def _places(self) -> tuple[Array, Integers]:
+        """Vertices (2, n) of a triangulation of the parameter domain, and its triangles (m, 3)."""
+        mesh = self.discretisation.mesh
+        corners = mesh.p[:, mesh.t]
+        weights, local = _quadrilateral() if mesh.t.shape[0] == 4 else _triangle()
+        points = np.einsum("ik,ckt->cti", weights, corners)
+        count = points.shape[1]
+        triangles = (local[None] + len(weights) * np.arange(count)[:, None, None]).reshape(-1, 3)
+        flat = points.reshape(2, -1)
+        scale = 1e-9 * np.ptp(flat, axis=1).max()
+        _, first, index = np.unique(
+            np.round(flat / scale).astype(np.int64), axis=1, return_index=True, return_inverse=True
+        )
+        return flat[:, first], index.ravel()[triangles]
+
+    @cached_property
+    def _region(self) -> Any:
+        return self.discretisation.points(self._places[0])
+
+    @cached_property
+    def _convex(self) -> bool:
+        """Whether the parameter domain is convex, without holes."""
+        from scipy.spatial import ConvexHull
+
+        places, triangles = self._places
+        area = np.abs(_area(places[:, triangles])).sum()
+        return bool(area > (1 - 1e-6) * ConvexHull(places.T).volume)
+
+    def vertices(self, u: Array) -> Array:
+        """Places (3, n) of the vertices of the triangulation for unknowns u (size,)."""
+        return np.asarray(self._region.position(u, (0,))[0])
+
+    def found(self, u: Array) -> bool:
+        """Whether the sheet with unknowns u (size,) crosses itself.
+
+        Raises CrossingsUnknown, with what to install, if that takes ipctk and it is missing.
+        """
+        vertices = self.vertices(u)
+        if self._convex and self._lies_open(vertices):
+            return False
+        try:
+            ipctk = optional("ipctk", "contact", USE)
+        except ModuleNotFoundError as missing:
+            raise CrossingsUnknown(str(missing)) from None
+        ipctk.set_num_threads(1)
+        return bool(ipctk.has_intersections(self._collision_mesh(ipctk), np.asfortranarray(vertices.T)))
+
+    def _lies_open(self, vertices: Array) -> bool:
+        """Whether some projection of the triangulated sheet is one to one, so that it cannot cross.
+
+        A map of a convex domain is, if the symmetric part of its gradient is positive definite
+        everywhere; the projection is that along the mean normal, turned to the mean gradient.
+        """
+        places, triangles = self._places
+        sides, moved = _edges(places[:, triangles]), _edges(vertices[:, triangles])
+        gradient = np.einsum("cat,abt->cbt", moved, _inverse(sides))
+        left, _, right = np.linalg.svd((gradient * np.abs(_area(places[:, triangles]))).sum(-1))
+        frame = left[:, :2] @ right
+        flat = np.einsum("cb,cat->bat", frame, gradient)
+        shear = (flat[0, 1] + flat[1, 0]) / 2
+        return bool(np.all((flat[0, 0] > 0) & (flat[0, 0] * flat[1, 1] > shear**2)))
+
+    def _collision_mesh(self, ipctk: Any) -> Any:
+        if not hasattr(self, "_mesh"):
+            places, triangles = self._places
+            rest = np.asfortranarray(np.vstack([places, np.zeros(places.shape[1])]).T)
+            faces = triangles.astype(np.int32)
+            self._mesh = ipctk.CollisionMesh(rest, ipctk.edges(faces), faces)
+        return self._mesh
+
+
+def _quadrilateral() -> tuple[Array, Integers]:
+    """Weights (points, 4) of the corners of an element, and triangles (m, 3) between its points."""
+    s = np.linspace(0, 1, PIECES + 1)
+    a, b = (v.ravel() for v in np.meshgrid(s, s, indexing="ij"))
+    weights = np.stack([(1 - a) * (1 - b), a * (1 - b), a * b, (1 - a) * b], axis=1)
+    number = np.arange((PIECES + 1) ** 2).reshape(PIECES + 1, -1)
+    one, two, three, four = number[:-1, :-1], number[1:, :-1], number[1:, 1:], number[:-1, 1:]
+    halves = [np.stack(v, axis=-1).reshape(-1, 3) for v in ((one, two, three), (one, three, four))]
+    return weights, np.concatenate(halves)
+
+
+def _triangle() -> tuple[Array, Integers]:
+    """The same for an element with three corners."""
+    number: dict[tuple[int, int], int] = {}
+    for i in range(PIECES + 1):
+        for j in range(PIECES + 1 - i):
+            number[i, j] = len(number)
+    places = np.array(list(number)) / PIECES
+    weights = np.column_stack([1 - places.sum(1), places])
+    up = [(number[i, j], number[i + 1, j], number[i, j + 1]) for i, j in number if i + j < PIECES]
+    down = [
+        (number[i, j], number[i, j + 1], number[i - 1, j + 1])
+        for i, j in number
+        if i > 0 and i + j < PIECES
+    ]
+    return weights, np.array(up + down)
+
+
+def _edges(corners: Array) -> Array:
+    """Two sides of triangles (components, m, 3), as columns, (components, 2, m)."""
+    first, second, third = np.moveaxis(corners, -1, 0)
+    return np.stack([second - first, third - first], axis=1)
+
+
+def _area(corners: Array) -> Array:
+    """Signed areas of plane triangles (2, m, 3), (m,)."""
+    (a, b), (c, d) = _edges(corners)
+    return np.asarray(a * d - b * c) / 2
+
+
+def _inverse(matrices: Array) -> Array:
+    """Inverses of (2, 2, m) matrices."""
+    (a, b), (c, d) = matrices
+    return np.asarray(np.stack([np.stack([d, -b]), np.stack([-c, a])]) / (a * d - b * c))
