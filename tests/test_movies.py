@@ -1,5 +1,6 @@
 """What `.movie(path)` writes: frames, size, the same bytes, nothing half done, clear refusals."""
 
+import sys
 from types import SimpleNamespace
 
 import imageio_ffmpeg
@@ -158,7 +159,7 @@ def test_bad_paths_are_found_before_the_work(speed, tmp_path, monkeypatch):
 
 def test_a_missing_encoder_is_named_before_the_work(speed, tmp_path, monkeypatch):
     monkeypatch.setattr(movies, "moving_of", pytest.fail)
-    monkeypatch.setattr(writers, "find_spec", lambda name: None)
+    monkeypatch.setitem(sys.modules, writers.MODULE, None)
     with pytest.raises(ModuleNotFoundError, match=r"sheetcrawl\[movies\]"):
         speed.movie(tmp_path / "crawl.mp4")
     assert not list(tmp_path.iterdir())

@@ -409,7 +409,7 @@ def test_other_versions_and_other_files_are_refused(tmp_path: Path, written: byt
     old = {name: array for name, array in arrays.items() if name != "python"}
     for version, contents in ((99, arrays), (1, old)):
         np.savez(path, **{**contents, "version": np.array(version)})
-        with pytest.raises(SnapshotError, match=rf"version {version}, must be 2 .*; remove"):
+        with pytest.raises(SnapshotError, match=rf"version {version}, must be 3 .*; remove"):
             simulate(planar(), snapshot=path, **OPTIONS)
     np.savez(path, x=np.ones(3))
     with pytest.raises(SnapshotError, match="not a snapshot"):

@@ -46,11 +46,13 @@ class Prediction(Drawable, Shown):
     speed: `speed.error` is the numerical error and `speed.model_error` the distance to the target, NaN
     where unknown (never for method = "auto"). level: a key of `levels.LEVELS`; reason: why this level
     was chosen and no cheaper one, in words. converged: whether `error`, numerical plus model error,
-    meets the tolerance. seconds: total time, with the levels that were tried in vain. left_out: effects
-    that the target itself neglects, in words: it is a flat sheet without thickness on which friction
-    alone acts. scene, tolerance: the question. passed: the levels that were not chosen, and why. `str`
-    prints the answer in a dozen lines (see `answer.block`), in units of the length L of the sheet and
-    the period T of the wave.
+    meets the tolerance (or none was asked for, tolerance = None) and there is no caution: what else is
+    wrong with the speed, in words. not_in_error: parts that were not estimated, in words, of a level
+    that is not compared with the target. seconds: total time, with the levels that were tried in vain.
+    left_out: effects that the target itself neglects, in words: it is a flat sheet without thickness on
+    which friction alone acts. scene, tolerance: the question. passed: the levels that were not chosen,
+    and why. `str` prints the answer in a dozen lines (see `answer.block`), in units of the length L of
+    the sheet and the period T of the wave.
 
     >>> from fem_check import predict
     >>> from linear_theory import Sheet, SineWave
@@ -68,8 +70,10 @@ class Prediction(Drawable, Shown):
     seconds: float
     left_out: tuple[str, ...]
     scene: Scene
-    tolerance: Tolerance
+    tolerance: Tolerance | None
     passed: tuple["Passed", ...] = ()
+    not_in_error: tuple[str, ...] = ()
+    caution: str = ""
 
     @property
     def mean(self) -> float:
@@ -78,8 +82,12 @@ class Prediction(Drawable, Shown):
 
     @property
     def error(self) -> float:
-        """Numerical plus model error, absolute."""
-        return total_error(self.speed)
+        """Numerical plus model error, absolute; NaN where the latter is unknown.
+
+        Of a level that is not compared with the target (see not_in_error) the numerical error.
+        """
+        alone = self.not_in_error and math.isnan(self.speed.model_error)
+        return self.speed.error if alone else total_error(self.speed)
 
     @property
     def model_error(self) -> float:

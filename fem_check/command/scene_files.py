@@ -32,6 +32,8 @@ def new(name: str | None, path: Path | None) -> int:
         print("\n".join(listed()))
         return MET
     target = path or Path(f"{name}.toml")
+    if not target.parent.exists():
+        raise ValueError(f"{target}: must be in a folder that is there, {str(target.parent)!r} is not")
     texts = {target.parent / file: text for file, text in gallery.tables(name).items()}
     _write_all({**texts, target: gallery.text(name)}, name)
     also = f" (and {', '.join(map(str, texts))})" if texts else ""

@@ -11,6 +11,7 @@
       SceneFileError            a file from which no scene can be made              ValueError
       NotRestorable             a part of a scene that plain data cannot hold       ValueError
       Fault                     a friction law that contradicts itself             ValueError
+      NotWrittenError           an answer whose files cannot be written            OSError
 
     ViscousRegimeWarning        dry friction that acts as viscous                   UserWarning
     BeyondReachWarning          growth too large for the theory                     UserWarning
@@ -18,8 +19,8 @@
 ConvergenceError and UnstableError are defined in `fem_check.shell.statics.equilibrium`,
 NotPeriodicError and UnresolvedError in `fem_check.shell.cycle`, SnapshotError in
 `fem_check.shell.stepping.snapshot`, SceneFileError in `fem_check.files.mistakes`, NotRestorable in
-`linear_theory.scene.data`, Fault in `linear_theory.friction.trial`, all others here. Bad
-arguments are a plain ValueError.
+`linear_theory.scene.data`, Fault in `linear_theory.friction.trial`, NotWrittenError in
+`fem_check.runs.errors`, all others here. Bad arguments are a plain ValueError.
 """
 
 from collections.abc import Callable

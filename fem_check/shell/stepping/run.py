@@ -83,6 +83,7 @@ class Run:
 
     @one_blas_thread
     def __init__(self, scene: Scene, settings: Settings) -> None:
+        self._begun, self._before = time.perf_counter(), 0.0
         self.scene, self.settings, period = scene, settings, scene.period
         self.model = ShellModel(scene)
         scene.drive.check_period()
@@ -96,6 +97,11 @@ class Run:
         self.history = first_history(self.stepper, self.size.dt, settings.velocity)
         self.moment = self._first_moment()
         self.landing = self._land()
+
+    @property
+    def seconds(self) -> float:
+        """Spent so far, before an interruption included."""
+        return self._before + time.perf_counter() - self._begun
 
     @property
     def steps(self) -> int:
@@ -239,6 +245,7 @@ class Run:
             "velocity": history.velocity,
             "acceleration": history.acceleration,
             "control": np.array([size.dt, size.scale, record.rejected]),
+            "seconds": np.array(self.seconds),
             "rows": np.array(record.rows),
             "probes": np.array(record.probes),
             "stored_times": np.array(record.times),
@@ -256,6 +263,7 @@ class Run:
         if not target.path.exists():
             return np.nan
         found = load_snapshot(target.path, target.owner)
+        self._before = float(found["seconds"])
         get, minimiser = found.get, self.stepper.minimiser
         self.history = History(
             found["past_times"], found["past_states"], get("velocity"), get("acceleration")
