@@ -4,6 +4,7 @@ import math
 from typing import TYPE_CHECKING, Any
 
 from fem_check.answer.units import Units
+from linear_theory.common.shown import flat
 
 if TYPE_CHECKING:
     from fem_check.choice.prediction import Prediction
@@ -31,6 +32,22 @@ def record(found: "Prediction", units: Units | None) -> dict[str, Any]:
         "model": found.speed.model,
         "left_out": list(found.left_out),
         "reach": found.speed.reach,
+    }
+
+
+def row(found: "Prediction") -> dict[str, Any]:
+    """See `Prediction.to_row`."""
+    return {
+        **numbers_of(found),
+        "level": found.level,
+        "reason": found.reason,
+        "converged": found.converged,
+        "caution": found.caution or None,
+        "not_in_error": "; ".join(found.not_in_error) or None,
+        "regime": str(found.regime),
+        "beyond_reach": found.speed.beyond_reach or None,
+        "seconds": found.seconds,
+        **flat(found.scene.to_dict(arrays=False), "scene."),
     }
 
 

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
 from fem_check.answer.block import block
+from fem_check.answer.record import row
 from fem_check.choice.levels import LEVELS, TARGET_EFFECTS, distance
 from fem_check.shell.abilities import left_out
 from linear_theory.common import validation
@@ -98,6 +99,19 @@ class Prediction(Drawable, Shown):
     def regime(self) -> Regime:
         """See `CrawlSpeed.regime`."""
         return self.speed.regime
+
+    def to_row(self) -> dict[str, Any]:
+        """A row of a table of many answers: numbers and texts by name, those of the scene with dots.
+
+        What is unknown is None; the columns of the answer are named as in the records of sweeps.
+
+        >>> from fem_check import predict
+        >>> from linear_theory import Sheet, SineWave
+        >>> row = predict(Sheet(), SineWave(), alpha=0.25, rtol=0.2).to_row()
+        >>> print(f"{row['mean']:.2f} +- {row['error']:.2f}", row["level"], row["scene.sheet.width"])
+        0.10 +- 0.01 strip 0.5
+        """
+        return row(self)
 
     def __str__(self) -> str:
         return block(self)

@@ -84,21 +84,26 @@ def run(
     way = way_of(scene, settings.level)
     netcdf.require_netcdf()
     with locked(folder), _interruptible(again):
-        damage = ""
-        if not _has_result(folder, scene, settings, resume) or (damage := finished(folder).damage()):
+        known = _has_result(folder, scene, settings, resume)
+        damage = _damage(folder) if known else ""
+        if damage or not known:
             _solve(scene, way, folder, settings, units, progress)
-        found = finished(folder)
         if damage:
             (folder / REPORT).unlink(missing_ok=True)  # drawn anew, with all that belongs to it
-            warnings.warn(f"{damage}; it was {_source(folder)}", stacklevel=2)
+            warnings.warn(damage, stacklevel=2)
+        found = finished(folder)
         with _kept_for(found.block):
             _draw(found, progress)
     return found
 
 
-def _source(folder: Path) -> str:
-    kept = (folder / SNAPSHOT).exists()
-    return f"written again from {SNAPSHOT}" if kept else "solved and written again"
+def _damage(folder: Path) -> str:
+    """What is wrong with the file of the motion, and what is done about it; empty if it is right."""
+    wrong = finished(folder).damage()
+    if not wrong:
+        return ""
+    how = f"written again from {SNAPSHOT}" if (folder / SNAPSHOT).exists() else "solved again"
+    return f"{wrong}; the motion was {how}"
 
 
 def _has_result(folder: Path, scene: Scene, settings: RunSettings, resume: bool) -> bool:
