@@ -309,3 +309,21 @@ def test_a_closed_output_is_one_line():
     done = subprocess.run(shell, shell=True, capture_output=True, text=True, env=os.environ)
     assert (done.returncode, done.stderr.count("\n")) == (MISSED, 1)
     assert "the standard output is closed" in done.stderr
+
+
+def test_periods_that_differ_are_a_caution_whatever_the_tolerance(tmp_path, monkeypatch):
+    """The first period after a short ramp against the second one, far apart as if nothing repeated."""
+    path = tmp_path / "stepped.toml"
+    path.write_text(STEPPED.replace("periods = 1", "periods = 2"))
+    file = read(path)
+    asked = (file.scene, file.run.level, None, 2, file.run.steps)
+    usual = answer(*asked)
+    assert (usual.converged, usual.caution) == (True, "")
+    assert usual.not_in_error == ("error of the mesh",)
+    speeds = np.array([0.5, 1.0]) * usual.mean
+    monkeypatch.setattr("fem_check.shell.stepping.trajectory.Trajectory.period_speeds", speeds)
+    found = answer(*asked)
+    assert not found.converged
+    assert "the last two periods differ by 50 % of the speed" in found.caution
+    assert "CAUTION" in str(found)
+    assert "NOT MET" not in str(found)
