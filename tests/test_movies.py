@@ -50,7 +50,7 @@ def test_gif_has_its_frames_and_the_same_bytes_every_time(speed, tmp_path):
         assert film.size[0] == 420  # even, as the encoders of .mp4 want it
         assert film.info["duration"] == 100
         assert film.info["loop"] == 0
-    assert sorted(p.name for p in tmp_path.iterdir()) == ["new", "once.gif"]
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["again.GIF", "once.gif"]
 
 
 def test_mp4_has_its_frames(speed, tmp_path):
