@@ -157,6 +157,14 @@ def test_bad_paths_are_found_before_the_work(speed, tmp_path, monkeypatch):
             speed.movie(tmp_path / path)
 
 
+def test_a_film_that_was_cut_short_by_a_full_disk_is_no_film(speed, tmp_path):
+    whole, cut = speed.movie(tmp_path / "crawl.mp4", **SMALL), tmp_path / "cut.mp4"
+    assert writers.is_whole(whole)
+    for size in (0, 20, 2000, whole.stat().st_size - 1):
+        cut.write_bytes(whole.read_bytes()[:size])
+        assert not writers.is_whole(cut)
+
+
 def test_a_missing_encoder_is_named_before_the_work(speed, tmp_path, monkeypatch):
     monkeypatch.setattr(movies, "moving_of", pytest.fail)
     monkeypatch.setitem(sys.modules, writers.MODULE, None)

@@ -77,6 +77,25 @@ def write_mp4(path: Path, pictures: Iterator[Pixels], fps: float) -> None:
             writer.send(np.ascontiguousarray(picture))
     finally:
         writer.close()
+    if not is_whole(path):  # the encoder tells of a full disk on stderr alone
+        raise OSError("the encoder could not write all of it (a full disk?)")
+
+
+def is_whole(path: Path) -> bool:
+    """Whether the boxes of an .mp4 fill the file, with the index of its frames among them."""
+    names, size, place = set(), path.stat().st_size, 0
+    with path.open("rb") as file:
+        while place < size:
+            file.seek(place)
+            head = file.read(16)
+            length = int.from_bytes(head[:4], "big")
+            if length == 1:  # the size of a large box follows its name
+                length = int.from_bytes(head[8:], "big")
+            if length < 8:
+                return False
+            names.add(head[4:8])
+            place += length
+    return place == size and b"moov" in names
 
 
 WRITERS: dict[str, Write] = {".gif": write_gif, ".mp4": write_mp4}
