@@ -3,6 +3,7 @@
 import math
 import re
 import warnings
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -24,9 +25,11 @@ from linear_theory import (
 )
 from linear_theory.growth.laws import GROWTH_LAWS
 from linear_theory.scene.scene import Scene
+from linear_theory.speed.result import Estimate
 
 MM = Units("mm", "s")
 NUMBER = r"([−\d.]+)"
+NUMBER_E = r"([\d.e-]+)"
 
 
 def lines(text):
@@ -218,3 +221,27 @@ def test_errors_are_never_shown_smaller_than_they_are():
         assert 1 <= len(shown.error.split("e")[0].replace(".", "").strip("0")) <= 2
         assert error <= float(rounded_up(error)) <= 2 * error
     assert "±" not in measured(0.0, 0.0).with_unit("L/T")
+
+
+def test_a_tolerance_is_told_as_a_speed_where_that_is_what_counts():
+    """Of a speed of nearly zero: 1e-3 rtol alpha^2 L/T, which is no meaningful share of it."""
+    found = predict(Sheet(), SineWave(), 0.1, method="strip", rtol=1e-3)
+    still = Estimate(1e-16, 3e-3)
+    found = replace(found, speed=replace(found.speed, estimate=still, model_error=0.0), converged=False)
+    said = lines(block(found, Units("mm", "s", 40.0, 8.0)))["NOT MET"]
+    asked, error = numbers(
+        said, rf"the tolerance, {NUMBER_E} mm/s, is not met: the error is {NUMBER} mm/s"
+    )
+    assert asked == pytest.approx(1e-3 * 1e-3 * 0.1**2 * 40 / 8)
+    assert 3e-3 * 40 / 8 <= error < 2 * 3e-3 * 40 / 8
+
+
+def test_a_tolerance_that_is_met_is_never_said_to_be_missed():
+    """What else is wrong with the answer has a line of its own, and so does nothing else."""
+    found = predict(Sheet(), SineWave(), 0.1, method="strip", rtol=0.5)
+    wrong = replace(found, converged=False, caution="the sheet snaps over")
+    said = lines(str(wrong))
+    assert said["CAUTION"] == "the sheet snaps over"
+    assert "NOT MET" not in said
+    unasked = replace(found, tolerance=None)
+    assert not {"NOT MET", "CAUTION"} & lines(str(unasked)).keys()

@@ -438,7 +438,7 @@ def test_a_file_that_cannot_be_written_is_found_out_before_the_work(capsys, tmp_
 
 def test_a_movie_without_an_encoder_is_found_out_before_the_work(capsys, tmp_path, monkeypatch):
     monkeypatch.setattr("fem_check.command.speed.predict", None)
-    monkeypatch.setattr("fem_check.output.writers.find_spec", lambda name: None)
+    monkeypatch.setitem(sys.modules, "imageio_ffmpeg", None)
     status, out, err = run(capsys, *SPEED, "--movie", str(tmp_path / "a.mp4"))
     assert (status, out, err.count("\n")) == (BAD_ARGUMENTS, "", 1)
     assert "pip install 'sheetcrawl[movies]'" in err

@@ -1,5 +1,6 @@
 """What `.movie(path)` writes: frames, size, the same bytes, nothing half done, clear refusals."""
 
+import sys
 from types import SimpleNamespace
 
 import imageio_ffmpeg
@@ -42,14 +43,14 @@ def speed():
 def test_gif_has_its_frames_and_the_same_bytes_every_time(speed, tmp_path):
     once = speed.movie(tmp_path / "once.gif", fps=10, **SMALL)
     with mpl.rc_context({"font.size": 20, "axes.grid": True}):  # the user's own taste
-        again = speed.movie(str(tmp_path / "new" / "again.GIF"), fps=10, **SMALL)
+        again = speed.movie(str(tmp_path / "again.GIF"), fps=10, **SMALL)
     assert once.read_bytes() == again.read_bytes()
     with Image.open(once) as film:
         assert film.n_frames == 10
         assert film.size[0] == 420  # even, as the encoders of .mp4 want it
         assert film.info["duration"] == 100
         assert film.info["loop"] == 0
-    assert sorted(p.name for p in tmp_path.iterdir()) == ["new", "once.gif"]
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["again.GIF", "once.gif"]
 
 
 def test_mp4_has_its_frames(speed, tmp_path):
@@ -156,9 +157,17 @@ def test_bad_paths_are_found_before_the_work(speed, tmp_path, monkeypatch):
             speed.movie(tmp_path / path)
 
 
+def test_a_film_that_was_cut_short_by_a_full_disk_is_no_film(speed, tmp_path):
+    whole, cut = speed.movie(tmp_path / "crawl.mp4", **SMALL), tmp_path / "cut.mp4"
+    assert writers.is_whole(whole)
+    for size in (0, 20, 2000, whole.stat().st_size - 1):
+        cut.write_bytes(whole.read_bytes()[:size])
+        assert not writers.is_whole(cut)
+
+
 def test_a_missing_encoder_is_named_before_the_work(speed, tmp_path, monkeypatch):
     monkeypatch.setattr(movies, "moving_of", pytest.fail)
-    monkeypatch.setattr(writers, "find_spec", lambda name: None)
+    monkeypatch.setitem(sys.modules, writers.MODULE, None)
     with pytest.raises(ModuleNotFoundError, match=r"sheetcrawl\[movies\]"):
         speed.movie(tmp_path / "crawl.mp4")
     assert not list(tmp_path.iterdir())

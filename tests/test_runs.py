@@ -327,7 +327,7 @@ def test_damaged_files_are_named(text, place, tmp_path, capsys):
     (tmp_path / "trajectory.nc").write_text(text)
     status, _, err = command(capsys, "plot", tmp_path)
     assert (status, err.count("\n")) == (BAD_ARGUMENTS, 1)
-    assert "trajectory.nc: is not the trajectory of a run" in err
+    assert "trajectory.nc: is damaged, or that of another run" in err
     (tmp_path / "result.json").write_text(text)
     status, _, err = command(capsys, "show", tmp_path)
     assert status == BAD_ARGUMENTS

@@ -10,7 +10,6 @@ import time
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import pytest
 
 from fem_check import Friction, Gravity, Inertia, Material, Membrane, cycle_speed, predict, simulate
@@ -55,8 +54,8 @@ def test_new_writes_the_file_of_the_gallery_and_never_overwrites(capsys: Any, tm
     (tmp_path / "folder").mkdir()
     assert run(capsys, "new", "paper", "folder")[0] == BAD_ARGUMENTS
     status, _, err = run(capsys, "new", "paper", "nowhere/a.toml")
-    assert (status, err.count("\n")) == (MISSED, 1)
-    assert "nowhere/a.toml: No such file" in err
+    assert (status, err.count("\n")) == (BAD_ARGUMENTS, 1)
+    assert "nowhere/a.toml: must be in a folder that is there, 'nowhere' is not" in err
     assert sorted(os.listdir()) == ["folder", "hydrogel.toml", "mine.toml"]
 
 
@@ -363,9 +362,12 @@ def test_ways_answer_as_they_do_alone() -> None:
     assert stepped.mean == motion.speed.mean
     assert stepped.level == "stepped"
     assert stepped.left_out == ("inertia",)
-    assert np.isnan(stepped.error)
+    assert stepped.error == motion.speed.error
+    assert stepped.not_in_error == ("error of the mesh", "change from period to period")
     assert seen[-1].share == pytest.approx(1)
-    assert "0: all that the scene names is in" in " ".join(block(stepped).split())
+    assert motion.snaps
+    assert "not estimated: error of the mesh" in " ".join(block(stepped).split())
+    assert "CAUTION   the sheet snaps over in the last period" in block(stepped)
 
 
 @pytest.mark.parametrize("name", ["inchworm", "paper", "bumpy"])

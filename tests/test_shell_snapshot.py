@@ -206,7 +206,9 @@ def test_control_c_where_the_disk_is_full(tmp_path: Path, monkeypatch: pytest.Mo
             monkeypatch.setattr(np, "savez", full)
             raise KeyboardInterrupt
 
-    with pytest.raises(KeyboardInterrupt, match=r"written \(no space left\) and is unchanged"):
+    with pytest.raises(
+        KeyboardInterrupt, match=r"run.npz: cannot be written: no space left; it is unchanged"
+    ):
         simulate(planar(), snapshot=path, progress=stop, **OPTIONS)
     with np.load(path) as file:
         assert len(file["rows"]) == 6

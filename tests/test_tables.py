@@ -21,6 +21,7 @@ from linear_theory.common.extras import optional
 TRAJECTORY_UNITS = {
     "centre_x": "length",
     "centre_y": "length",
+    "velocity": "length/time",
     **dict.fromkeys(
         ("growth", "elastic", "weight", "ground", "kinetic", "friction", "damping", "residual"),
         "force*length",
@@ -122,7 +123,7 @@ def test_tables_do_not_share_memory_with_the_result():
 def test_sweep_becomes_a_table_by_its_rows():
     alphas = 0.05, 0.1
     found = [crawl_speed(Sheet(), SineWave(), alpha, rtol=1e-2) for alpha in alphas]
-    table = pd.DataFrame([f.to_dict(arrays=False) for f in found], index=alphas)
+    table = pd.DataFrame([f.to_row() for f in found], index=alphas)
     assert list(table["mean"]) == [f.mean for f in found]
     assert list(table["converged"]) == [f.converged for f in found]
 

@@ -38,12 +38,6 @@ LEVEL_WORDS = {
 }
 """What a level is, by its name in `levels.LEVELS` or `ways.WAYS`."""
 
-OWN = {
-    "cycle": "not estimated: friction is taken as too weak to deform the sheet",
-    "stepped": "0: all that the scene names is in; the error of the mesh is not estimated",
-}
-"""What the error of the model is of levels that are not compared with the nonlinear flat sheet."""
-
 Line = tuple[str, str]
 """Label on the left, and text."""
 
@@ -114,18 +108,26 @@ def _answer(found: "Prediction", units: Units) -> Iterator[Line]:
     yield from sideways_and_turning(found.speed, found.scene.period, units)
     if found.speed.beyond_reach:
         yield "NO ANSWER", found.speed.reach
-    elif not found.converged:
-        yield "NOT MET", _missed(found)
+    if found.caution:
+        yield "CAUTION", found.caution
+    if not found.speed.beyond_reach and (missed := _missed(found, units)):
+        yield "NOT MET", missed
     yield "accuracy", _accuracy(found, units)
 
 
-def _missed(found: "Prediction") -> str:
-    """A missed tolerance and the error, in per cent of the speed."""
-    size = abs(found.mean) / 100
-    asked = f"the tolerance, {plain(found.tolerance.allowed(found.mean) / size) if size else '0'} %"
-    if math.isnan(found.error) and found.level not in OWN:
+def _missed(found: "Prediction", units: Units) -> str:
+    """A missed tolerance and the error, in per cent of the speed, or as speeds; empty if it is met."""
+    if found.tolerance is None:
+        return ""
+    allowed, size = found.tolerance.allowed(found.mean), abs(found.mean)
+    relative = allowed <= found.tolerance.rtol * size
+    factor, unit = (100 / size, "%") if relative else (units.of_speed(1.0), units.speed)
+    asked = f"the tolerance, {plain(factor * allowed)} {unit}"
+    if math.isnan(found.error):
         return f"{asked}, may not be met: the model error (distance to the nonlinear sheet) is unknown"
-    return f"{asked}, is not met: the error is {rounded_up(_error(found) / size) if size else 'inf'} %"
+    if found.error <= allowed:
+        return ""
+    return f"{asked}, is not met: the error is {rounded_up(factor * found.error)} {unit}"
 
 
 def _accuracy(found: "Prediction", units: Units) -> str:
@@ -134,18 +136,19 @@ def _accuracy(found: "Prediction", units: Units) -> str:
     numbers = f"numerical {rounded_up(units.of_speed(speed.error - speed.wave_error))}"
     if speed.wave_error:
         numbers += f", noise of the measured wave {rounded_up(units.of_speed(speed.wave_error))}"
-    model = f"model {_model(found, units)}"
+    if not (found.not_in_error and math.isnan(speed.model_error)):
+        numbers += f", model {_model(found, units)}"
+    if found.not_in_error:
+        numbers += f"; not estimated: {', '.join(found.not_in_error)}"
     if found.mean == 0 and _error(found) == 0:
-        return f"exact: nothing moves ({numbers}, {model})"
+        return f"exact: nothing moves ({numbers})"
     if _error(found) >= abs(found.mean):
-        return f"the error is as large as the speed ({numbers}, {model})"
-    return f"{rounded_up(100 * _error(found) / abs(found.mean))} % ({numbers}, {model})"
+        return f"the error is as large as the speed ({numbers})"
+    return f"{rounded_up(100 * _error(found) / abs(found.mean))} % ({numbers})"
 
 
 def _model(found: "Prediction", units: Units) -> str:
     error = found.speed.model_error
-    if math.isnan(error) and found.level in OWN:
-        return OWN[found.level]
     if math.isnan(error):
         return "unknown: the distance of this theory to the nonlinear sheet was not measured here"
     if error == 0:
@@ -210,9 +213,11 @@ def wrapped(label: str, text: str, width: int = WIDTH) -> str:
 
 def why(found: "Prediction", width: int = WIDTH) -> str:
     """Why each level was or was not chosen."""
-    taken = (
-        "chosen: it meets the tolerance" if found.converged else "chosen, but it misses the tolerance"
-    )
+    taken = "chosen: it meets the tolerance"
+    if found.tolerance is None:
+        taken = "chosen: no tolerance was asked for"
+    elif not found.converged:
+        taken = "chosen, but it misses the tolerance"
     if not found.passed and found.reason.startswith("requested"):
         taken = f"chosen: {found.reason}"
     rows = [(one.level, f"not chosen: {one.why}", one.seconds) for one in found.passed]

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
 from fem_check.answer.block import block
+from fem_check.answer.record import row
 from fem_check.choice.levels import LEVELS, TARGET_EFFECTS, distance
 from fem_check.shell.abilities import left_out
 from linear_theory.common import validation
@@ -46,11 +47,13 @@ class Prediction(Drawable, Shown):
     speed: `speed.error` is the numerical error and `speed.model_error` the distance to the target, NaN
     where unknown (never for method = "auto"). level: a key of `levels.LEVELS`; reason: why this level
     was chosen and no cheaper one, in words. converged: whether `error`, numerical plus model error,
-    meets the tolerance. seconds: total time, with the levels that were tried in vain. left_out: effects
-    that the target itself neglects, in words: it is a flat sheet without thickness on which friction
-    alone acts. scene, tolerance: the question. passed: the levels that were not chosen, and why. `str`
-    prints the answer in a dozen lines (see `answer.block`), in units of the length L of the sheet and
-    the period T of the wave.
+    meets the tolerance (or none was asked for, tolerance = None) and there is no caution: what else is
+    wrong with the speed, in words. not_in_error: parts that were not estimated, in words, of a level
+    that is not compared with the target. seconds: total time, with the levels that were tried in vain.
+    left_out: effects that the target itself neglects, in words: it is a flat sheet without thickness on
+    which friction alone acts. scene, tolerance: the question. passed: the levels that were not chosen,
+    and why. `str` prints the answer in a dozen lines (see `answer.block`), in units of the length L of
+    the sheet and the period T of the wave.
 
     >>> from fem_check import predict
     >>> from linear_theory import Sheet, SineWave
@@ -68,8 +71,10 @@ class Prediction(Drawable, Shown):
     seconds: float
     left_out: tuple[str, ...]
     scene: Scene
-    tolerance: Tolerance
+    tolerance: Tolerance | None
     passed: tuple["Passed", ...] = ()
+    not_in_error: tuple[str, ...] = ()
+    caution: str = ""
 
     @property
     def mean(self) -> float:
@@ -78,8 +83,12 @@ class Prediction(Drawable, Shown):
 
     @property
     def error(self) -> float:
-        """Numerical plus model error, absolute."""
-        return total_error(self.speed)
+        """Numerical plus model error, absolute; NaN where the latter is unknown.
+
+        Of a level that is not compared with the target (see not_in_error) the numerical error.
+        """
+        alone = self.not_in_error and math.isnan(self.speed.model_error)
+        return self.speed.error if alone else total_error(self.speed)
 
     @property
     def model_error(self) -> float:
@@ -90,6 +99,19 @@ class Prediction(Drawable, Shown):
     def regime(self) -> Regime:
         """See `CrawlSpeed.regime`."""
         return self.speed.regime
+
+    def to_row(self) -> dict[str, Any]:
+        """A row of a table of many answers: numbers and texts by name, those of the scene with dots.
+
+        What is unknown is None; the columns of the answer are named as in the records of sweeps.
+
+        >>> from fem_check import predict
+        >>> from linear_theory import Sheet, SineWave
+        >>> row = predict(Sheet(), SineWave(), alpha=0.25, rtol=0.2).to_row()
+        >>> print(f"{row['mean']:.2f} +- {row['error']:.2f}", row["level"], row["scene.sheet.width"])
+        0.10 +- 0.01 strip 0.5
+        """
+        return row(self)
 
     def __str__(self) -> str:
         return block(self)

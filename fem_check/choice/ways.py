@@ -13,6 +13,7 @@ from typing import Any, NamedTuple
 from fem_check.choice.prediction import Prediction, predict
 from fem_check.shell.abilities import CYCLE, STEPPED, left_out
 from fem_check.shell.cycle.speed import cycle_speed
+from fem_check.shell.effects.effect import Effect
 from fem_check.shell.effects.friction import Friction
 from fem_check.shell.model import ShellModel
 from fem_check.shell.statics.meter import Meter, metered
@@ -24,6 +25,8 @@ from linear_theory.common.progress import Progress, Report
 from linear_theory.common.tolerance import Tolerance
 from linear_theory.scene.level import THEORY, Level
 from linear_theory.scene.scene import Scene
+from linear_theory.speed.result import CrawlSpeed
+from linear_theory.wave.uncertain import uncertainty_of
 
 WAYS: dict[str, Level] = {"predict": THEORY, "cycle": CYCLE, "stepped": STEPPED}
 """By name, cheapest first."""
@@ -38,6 +41,13 @@ sheets that bend; and of a step in time. Measured on the scenes of the gallery, 
 TIGHTER = 0.35
 """Power of 1 % over the tolerance with which a cycle grows: 0.6, 2, 12 s of the paper's sheet at 1e-2,
 1e-4 and 1e-6."""
+
+REPEATED = 0.1
+"""Largest difference of the last two periods, relative to the speed, of a motion that repeats."""
+
+NOISY = "the error is without that of the measured wave, which may be larger than the tolerance"
+UNSTABLE = "growth is so strong that the shapes may not exist on a finer mesh"
+SIDEWAYS = "the tolerance is met along the sheet, but not by the sideways motion or the turning"
 
 STEPS = 20
 """In time, to a period, at a tolerance of 10 %; they grow with its square root."""
@@ -103,32 +113,88 @@ def solved(
     with metered() as cost:
         if way == "predict":
             return Solved(predict(scene, rtol=tolerance.rtol, progress=progress), None, cost)
-        found, motion = _by_elements(scene, way, tolerance, periods, steps, progress, stepping)
-    return Solved(found, motion, cost)
-
-
-def _by_elements(
-    scene: Scene,
-    way: str,
-    tolerance: Tolerance,
-    periods: int,
-    steps: int | None,
-    progress: Report | None,
-    stepping: dict[str, Any],
-) -> tuple[Prediction, Trajectory | None]:
-    motion = None
-    if way == "cycle":
-        speed = cycle_speed(scene, rtol=tolerance.rtol, progress=progress)
-    else:
+        if way == "cycle":
+            return Solved(_by_cycle(scene, tolerance, progress), None, cost)
         heard = False if progress is None else _steps_to(progress)
-        rtol = None if steps else tolerance.rtol
-        motion = simulate(scene, periods, rtol=rtol, steps=steps, progress=heard, **stepping)
-        speed = replace(motion.speed, model_error=math.nan)  # there: how far from dry friction
-    named = {type(effect) for effect in scene.effects} - ({Friction} if way == "cycle" else set())
-    reason = f"{way}, the cheapest that represents the scene"
-    missing = left_out(named)
-    found = Prediction(speed, way, reason, speed.converged, speed.seconds, missing, scene, tolerance)
-    return found, motion
+        asked = None if steps else tolerance
+        rtol = None if asked is None else asked.rtol
+        motion = simulate(scene, periods, rtol, steps, progress=heard, **stepping)
+    return Solved(_by_steps(motion, asked), motion, cost)
+
+
+def _by_cycle(scene: Scene, tolerance: Tolerance, progress: Report | None) -> Prediction:
+    """The answer of a cycle of shapes."""
+    speed = cycle_speed(scene, rtol=tolerance.rtol, progress=progress)
+    lacking, caution, noise = [], "", _noise(speed, scene)
+    if math.isnan(speed.model_error):
+        lacking.append("deformation by friction, taken as too weak")
+    met = speed.error <= tolerance.allowed(speed.mean)
+    if met and not speed.converged and not speed.beyond_reach:
+        caution = NOISY if noise else SIDEWAYS if _turns_too_vaguely(speed, tolerance) else UNSTABLE
+    named = {type(effect) for effect in scene.effects} - {Friction}
+    return _found("cycle", speed, named, scene, tolerance, (*lacking, *noise), caution)
+
+
+def _turns_too_vaguely(speed: CrawlSpeed, tolerance: Tolerance) -> bool:
+    """Whether the error of the sideways motion or of the turning is above the tolerance."""
+    if speed.turning is None:
+        return False
+    pairs = zip(speed.turning.mean, speed.turning.error, strict=True)
+    return any(error > tolerance.allowed(float(mean)) for mean, error in pairs)
+
+
+def _by_steps(motion: Trajectory, tolerance: Tolerance | None) -> Prediction:
+    """The answer of a motion in time; tolerance: None where steps were asked for instead."""
+    scene, errors, caution = motion.scene, motion.errors, _caution(motion)
+    met = tolerance is None or motion.speed.error <= tolerance.allowed(motion.speed.mean)
+    # The model error of a motion is the distance to dry friction, which is not asked for here.
+    speed = replace(motion.speed, model_error=math.nan, converged=met and not caution)
+    estimates = {"error of the mesh": errors.mesh, "change from period to period": errors.spread}
+    lacking = [part for part, error in estimates.items() if math.isnan(error)]
+    lacking += _noise(speed, scene)
+    named = {type(effect) for effect in scene.effects}
+    return _found("stepped", speed, named, scene, tolerance, tuple(lacking), caution)
+
+
+def _noise(speed: CrawlSpeed, scene: Scene) -> list[str]:
+    """The noise of a measured wave, where the error of the speed is without it."""
+    counted = speed.wave_error or uncertainty_of(scene.wave) is None
+    return [] if counted else ["noise of the measured wave"]
+
+
+def _found(
+    way: str,
+    speed: CrawlSpeed,
+    named: set[type[Effect]],
+    scene: Scene,
+    tolerance: Tolerance | None,
+    lacking: tuple[str, ...],
+    caution: str,
+) -> Prediction:
+    return Prediction(
+        *(speed, way, f"{way}, the cheapest that represents the scene", speed.converged, speed.seconds),
+        *(left_out(named), scene, tolerance),
+        not_in_error=lacking,
+        caution=caution,
+    )
+
+
+def _caution(motion: Trajectory) -> str:
+    """What is wrong with the speed of a motion, whatever tolerance is asked for."""
+    if motion.snaps:
+        return (
+            "the sheet snaps over in the last period, where its path depends on the steps: the error "
+            "is a lower bound"
+        )
+    scene, spread = motion.scene, motion.errors.spread
+    mean = motion.speed.mean
+    if spread > Tolerance(REPEATED).of_speed(scene.alpha, scene.unit).allowed(mean):
+        share = f"{100 * spread / abs(mean):.2g} % of the speed" if mean else f"{spread:.2g}"
+        return (
+            f"the last two periods differ by {share}: the motion does not repeat yet, or never does; "
+            "run more periods"
+        )
+    return ""
 
 
 def _steps_to(report: Report) -> Callable[[Steps], None]:

@@ -7,7 +7,15 @@ import sys
 from collections.abc import Sequence
 from typing import NoReturn
 
-from fem_check.command.status import BAD_ARGUMENTS, CLOSED_PIPE, INTERRUPTED, MET, MISSED
+from fem_check.command.status import (
+    BAD_ARGUMENTS,
+    CLOSED_PIPE,
+    INTERRUPTED,
+    MET,
+    MISSED,
+    TERMINATED,
+)
+from fem_check.command.stopping import Stop, terminable
 
 COLUMNS = 20, 500
 """Least and most of a terminal: what lays out the help never ends at 1, and fails at 10^20."""
@@ -16,12 +24,24 @@ COLUMNS = 20, 500
 def main(arguments: Sequence[str] | None = None) -> NoReturn:
     """Answer and exit."""
     _fit_words()
+    with terminable() as stop:
+        status = _answered(sys.argv[1:] if arguments is None else arguments, stop)
+    sys.exit(status)
+
+
+def _answered(arguments: Sequence[str], stop: Stop) -> int:
+    """The exit status, whatever happens."""
+    if sys.stderr is None:  # closed: the next file to be opened would get its number, and its lines
+        sys.stderr = open(os.devnull, "w")  # noqa: SIM115, to the end of the program
+    if sys.stdout is None:
+        _complain("cannot write the answer: the standard output is closed")
+        return MISSED
     try:
-        status = _run(sys.argv[1:] if arguments is None else arguments)
+        status = _run(arguments)
         sys.stdout.flush()
     except KeyboardInterrupt as stopped:
         _complain(str(stopped) or "interrupted; no partial result was kept, run the command again")
-        status = INTERRUPTED
+        status = TERMINATED if stop.asked else INTERRUPTED
     except BrokenPipeError:  # the reader has closed the pipe
         _forget_output()
         status = CLOSED_PIPE
@@ -29,7 +49,7 @@ def main(arguments: Sequence[str] | None = None) -> NoReturn:
         _forget_output()
         _complain(f"cannot write the answer: {problem}")
         status = MISSED
-    sys.exit(status)
+    return status
 
 
 def _fit_words() -> None:

@@ -24,6 +24,7 @@ def run(path: Path, out: Path | None, resume: bool) -> int:
     """
     from fem_check.choice.ways import way_of
     from fem_check.files.reading import read
+    from fem_check.runs.errors import NotWrittenError
     from fem_check.runs.running import run as to_folder
 
     file = read(path)
@@ -43,10 +44,15 @@ def run(path: Path, out: Path | None, resume: bool) -> int:
             )
         except ModuleNotFoundError as missing:
             raise ValueError(str(missing)) from None
+        except NotWrittenError as problem:
+            print(printable(f"\n{problem.block}\n", sys.stdout))
+            return _failed(f"{problem}; to go on: {again}")
         except SheetcrawlError as problem:
             if isinstance(problem, ValueError):
                 raise
             return _failed(str(problem))
+        except OSError as problem:  # of the folder, as on a full disk
+            return _failed(f"{problem}; to go on: {again}")
     for warning in seen:
         print(f"sheetcrawl: warning: {warning.message}", file=sys.stderr)
     print(printable(f"\n{found.block}\n\n  kept in {folder}: {_contents(folder)}\n", sys.stdout))

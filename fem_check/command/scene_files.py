@@ -35,6 +35,8 @@ def new(name: str | None, path: Path | None) -> int:
         print("\n".join(listed()))
         return MET
     target = path or Path(f"{name}.toml")
+    if not target.parent.exists():
+        raise ValueError(f"{target}: must be in a folder that is there, {str(target.parent)!r} is not")
     if name == SWEEP:
         from fem_check.command.sweep import example
 

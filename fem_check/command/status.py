@@ -1,5 +1,5 @@
 """Exit statuses of the program."""
 
 MET, MISSED, BAD_ARGUMENTS = 0, 1, 2
-INTERRUPTED, CLOSED_PIPE = 130, 141
-"""As shells report a program that SIGINT or SIGPIPE has ended."""
+INTERRUPTED, CLOSED_PIPE, TERMINATED = 130, 141, 143
+"""As shells report a program that SIGINT, SIGPIPE or SIGTERM has ended."""

@@ -7,18 +7,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fem_check.answer.wave_words import direction
-from fem_check.output.moving import Course, Frame, turned
+from fem_check.output.moving import CONSTANT, Course, Frame, closed, turned
 from linear_theory.speed.drawn import Deformation
 from linear_theory.speed.path import Poses, rigid_path
 from linear_theory.speed.result import CrawlSpeed
 
 Array = NDArray[np.float64]
 Integers = NDArray[np.int64]
-
-
-CONSTANT = 2
-"""Times up to which a speed does not change: a line has both ends of the period and
-a sheet at rest one."""
 
 
 class Crawling:
@@ -69,15 +64,8 @@ class Crawling:
         return self._deformation.covering()
 
     def course(self) -> Course:
-        """V(t) over the period that starts at 0, extended slightly so that the curve is closed."""
-        whole = (0.0, self.period)
-        if self.speed.times.size <= CONSTANT:
-            return Course(np.array(whole), np.full(2, self.speed.velocity[0]), whole, whole)
-        share = np.mod(self.speed.times, self.period)
-        order = np.argsort(share)
-        times, velocity = share[order], self.speed.velocity[order]
-        times = np.concatenate([times[-1:] - self.period, times, times[:1] + self.period])
-        return Course(times, np.concatenate([velocity[-1:], velocity, velocity[:1]]), whole, whole)
+        """V(t) over the period that starts at 0."""
+        return closed(self.speed.times, self.speed.velocity, self.period)
 
     def waves(self, points: Array, times: Array) -> Array:
         """See Moving."""

@@ -1,5 +1,6 @@
 """Atomic writing of files, and checks of paths before the work."""
 
+import contextlib
 import os
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
@@ -12,22 +13,27 @@ def replacing(path: Path) -> Iterator[Path]:
     """Yield a path to write to; it is renamed to `path` at the end, and removed after an exception.
 
     Neither a reader nor an interrupted run leaves or sees an incomplete file. Folders are created as
-    needed.
+    needed. Raises OSError, with the path and the reason, where it cannot be written.
     """
-    path.parent.mkdir(parents=True, exist_ok=True)
     part = _part(path)
     try:
+        path.parent.mkdir(parents=True, exist_ok=True)
         yield part
         part.replace(path)
+    except OSError as error:
+        # A plain OSError: the closed pipe of an encoder is not that of a reader of the answer.
+        raise OSError(f"{path}: cannot be written: {error.strerror or error}") from error
     finally:
-        part.unlink(missing_ok=True)
+        with contextlib.suppress(OSError):
+            part.unlink()
 
 
 def writable(path: str | Path, suffixes: Sequence[str]) -> Path:
-    """The path, checked to be writable by `replacing`. Folders are created as needed.
+    """The path, checked to be writable by `replacing`.
 
-    suffixes: supported suffixes, with the dot, in lower case. Raises ValueError for others and OSError,
-    with the reason, if the file cannot be written.
+    suffixes: supported suffixes, with the dot, in lower case. Raises ValueError for others and for a
+    folder that is not there (it may be a mistyped one), and OSError, with the reason, if the file
+    cannot be written.
     """
     target = Path(path)
     if target.suffix.lower() not in suffixes:
@@ -38,7 +44,11 @@ def writable(path: str | Path, suffixes: Sequence[str]) -> Path:
                 raise NotADirectoryError(ENOTDIR, f"{str(folder)!r} is a file, must be a folder")
         if target.is_dir():
             raise IsADirectoryError(EISDIR, "is a folder, must be a file")
-        target.parent.mkdir(parents=True, exist_ok=True)
+        if not target.parent.exists():
+            raise ValueError(
+                f"path = {str(path)!r}: must be in a folder that is there; "
+                f"{str(target.parent)!r} is not"
+            )
         part = _part(target)
         part.touch()
         part.unlink()

@@ -17,6 +17,11 @@ Array = NDArray[np.float64]
 Integers = NDArray[np.int64]
 
 
+CONSTANT = 2
+"""Times up to which a speed does not change: a line has both ends of the period and
+a sheet at rest one."""
+
+
 class Frame(NamedTuple):
     """The sheet at one time: place (2 or 3, n); still (2 or 3, n), the undeformed sheet moving along;
     growth (n,), alpha c; wave (n,), c; centre (2,) of mass; heading, anticlockwise, radians."""
@@ -112,6 +117,18 @@ class Frames(Protocol):
     def __getitem__(self, index: int) -> Frame: ...
 
     def __iter__(self) -> Iterator[Frame]: ...
+
+
+def closed(times: Array, velocity: Array, period: float) -> Course:
+    """V(t) over the period that starts at 0, extended slightly so that the curve is closed."""
+    whole = (0.0, period)
+    if times.size <= CONSTANT:
+        return Course(np.array(whole), np.full(2, velocity[0]), whole, whole)
+    share = np.mod(times, period)
+    order = np.argsort(share)
+    times, velocity = share[order], velocity[order]
+    times = np.concatenate([times[-1:] - period, times, times[:1] + period])
+    return Course(times, np.concatenate([velocity[-1:], velocity, velocity[:1]]), whole, whole)
 
 
 def turned(place: Array, heading: float) -> Array:

@@ -168,8 +168,13 @@ def checked_periods(moving: Moving, periods: int | None, usual: int) -> int:
     if periods is None:
         return most if moving.most_periods is not None else usual
     if not 1 <= validation.integer("periods", periods, 1) <= most:
-        raise ValueError(f"periods = {periods}: must be in [1, {most}]")
+        recorded = "" if moving.most_periods is None else f": the run recorded {_counted(most)}"
+        raise ValueError(f"periods = {periods}: must be in [1, {most}]{recorded}")
     return periods
+
+
+def _counted(periods: int) -> str:
+    return "1 period" if periods == 1 else f"{periods} periods"
 
 
 def _check_panel(moving: Moving, what: str) -> None:

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from fem_check.answer.wave_words import direction
 from fem_check.mesh import location as triangles
 from fem_check.output.moving import Course, Frame, turned
-from fem_check.output.works import Energies
+from fem_check.output.works import Energies, since
 from fem_check.shell.effects.gravity import Gravity
 from fem_check.shell.effects.ground import Ground
 from fem_check.shell.kinematics.point_state import PointState
@@ -60,7 +60,7 @@ class Simulated:
     def course(self) -> Course:
         """V(t) over all counted periods; the mean is that of the last one."""
         run = self._trajectory
-        velocity, counted = np.gradient(run.centre[1], run.times), run.times >= run.start
+        velocity, counted = run.velocity, run.times >= run.start
         end = float(run.times[-1])
         last, shown = (end - self.period, end), (run.start, end)
         return Course(run.times[counted], velocity[counted], last, shown)
@@ -73,10 +73,7 @@ class Simulated:
     def energies(self) -> Energies:
         """Since the end of the ramp."""
         run = self._trajectory
-        counted = run.times >= run.start - 1e-9 * self.period
-        works = {**run.power._asdict(), "residual": run.power.residual}
-        since = {name: values[counted] - values[counted][0] for name, values in works.items()}
-        return Energies(run.times[counted], since)
+        return since(run.times, {**run.power._asdict(), "residual": run.power.residual}, run.start)
 
     def way(self, periods: int, samples: int) -> tuple[Array, Array]:
         """Times at the ends of the steps, and the positions of the centre."""

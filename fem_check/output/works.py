@@ -28,6 +28,9 @@ NONE = 1e-9
 """Share of the largest energy below which one is not drawn: it is 0 up to roundoff."""
 
 
+ROUNDOFF = 1e-9
+"""Of times, relative to the length of the run."""
+
 LEGEND = 0.45
 """Room for the legend above the curves, as a share of their range."""
 
@@ -38,6 +41,12 @@ class Energies(NamedTuple):
 
     times: Array
     works: Mapping[str, Array]
+
+
+def since(times: Array, works: Mapping[str, Array], start: float) -> Energies:
+    """Energies from a time on, each (n,), counted from 0 there."""
+    counted = times >= start - ROUNDOFF * (times[-1] - start)
+    return Energies(times[counted], {k: v[counted] - v[counted][0] for k, v in works.items()})
 
 
 def draw_power(ax: Axes, energies: Energies, units: Units) -> None:

@@ -1,7 +1,6 @@
 """Films as files: .gif by Pillow, .mp4 by the encoder that comes with imageio-ffmpeg, an extra."""
 
 from collections.abc import Callable, Iterator
-from importlib.util import find_spec
 from itertools import chain
 from pathlib import Path
 
@@ -10,6 +9,7 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from fem_check.output.film.palette import palette
+from linear_theory.common.extras import optional
 
 Pixels = NDArray[np.uint8]
 Write = Callable[[Path, Iterator[Pixels], float], None]
@@ -21,12 +21,20 @@ MODULE = "imageio_ffmpeg"
 
 
 def require(suffix: str) -> None:
-    """Raise ModuleNotFoundError, with what to install, if the writer of these files is missing."""
-    if suffix == ".mp4" and find_spec(MODULE) is None:
+    """Raise ModuleNotFoundError, with what to install, if the writer of these files is missing.
+
+    The package of the encoder is imported, and its program looked for: either may be broken.
+    """
+    if suffix != ".mp4":
+        return
+    package = optional(MODULE, "movies", "an .mp4 film, unlike a .gif,")
+    try:
+        package.get_ffmpeg_exe()
+    except (RuntimeError, OSError) as missing:
         raise ModuleNotFoundError(
-            "an .mp4 film needs the encoder of the extra `movies`: pip install 'sheetcrawl[movies]' "
-            "(imageio-ffmpeg); or write a .gif"
-        )
+            f"an .mp4 film, unlike a .gif, needs an encoder, which {MODULE} does not find ({missing}): "
+            "pip install --force-reinstall 'sheetcrawl[movies]'"
+        ) from None
 
 
 def write_gif(path: Path, pictures: Iterator[Pixels], fps: float) -> None:
@@ -69,6 +77,25 @@ def write_mp4(path: Path, pictures: Iterator[Pixels], fps: float) -> None:
             writer.send(np.ascontiguousarray(picture))
     finally:
         writer.close()
+    if not is_whole(path):  # the encoder tells of a full disk on stderr alone
+        raise OSError("the encoder could not write all of it (a full disk?)")
+
+
+def is_whole(path: Path) -> bool:
+    """Whether the boxes of an .mp4 fill the file, with the index of its frames among them."""
+    names, size, place = set(), path.stat().st_size, 0
+    with path.open("rb") as file:
+        while place < size:
+            file.seek(place)
+            head = file.read(16)
+            length = int.from_bytes(head[:4], "big")
+            if length == 1:  # the size of a large box follows its name
+                length = int.from_bytes(head[8:], "big")
+            if length < 8:
+                return False
+            names.add(head[4:8])
+            place += length
+    return place == size and b"moov" in names
 
 
 WRITERS: dict[str, Write] = {".gif": write_gif, ".mp4": write_mp4}

@@ -60,6 +60,7 @@ def recorded(result: Any, scene: Scene, speed: CrawlSpeed | None = None) -> Reco
         middle=points[:, 0] - back[:, 0],
         tails=tails,
         arrows=_arrows(moving, tails, times, heading),
+        energies=moving.energies,
         **_floor(moving, place),
     )
 

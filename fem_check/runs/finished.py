@@ -1,5 +1,6 @@
 """A finished run, read from its folder."""
 
+import hashlib
 import json
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -8,9 +9,14 @@ from typing import Any
 
 from fem_check.answer.units import Units
 from fem_check.runs import netcdf
+from fem_check.runs.content import mistake
 from fem_check.runs.folder import RESULT, TRAJECTORY
 from fem_check.runs.recording import Recording
 from linear_theory.common.shown import Shown
+
+AGAIN = "run the scene again with --resume (resume = True), which writes what is missing"
+
+ANEW = "delete the folder, or name another one, and run the scene again"
 
 
 @dataclass(frozen=True, eq=False)
@@ -33,16 +39,33 @@ class Finished(Shown):
 
     @property
     def converged(self) -> bool:
-        """Whether the tolerance was met."""
+        """Whether the tolerance was met, or none was asked for and nothing else is wrong."""
         return bool(self.result["answer"]["converged"])
 
     @cached_property
     def recording(self) -> Recording:
-        """The motion. Raises ValueError where its file is missing or damaged."""
+        """The motion. Raises ValueError where its file is missing, damaged or that of another run."""
+        if wrong := self.damage():
+            raise ValueError(f"{wrong}; {AGAIN}")
+        return netcdf.read(self.folder / TRAJECTORY)
+
+    def damage(self) -> str:
+        """What is wrong with the file of the motion, in words; empty if it is that of this run."""
         path = self.folder / TRAJECTORY
         if not path.exists():
-            raise ValueError(f"{path}: there is no such file; run the scene again")
-        return netcdf.read(path)
+            return f"{path}: there is no such file"
+        known = self.result.get("files")
+        if isinstance(known, dict) and TRAJECTORY in known:
+            own = checksum(path) == known[TRAJECTORY]
+            return "" if own else f"{path}: is damaged, or that of another run"
+        return self._difference(path)  # of a run by a version that kept no checksum
+
+    def _difference(self, path: Path) -> str:
+        try:
+            kept = netcdf.read(path)
+        except ValueError as problem:
+            return str(problem)
+        return "" if kept.speed.mean == self.result["answer"]["mean"] else f"{path}: is of another run"
 
     def _title(self) -> str:
         return f"Finished run in {self.folder}"
@@ -56,11 +79,20 @@ def finished(folder: str | Path) -> Finished:
         result = json.loads(path.read_text(encoding="utf-8"))
     except (FileNotFoundError, NotADirectoryError):
         raise ValueError(f"folder = {str(folder)!r}: {_missing(folder)}") from None
-    except (OSError, UnicodeDecodeError, json.JSONDecodeError) as problem:
-        raise ValueError(f"{path}: cannot be read: {problem}") from None
-    if not isinstance(result, dict) or not {"block", "units", "answer"} <= result.keys():
-        raise ValueError(f"{path}: is not the result of a run")
+    except (OSError, ValueError, RecursionError) as problem:  # ValueError: no UTF-8, or no JSON
+        raise ValueError(f"{path}: cannot be read ({problem}); {ANEW}") from None
+    if wrong := mistake(result):
+        raise ValueError(f"{path}: is not the result of a run, {wrong}; {ANEW}")
     return Finished(folder, result)
+
+
+def checksum(path: Path) -> str:
+    """SHA-256 of a file. Raises ValueError where it cannot be read."""
+    try:
+        with path.open("rb") as file:
+            return f"sha256:{hashlib.file_digest(file, 'sha256').hexdigest()}"
+    except OSError as problem:
+        raise ValueError(f"{path}: cannot be read ({problem.strerror or problem}); {AGAIN}") from None
 
 
 def _missing(folder: Path) -> str:

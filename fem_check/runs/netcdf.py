@@ -1,7 +1,8 @@
 """Recordings as netCDF files, which any tool for labelled arrays reads, and back again.
 
-The time series of the result stand beside the recorded motion, each variable with its unit and its long
-name. The format is netCDF 3, for which xarray needs no further library.
+The time series of the result, over `time`, stand beside the recorded motion, each variable with its
+unit and its long name; the velocity V(t) is `velocity` in every file. The format is netCDF 3, for
+which xarray needs no further library.
 """
 
 from pathlib import Path
@@ -10,11 +11,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from fem_check.answer.units import Units
 from fem_check.output.files import replacing
-from fem_check.output.moving import Course
+from fem_check.output.moving import Course, closed
+from fem_check.output.works import LOOKS, Energies, since
 from fem_check.runs.recording import Recording
 from linear_theory.common.extras import optional
-from linear_theory.common.tables import LENGTH, NUMBER, RADIANS, SPEED, TIME, Column
+from linear_theory.common.tables import LENGTH, NUMBER, RADIANS, TIME, Column
 from linear_theory.speed.result import CrawlSpeed, Estimate
 
 Array = NDArray[np.float64]
@@ -50,20 +53,33 @@ def require_netcdf() -> None:
     optional("xarray", "tables", USE)
 
 
-def write(recording: Recording, result: Any, path: Path) -> None:
-    """The recording and the time series of its result to a file, which appears when it is whole."""
+ENERGIES = tuple(LOOKS)
+"""Variables of a motion in time, over `time`, from its start."""
+
+
+def write(recording: Recording, result: Any, path: Path, units: Units | None = None) -> None:
+    """The recording and the time series of its result to a file, which appears when it is whole.
+
+    units: of the numbers, named in the attributes of the variables; None for those of the sheet.
+    """
     dataset = result.to_xarray()
     for name, attribute, words, unit, dims in COLUMNS:
         values = getattr(recording, attribute)
         values = values.astype(np.float32) if name in FLOATS else values
         dataset[name] = (dims, values, Column(name, values, words, unit).attributes)
-    course = recording.course()
-    dataset["course_time"] = (("course",), course.times, {"long_name": "time", "units": TIME})
-    words = "velocity of the centre along y"
-    dataset["course_velocity"] = (("course",), course.velocity, {"long_name": words, "units": SPEED})
+    for variable in dataset.variables.values():
+        variable.attrs["units"] = _named(variable.attrs["units"], units)
     dataset.attrs = _attributes(recording)
     with replacing(path) as part:
         dataset.to_netcdf(part, engine="scipy", format="NETCDF3_64BIT")
+
+
+def _named(unit: str, units: Units | None) -> str:
+    """A unit such as length/time by the names of its parts."""
+    if units is None:
+        return unit
+    names = {LENGTH: units.length, "time": units.time}
+    return "/".join(names.get(part, part) for part in unit.split("/"))
 
 
 def _attributes(recording: Recording) -> dict[str, Any]:
@@ -92,9 +108,10 @@ def read(path: Path) -> Recording:
     """The recording in a file. Raises ValueError for a file that holds none."""
     xarray = optional("xarray", "tables", "a run, read from its netCDF file,")
     try:
-        with xarray.open_dataset(path, engine="scipy") as dataset:
+        # As numbers: times in days, or the like, are not dates.
+        with xarray.open_dataset(path, engine="scipy", decode_times=False) as dataset:
             return _recording(dataset.load())
-    except (KeyError, TypeError, ValueError, EOFError) as problem:
+    except Exception as problem:  # whatever a damaged file leads its readers to
         raise ValueError(f"{path}: is not the trajectory of a run, or is damaged ({problem})") from None
 
 
@@ -102,12 +119,7 @@ def _recording(dataset: Any) -> Recording:
     known = dataset.attrs
     arrays = {attribute: np.array(dataset[name].values) for name, attribute, *_ in COLUMNS}
     arrays = {n: v.astype(np.int64 if n == "triangles" else np.float64) for n, v in arrays.items()}
-    course = Course(
-        np.array(dataset["course_time"].values),
-        np.array(dataset["course_velocity"].values),
-        _interval(known["counted"]),
-        _interval(known["shown"]),
-    )
+    course = _course(dataset)
     speed = CrawlSpeed(
         Estimate(float(known["mean"]), float(known["error"])),
         float(known["model_error"]),
@@ -127,8 +139,29 @@ def _recording(dataset: Any) -> Recording:
         periods=int(known["periods"]),
         repeats=bool(known["repeats"]),
         course_shown=course,
+        energies=_energies(dataset, course),
         **arrays,
     )
+
+
+def _course(dataset: Any) -> Course:
+    """V(t) as it is drawn: closed over its period, or from the end of the ramp on."""
+    known = dataset.attrs
+    names = ("time", "velocity") if "velocity" in dataset else ("course_time", "course_velocity")
+    times, velocity = (np.array(dataset[name].values) for name in names)  # the latter of old files
+    counted, shown = _interval(known["counted"]), _interval(known["shown"])
+    if known["repeats"]:
+        return closed(times, velocity, float(known["period"]))
+    seen = times >= shown[0]
+    return Course(times[seen], velocity[seen], counted, shown)
+
+
+def _energies(dataset: Any, course: Course) -> Energies | None:
+    """Of a motion in time."""
+    if ENERGIES[0] not in dataset:
+        return None
+    works = {name: np.array(dataset[name].values) for name in ENERGIES}
+    return since(np.array(dataset["time"].values), works, course.shown[0])
 
 
 def _interval(values: Any) -> tuple[float, float]:

@@ -1,7 +1,7 @@
 """Pictures and films of a recording, written to the folder of a run."""
 
+import warnings
 from collections.abc import Callable
-from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
@@ -72,13 +72,28 @@ def save(recording: Recording, paths: list[Path], units: Units | None, name: str
 
 def possible_films() -> list[str]:
     """Suffixes of films that can be written here: .gif, and .mp4 where there is an encoder."""
-    return [suffix for suffix in FILMS if suffix != ".mp4" or find_spec(writers.MODULE) is not None]
+    return [suffix for suffix in FILMS if not _missing(suffix)]
+
+
+def _missing(suffix: str) -> str:
+    """What these films lack here, in words; empty where they can be written."""
+    try:
+        writers.require(suffix)
+    except ModuleNotFoundError as missing:
+        return str(missing)
+    return ""
 
 
 def write_films(
     recording: Recording, folder: Path, units: Units | None = None, report: Report | None = None
 ) -> list[Path]:
-    """motion.gif, and motion.mp4 where it can be written; their paths. report: as in `movie`."""
+    """motion.gif, and motion.mp4 where it can be written; their paths. report: as in `movie`.
+
+    Warns of films that cannot be written, with what to install.
+    """
+    for suffix in FILMS:
+        if missing := _missing(suffix):
+            warnings.warn(f"motion{suffix} is left out: {missing}", stacklevel=2)
     periods = PERIODS if recording.most_periods is None else None
     targets = [folder / f"motion{suffix}" for suffix in possible_films()]
     for target in targets:

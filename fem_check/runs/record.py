@@ -1,5 +1,6 @@
 """What is written of a run in result.json: the answer, its errors, what was asked, what it cost."""
 
+import math
 import platform
 from importlib.metadata import version
 from typing import Any
@@ -17,8 +18,13 @@ PACKAGES = ("numpy", "scipy", "scikit-fem", "matplotlib")
 WIDTH = 80
 
 
-def result_of(found: Solved, settings: RunSettings, units: Units | None) -> dict[str, Any]:
-    """Plain data for JSON. Numbers are in the units of the scene, which `units` names."""
+def result_of(
+    found: Solved, settings: RunSettings, units: Units | None, files: dict[str, str]
+) -> dict[str, Any]:
+    """Plain data for JSON. Numbers are in the units of the scene, which `units` names.
+
+    files: checksums of those that belong to this result, by name.
+    """
     answer = found.answer
     told = block(answer, units, WIDTH, ("", ""))
     return {
@@ -30,6 +36,7 @@ def result_of(found: Solved, settings: RunSettings, units: Units | None) -> dict
         "run": plain(settings),
         "scene": plain(answer.scene),
         "versions": versions(),
+        "files": files,
     }
 
 
@@ -54,11 +61,14 @@ def cost_of(found: Solved) -> list[dict[str, Any]]:
     rows: list[tuple[str, float, str]] = [
         (f"{one.level}, not chosen", one.seconds, one.why) for one in answer.passed
     ]
-    work = "" if motion is None else f"{motion.times.size - 1} steps, {motion.iterations} iterations"
+    work, since = "", ""
+    if motion is not None:
+        work = f"{motion.times.size - 1} steps, {motion.iterations} iterations"
+        since = "" if math.isnan(motion.resumed_at) else ", since the run was resumed"
     rows.append((answer.level, answer.speed.seconds, work))
     spent = found.cost.seconds
     rows += [
-        (f"of these for {name}", seconds, f"{found.cost.calls[name]} evaluations")
+        (f"of these for {name}", seconds, f"{found.cost.calls[name]} evaluations{since}")
         for name, seconds in sorted(spent.items(), key=lambda one: -one[1])
     ]
     return [{"part": part, "seconds": seconds, "work": work} for part, seconds, work in rows]

@@ -18,6 +18,7 @@ from skfem import MeshTri
 
 from fem_check.mesh.location import TriangleFinder
 from fem_check.output.moving import Course, Frame, turned
+from fem_check.output.works import Energies
 from linear_theory.common.drawable import Drawable
 from linear_theory.common.shown import Shown
 from linear_theory.speed.result import CrawlSpeed
@@ -38,7 +39,8 @@ class Recording(Drawable, Shown):
     (n,): of the body frame. middle (2,): centre of mass of the undeformed sheet. tails (2, a): points
     with arrows; friction (n, 2, a): force on them over mu times the weight, per undeformed area.
     floor_x (i,), floor_y (j,), floor (i, j): places around the sheet and the height of the ground.
-    periods: recorded; repeats: whether they go on without end. words: about the shape. Lengths and
+    periods: recorded; repeats: whether they go on without end. words: about the shape. energies: of a
+    motion in time, where the work of growth went. Lengths and
     times in units of the scene.
 
     >>> from fem_check.runs import recorded
@@ -71,9 +73,9 @@ class Recording(Drawable, Shown):
     floor_x: Array = field(repr=False)
     floor_y: Array = field(repr=False)
     floor: Array = field(repr=False)
+    energies: Energies | None = field(default=None, repr=False)
 
     has_shape = True
-    energies = None
 
     @property
     def components(self) -> int:

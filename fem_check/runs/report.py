@@ -47,7 +47,7 @@ def report(found: Finished) -> str:
         "mean": repr(answer["mean"]),
         "shown": shown_speed(found),
         "met": "met" if found.converged else "missed",
-        "met_words": "tolerance met" if found.converged else "tolerance not met",
+        "met_words": _met(answer),
         "block": _rows(found.block),
         "errors": _errors(found, units),
         "cost": _cost(found),
@@ -70,6 +70,15 @@ def report(found: Finished) -> str:
         **{name: parts[name] for name in TABLES},
     }
     return Template(_file("report.html")).substitute(escaped, **inlined)
+
+
+def _met(answer: dict[str, Any]) -> str:
+    """Whether the tolerance was met, in words."""
+    if answer.get("caution"):
+        return "with a caution"
+    if answer.get("tolerance", True) is None:
+        return "no tolerance asked for"
+    return "tolerance met" if answer["converged"] else "tolerance not met"
 
 
 TABLES = ("block", "errors", "cost", "tint")

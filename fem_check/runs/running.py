@@ -2,6 +2,7 @@
 
 import contextlib
 import json
+import warnings
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -13,7 +14,8 @@ from fem_check.files.writing import write as write_scene
 from fem_check.output.files import replacing
 from fem_check.runs import netcdf
 from fem_check.runs.capture import recorded
-from fem_check.runs.finished import Finished, finished
+from fem_check.runs.errors import NotWrittenError
+from fem_check.runs.finished import Finished, checksum, finished
 from fem_check.runs.folder import (
     REPORT,
     RESULT,
@@ -62,7 +64,9 @@ def run(
 
     Raises, before any work, ValueError for a scene that no level represents and for a folder that is in
     use, not empty, not writable or of another scene, and ModuleNotFoundError without xarray; then what
-    `answer` raises; OSError where a file cannot be written; KeyboardInterrupt, saying what is kept.
+    `answer` raises; OSError where a file cannot be written, NotWrittenError, with the block, once the
+    answer is known; KeyboardInterrupt, saying what is kept. Warns of films that cannot be written, and
+    of a motion whose file was missing or damaged and is written again.
 
     >>> import tempfile
     >>> from fem_check.files import RunSettings
@@ -80,11 +84,26 @@ def run(
     way = way_of(scene, settings.level)
     netcdf.require_netcdf()
     with locked(folder), _interruptible(again):
-        if not _has_result(folder, scene, settings, resume):
+        known = _has_result(folder, scene, settings, resume)
+        damage = _damage(folder) if known else ""
+        if damage or not known:
             _solve(scene, way, folder, settings, units, progress)
+        if damage:
+            (folder / REPORT).unlink(missing_ok=True)  # drawn anew, with all that belongs to it
+            warnings.warn(damage, stacklevel=2)
         found = finished(folder)
-        _draw(found, progress)
+        with _kept_for(found.block):
+            _draw(found, progress)
     return found
+
+
+def _damage(folder: Path) -> str:
+    """What is wrong with the file of the motion, and what is done about it; empty if it is right."""
+    wrong = finished(folder).damage()
+    if not wrong:
+        return ""
+    how = f"written again from {SNAPSHOT}" if (folder / SNAPSHOT).exists() else "solved again"
+    return f"{wrong}; the motion was {how}"
 
 
 def _has_result(folder: Path, scene: Scene, settings: RunSettings, resume: bool) -> bool:
@@ -129,8 +148,11 @@ def _solve(
     )
     result = found.motion or found.answer.speed
     recording = recorded(result, scene, found.answer.speed)
-    netcdf.write(recording, result, folder / TRAJECTORY)
-    _write_json(result_of(found, settings, units), folder / RESULT)
+    told = result_of(found, settings, units, {})
+    with _kept_for(str(told["block"])):
+        netcdf.write(recording, result, folder / TRAJECTORY, units)
+        told["files"] = {TRAJECTORY: checksum(folder / TRAJECTORY)}
+        _write_json(told, folder / RESULT)
 
 
 def _snapshots(scene: Scene, folder: Path, way: str) -> dict[str, Any]:
@@ -172,6 +194,15 @@ def _draw(found: Finished, progress: Report | None) -> None:
 
     write_films(recording, found.folder, units, report)
     write_report(found, found.folder / REPORT)
+
+
+@contextlib.contextmanager
+def _kept_for(block: str) -> Iterator[None]:
+    """An answer that could not be written, or not be drawn, is still told."""
+    try:
+        yield
+    except OSError as problem:
+        raise NotWrittenError(f"{problem}; what is written is kept", block) from problem
 
 
 @contextlib.contextmanager

@@ -10,6 +10,7 @@ that runs along it (to the right), with its beta read as kappa, beta/h and 100 b
 """
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -42,7 +43,7 @@ def grid(rows: Sequence[Row]) -> tuple[Array, Array, Array, Array]:
     return np.array(alphas), np.array(kappas), speed, crossed
 
 
-def draw_map(ax: Axes, rows: Sequence[Row], most: float) -> object:
+def draw_map(ax: Axes, rows: Sequence[Row], most: float) -> Any:
     """One panel; its image."""
     alphas, kappas, speed, crossed = grid(rows)
     ax.set_facecolor("0.8")

@@ -40,6 +40,7 @@ def answer() -> Prediction:
 def main(arguments: Sequence[str] | None = None) -> None:
     """Write the film of the README."""
     options = parser("python -m figures.draw.readme_movie", __doc__, GALLERY).parse_args(arguments)
+    options.out.mkdir(parents=True, exist_ok=True)
     path = options.out / NAME
     print(answer().movie(path, periods=PERIODS, frames=FRAMES, fps=FPS, width=WIDTH, units=UNITS))
 

@@ -77,8 +77,9 @@ class Drawable:
         two seconds.
 
         The file appears when it is complete, and not at all if writing is interrupted. A .gif is
-        reproducible byte for byte. Raises, before any work, ValueError for bad input, OSError for a
-        path that cannot be written to, and ModuleNotFoundError for .mp4 without the extra `movies`.
+        reproducible byte for byte. Raises, before any work, ValueError for bad input and for a
+        folder that is not there, OSError for a path that cannot be written to, and ModuleNotFoundError
+        for .mp4 without the extra `movies`.
         """
         return import_module(OUTPUT).movie(
             self,

@@ -16,6 +16,7 @@
       LostScheduler             a scheduler of workers that is gone
       WrongWorkers              workers that cannot answer
       Fault                     a friction law that contradicts itself             ValueError
+      NotWrittenError           an answer whose files cannot be written            OSError
 
     ViscousRegimeWarning        dry friction that acts as viscous                   UserWarning
     BeyondReachWarning          growth too large for the theory                     UserWarning
@@ -25,8 +26,8 @@ CrossingsUnknown in `fem_check.shell.kinematics.crossing`,
 NotPeriodicError and UnresolvedError in `fem_check.shell.cycle`, SnapshotError in
 `fem_check.shell.stepping.snapshot`, SceneFileError in `fem_check.files.mistakes`, NotRestorable in
 `linear_theory.scene.data`, Refused, RefusedScenes, StoreError, LostScheduler and WrongWorkers in
-`fem_check.sweeps`, Fault in `linear_theory.friction.trial`, all others here. Bad arguments are a plain
-ValueError.
+`fem_check.sweeps`, NotWrittenError in `fem_check.runs.errors`, Fault in
+`linear_theory.friction.trial`, all others here. Bad arguments are a plain ValueError.
 """
 
 from collections.abc import Callable

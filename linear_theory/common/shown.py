@@ -90,15 +90,34 @@ class Shown:
     def to_dict(self, arrays: bool = True) -> dict[str, Any]:
         """The full content as plain values that JSON can hold: numbers, text, lists, dicts, None.
 
-        arrays: whether to include arrays, as (nested) lists; without them the result is a row for a
-        table of many results. "type" is the name of the class. NaN (unknown) becomes None, infinity the
-        text "inf" or "-inf", which `float` reads; functions become their names.
+        arrays: whether to include arrays, as (nested) lists. "type" is the name of the class. NaN
+        (unknown) becomes None, infinity the text "inf" or "-inf", which `float` reads; functions become
+        their names.
 
         >>> from linear_theory import Sheet
         >>> print(Sheet(width=0.25).to_dict())
         {'type': 'Sheet', 'length': 1.0, 'width': 0.25, 'poisson': 0.5, 'thickness': 0.03}
         """
         return {"type": type(self).__name__, **plain(self._contents(), arrays)}
+
+
+def flat(values: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
+    """Plain values, nested, as one row: names joined by dots, entries of lists by their number.
+
+    >>> from linear_theory.common.shown import flat
+    >>> print(flat({"alpha": 0.1, "sheet": {"width": 0.5}, "modes": [1, 2], "mesh": None}))
+    {'alpha': 0.1, 'sheet.width': 0.5, 'modes.0': 1, 'modes.1': 2, 'mesh': None}
+    """
+    row: dict[str, Any] = {}
+    for key, value in values.items():
+        name = f"{prefix}{key}"
+        if isinstance(value, Mapping):
+            row |= flat(value, f"{name}.")
+        elif isinstance(value, list):
+            row |= flat({str(number): item for number, item in enumerate(value)}, f"{name}.")
+        else:
+            row[name] = str(value) if isinstance(value, str) else value  # without the name of an enum
+    return row
 
 
 class Value(Shown):

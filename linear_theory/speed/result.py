@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linear_theory.common.drawable import Drawable
-from linear_theory.common.shown import Shown, with_error
+from linear_theory.common.shown import Shown, flat, plain, with_error
 from linear_theory.common.tables import SPEED, SPIN, TIME, Column, Tabular
 from linear_theory.friction.regime import Regime, regime_of
 
@@ -160,6 +160,18 @@ class CrawlSpeed(Drawable, Tabular):
         if self.model_error == 0:
             return "agrees with the nonlinear sheet"
         return f"within {self.model_error:.1g} of the nonlinear sheet"
+
+    def to_row(self) -> dict[str, Any]:
+        """A row of a table of many results: numbers and texts by name, None where unknown.
+
+        >>> from linear_theory import Sheet, SineWave, crawl_speed
+        >>> row = crawl_speed(Sheet(), SineWave(), alpha=0.25, rtol=1e-3).to_row()
+        >>> print(*list(row)[:5], "...", row["regime"])
+        mean error wave_error model_error converged ... dry
+        """
+        names = ("mean", "error", "wave_error", "model_error", "converged", "regime", "slip_ratio")
+        values = {name: getattr(self, name) for name in (*names, "beyond_reach", "seconds", "model")}
+        return flat(plain(values))
 
     def _contents(self) -> Mapping[str, Any]:
         """Values under the names that programs read, with groups flattened."""

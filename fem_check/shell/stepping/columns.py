@@ -39,6 +39,7 @@ def columns(trajectory: "Trajectory") -> list[Column]:
     return [
         Column("time", trajectory.times, "time", TIME),
         *places,
+        Column("velocity", trajectory.velocity, "velocity of the centre along y", SPEED),
         *energies,
         Column("residual", works.residual, "residual of the energy balance", ENERGY),
         Column("fastest", table["fastest"], "largest speed along the ground", SPEED),

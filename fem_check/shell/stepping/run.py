@@ -87,6 +87,7 @@ class Run:
 
     @one_blas_thread
     def __init__(self, scene: Scene, settings: Settings) -> None:
+        self._begun, self._before = time.perf_counter(), 0.0
         self.scene, self.settings, period = scene, settings, scene.period
         self.model = ShellModel(scene)
         scene.drive.check_until(period * (settings.ramp + settings.periods))
@@ -103,6 +104,11 @@ class Run:
         self.free = self.history  # the last one that no restraint has led to
         self.moment = self._first_moment()
         self.landing = self._land()
+
+    @property
+    def seconds(self) -> float:
+        """Spent so far, before an interruption included."""
+        return self._before + time.perf_counter() - self._begun
 
     @property
     def steps(self) -> int:
@@ -274,6 +280,7 @@ class Run:
             "acceleration": history.acceleration,
             "control": self._control(),
             "rejected": np.array(record.rejected),
+            "seconds": np.array(self.seconds),
             "rows": np.array(record.rows),
             "probes": np.array(record.probes),
             "stored_times": np.array(record.times),
@@ -291,6 +298,7 @@ class Run:
         if not target.path.exists():
             return np.nan
         found = load_snapshot(target.path, target.owner)
+        self._before = float(found["seconds"])
         get, minimiser = found.get, self.stepper.minimiser
         past = found["past_times"], found["past_states"], get("velocities"), get("acceleration")
         self.history = self.free = History(*past, self.history.scheme)

@@ -2,7 +2,6 @@
 
 import os
 import sys
-import time
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -80,7 +79,7 @@ def simulate(
     >>> print(f"V = {motion.speed.mean:.3f} L/T, friction is {motion.regime}")
     V = 0.016 L/T, friction is dry
     """
-    begin, run, target = time.perf_counter(), None, None
+    run, target = None, None
     hint = "make one by Scene(sheet, wave, alpha, effects=...)"
     scene = validation.instance("scene", scene, Scene, hint)
     if not (progress is None or isinstance(progress, bool) or callable(progress)):
@@ -106,7 +105,7 @@ def simulate(
         raise KeyboardInterrupt(_interrupted(run, target)) from None
     found = replace(
         run.trajectory(),
-        seconds=time.perf_counter() - begin,
+        seconds=run.seconds,
         resumed_at=resumed,
         mesh_error=difference,
         snap_error=jumps,
@@ -160,7 +159,7 @@ def _interrupted(run: Run | None, target: Target | None) -> str:
     try:
         run.save(target)
     except OSError as error:
-        return f"{text}; {target.path} could not be written ({error}) and is unchanged"
+        return f"{text}; {error}; it is unchanged"
     return f"{text}, all kept in {target.path}; the same call resumes from there"
 
 

@@ -26,6 +26,8 @@ Array = NDArray[np.float64]
 
 VERSION = 3
 
+ANEW = "remove the file, or name another one, to start from the beginning"
+
 _DAMAGED = (
     *(zipfile.BadZipFile, zlib.error, struct.error, UnicodeDecodeError),
     *(ValueError, EOFError, OSError, KeyError, RuntimeError, AttributeError, SyntaxError),
@@ -64,7 +66,7 @@ def check_writable(path: Path) -> None:
 
 
 def save_snapshot(path: Path, arrays: dict[str, Array], owner: str) -> None:
-    """Write arrays and the fingerprint of their run, atomically."""
+    """Write arrays and the fingerprint of their run, atomically. Raises OSError that names the path."""
     labels = {
         "version": np.array(VERSION),
         "fingerprint": np.array(owner),
@@ -78,8 +80,11 @@ def save_snapshot(path: Path, arrays: dict[str, Array], owner: str) -> None:
             file.flush()
             os.fsync(file.fileno())
         os.replace(temporary, path)
+    except OSError as error:  # of a full disk, which numpy's names no file
+        raise OSError(f"{path}: cannot be written: {error.strerror or error}") from error
     finally:
-        temporary.unlink(missing_ok=True)
+        with contextlib.suppress(OSError):
+            temporary.unlink()
 
 
 def _temporary(path: Path) -> Path:
@@ -91,24 +96,27 @@ def load_snapshot(path: Path, owner: str) -> dict[str, Array]:
     try:
         contents = io.BytesIO(path.read_bytes())
     except OSError as error:
-        raise SnapshotError(f"snapshot {path}: cannot be read ({error.strerror})") from None
+        raise SnapshotError(f"snapshot {path}: cannot be read ({error.strerror}); {ANEW}") from None
     try:
         with np.load(contents, allow_pickle=False) as file:
             found = {name: file[name] for name in file.files}
     except (*_DAMAGED, TypeError) as error:  # TypeError: a single array, which is no archive
-        raise SnapshotError(f"snapshot {path}: is truncated or damaged ({error})") from error
+        raise SnapshotError(f"snapshot {path}: is truncated or damaged ({error}); {ANEW}") from error
     version = found.get("version")
     if version is not None and not np.array_equal(version, VERSION):
         raise SnapshotError(
-            f"snapshot {path}: has version {version}, must be {VERSION} for this program; remove the "
-            "file, or name another one, to start from the beginning"
+            f"snapshot {path}: has version {version}, must be {VERSION} for this program; {ANEW}"
         )
     missing = [name for name in _LABELS if name not in found]
     if missing:
-        raise SnapshotError(f"snapshot {path}: is not a snapshot of a simulation (no {missing[0]})")
+        raise SnapshotError(
+            f"snapshot {path}: is not a snapshot of a simulation (no {missing[0]}); {ANEW}"
+        )
     _, stored, fingerprint, python = (found.pop(name) for name in _LABELS)
     if str(stored) != checksum(found, str(fingerprint)):
-        raise SnapshotError(f"snapshot {path}: was altered, its checksum does not match its contents")
+        raise SnapshotError(
+            f"snapshot {path}: was altered, its checksum does not match its contents; {ANEW}"
+        )
     if str(fingerprint) != owner:
         raise SnapshotError(f"snapshot {path}: {_differences(str(fingerprint), owner, str(python))}")
     return found

@@ -78,7 +78,8 @@ class Trajectory(Drawable, Tabular):
     ramp of growth. table: columns of `record.COLUMNS`. stored_times (n,), states (n, size): kept
     states. probes (steps + 1, points, components): positions of a few points at all `times`. rejected:
     repeated steps. resumed_at: time of the snapshot from which the run resumed, NaN if none.
-    mesh_error, snap_error: see `SpeedErrors`. seconds: computing time in this process.
+    mesh_error, snap_error: see `SpeedErrors`. seconds: computing time, that before the snapshot
+    included.
 
     >>> from fem_check import Friction, Gravity, Material, Membrane, Scene, simulate
     >>> from linear_theory import Sheet, SineWave
@@ -117,6 +118,11 @@ class Trajectory(Drawable, Tabular):
         """Centre of mass, (components, n)."""
         rows = [self.table[f"centre_{axis}"] for axis in "xyz"[: self.scene.components]]
         return np.stack(rows)
+
+    @property
+    def velocity(self) -> Array:
+        """Of the centre of mass along y, (n,)."""
+        return np.gradient(self.centre[1], self.times)
 
     @property
     def power(self) -> Works:
@@ -252,6 +258,11 @@ class Trajectory(Drawable, Tabular):
         region = discretisation.points(mesh.p if points is None else points)
         return np.asarray(region.position(u, (0,))[0])
 
+    @property
+    def snaps(self) -> bool:
+        """Whether the sheet jumps within the last period, where its path depends on the steps."""
+        return bool(self.snapped[self._last(1)].any())
+
     @cached_property
     def path(self) -> Poses:
         """Position along the ground and heading of the body frame at the stored times.
@@ -297,7 +308,7 @@ class Trajectory(Drawable, Tabular):
         """
         last, errors = self._last(1), self.errors
         unknown = "mesh error not estimated" if np.isnan(errors.mesh) else ""
-        snapped = "snaps over" if self.snapped[last].any() else ""
+        snapped = "snaps over" if self.snaps else ""
         crossing = self._crossing_in_words
         crosses = self.crossed is not None and bool(self.crossed.any())
         shape, scene = "Koiter shell stepped in time", self.scene
@@ -307,7 +318,7 @@ class Trajectory(Drawable, Tabular):
         mean = float(self.period_speeds[-1])
         error = float(np.nansum([errors.step, errors.spread, errors.mesh, errors.snaps]))
         times = self.times[last]
-        velocity = np.gradient(self.centre[1], self.times)[last]
+        velocity = self.velocity[last]
         return CrawlSpeed(
             estimate=Estimate(mean, error),
             model_error=errors.slip_speed,
