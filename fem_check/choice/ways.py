@@ -181,11 +181,11 @@ def _found(
 
 def _caution(motion: Trajectory) -> str:
     """What is wrong with the speed of a motion, whatever tolerance is asked for."""
+    if motion.crossed is not None and motion.crossed.any():
+        return "the sheet passes through itself, which no real one does"
     if motion.snaps:
-        return (
-            "the sheet snaps over in the last period, where its path depends on the steps: the error "
-            "is a lower bound"
-        )
+        lower = ": the error is a lower bound" if np.isnan(motion.errors.snaps) else ""
+        return f"the sheet snaps over in the last period, where its path depends on the steps{lower}"
     scene, spread = motion.scene, motion.errors.spread
     mean = motion.speed.mean
     if spread > Tolerance(REPEATED).of_speed(scene.alpha, scene.unit).allowed(mean):
