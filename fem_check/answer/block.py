@@ -16,6 +16,7 @@ from fem_check.answer.units import Units
 from fem_check.answer.wave_words import arrows, wave_words
 from linear_theory.growth.laws import Exp
 from linear_theory.scene.scene import Scene
+from linear_theory.wave.uncertain import doubt_of
 
 if TYPE_CHECKING:
     from fem_check.choice.prediction import Prediction
@@ -120,7 +121,9 @@ def _answer(found: "Prediction", units: Units) -> Iterator[Line]:
 
 
 def _missed(found: "Prediction") -> str:
-    """A missed tolerance and the error, in per cent of the speed."""
+    """A missed tolerance and the error, in per cent of the speed; or a wave that is in doubt."""
+    if doubt := doubt_of(found.scene.wave):
+        return f"the wave is not known well enough: {doubt}"
     size = abs(found.mean) / 100
     asked = f"the tolerance, {plain(found.tolerance.allowed(found.mean) / size) if size else '0'} %"
     if math.isnan(found.error) and found.level not in OWN:

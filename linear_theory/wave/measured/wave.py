@@ -12,10 +12,13 @@ from linear_theory.common.shown import Shown
 from linear_theory.identity import content_key
 from linear_theory.sheet.rectangle import Sheet
 from linear_theory.wave.measured.basis import Basis
+from linear_theory.wave.measured.bounds import most
 from linear_theory.wave.measured.checks import check_covered, margin, numbers_asked
-from linear_theory.wave.measured.choice import chosen, most
+from linear_theory.wave.measured.choice import chosen
+from linear_theory.wave.measured.doubts import doubts, remarks
 from linear_theory.wave.measured.error import FitUncertainty
 from linear_theory.wave.measured.fit import Fit, fitted
+from linear_theory.wave.measured.misfit import EXACT, MOST_OF, Misfit
 from linear_theory.wave.measured.period import estimated, refined
 from linear_theory.wave.measured.polynomial import PolynomialDrive, PolynomialWave
 from linear_theory.wave.measured.samples import NAMES, Samples
@@ -23,9 +26,6 @@ from linear_theory.wave.measured.sources import Sources
 from linear_theory.wave.places import Places
 
 Array = NDArray[np.float64]
-
-EXACT = 1e-12
-"""Noise over the size of c that is roundoff."""
 
 MORE = 1, 1, 2
 """Harmonics and degrees (across, along) that were dropped, but that the error of the wave counts."""
@@ -44,7 +44,8 @@ class SampledWave(Sources, Shown):
     The wave is that fit by least squares: analytic, of exactly that period. What is dropped says
     `dropped`. noise: standard deviation of a sample; residual: root mean square of what the fit leaves.
     Speeds count the error of the wave in theirs (`uncertainty`), as if the errors of the samples were
-    independent and all of one size: drift and outliers are not seen.
+    independent and all of one size: drift and outliers are not seen. So do they what the fit may have
+    `missed`; where that is much, `doubt` says why, and speeds are not converged.
 
     Raises ValueError, with what to do, for shapes that do not fit, values that are not finite, too few
     samples and a period that is not covered.
@@ -83,6 +84,9 @@ class SampledWave(Sources, Shown):
             basis = _chosen_basis(data, first, wanted)
         self._period, self._fit = first, fitted(data, basis)
         self._larger = self._fit_with_more(data)
+        self._misfit = Misfit.of(data, self._fit, most(data, self._period))
+        self._doubt = "; ".join(doubts(data, self._fit, self._misfit))
+        self._remarks = "; ".join(remarks(data, self._fit, self._given["c"].size - data.size))
         self._margins = tuple(margin(v) for v in (data.x, data.y))
         self._size = float(np.sqrt(np.mean(data.c**2)))
         self._count = data.size
@@ -120,7 +124,24 @@ class SampledWave(Sources, Shown):
             degrees = f"degree {self.degree[0]} across and {self.degree[1]} along"
         share = self.residual / self._size if self._size else 0.0
         what = f"rms {self.residual:.3g}, {100 * share:.2g} % of c"
+        if self._misfit.dropped > MOST_OF:
+            what += f", MOST of what varies in time ({100 * self._misfit.dropped:.0f} % of its variance)"
         return f"all above harmonic {self.harmonics} and {degrees}: {what}"
+
+    @property
+    def missed(self) -> float:
+        """Root mean square of what of the wave the fit may have missed, see `measured.misfit`."""
+        return self._misfit.missed
+
+    @property
+    def doubt(self) -> str:
+        """Why no speed of this wave is converged, in words; empty if there is no such reason."""
+        return self._doubt
+
+    @property
+    def remarks(self) -> str:
+        """What else is odd about the samples, in words."""
+        return self._remarks
 
     def value(self, x: ArrayLike, y: ArrayLike, t: ArrayLike, length: float = 1.0) -> Array:
         """c; x, y, t broadcast. The samples know the sheet: `length` has no effect."""
@@ -142,10 +163,16 @@ class SampledWave(Sources, Shown):
     @property
     def uncertainty(self) -> FitUncertainty | None:
         """How far the true wave may be; None where nothing but roundoff was dropped."""
-        if self.noise <= EXACT * self._size and not self.period_error:
+        if max(self.noise, self.missed) <= EXACT * self._size and not self.period_error:
             return None
         return FitUncertainty(
-            self.smooth, self._larger, self.noise, self._count, self._size, self.period_error
+            self.smooth,
+            self._larger,
+            self.noise,
+            self.missed,
+            self._count,
+            self._size,
+            self.period_error,
         )
 
     def _fit_with_more(self, data: Samples) -> Fit:
@@ -176,7 +203,9 @@ class SampledWave(Sources, Shown):
         words = " x ".join(map(str, self._given["c"].shape))
         error = {"period_error": self.period_error} if self.period_error else {}
         found = {"samples": words, "period": self.period, **error, "harmonics": self.harmonics}
-        return {**found, "degree": self.degree, "noise": self.noise, "dropped": self.dropped}
+        found |= {"degree": self.degree, "noise": self.noise, "dropped": self.dropped}
+        odd = {"DOUBTFUL": self.doubt, "remarks": self.remarks}
+        return found | {name: words for name, words in odd.items() if words}
 
     @classmethod
     def from_data(cls, asked: Sequence[Any], **data: Any) -> "SampledWave":
