@@ -263,9 +263,7 @@ class TestSources:
         ]
         path.write_text("\n".join(lines))
         self.check(SampledWave.from_csv(path, y="place", c="signal", delimiter=";", period=1.0))
-        with pytest.raises(
-            ValueError, match=r"wave.csv has no column 'y', but place, t, signal: say .* y='...'"
-        ):
+        with pytest.raises(ValueError, match=r"wave.csv has no column 'y', but place, t, signal: .*y='...'"):
             SampledWave.from_csv(path, c="signal", delimiter=";")
 
     @pytest.mark.parametrize("bad", ["nan", "", "volt"])

@@ -3,8 +3,8 @@
 Two bounds hold for each. What the samples can tell at all (`bounds`). What the noise leaves: the least
 leave-one-out score (`scores`). That has local minima: a wave that grows along the sheet is nothing that
 a harmonic of degree 0 could fit, nor a degree without a harmonic. So the score is first found on a
-coarse grid of all numbers together; from the best places on it, numbers are swept in turn until none
-changes, and the least of the minima is taken.
+coarse grid of all numbers together, with few of the samples; from the best places on it, numbers are
+swept in turn until none changes; from the least of these minima, again with many samples.
 """
 
 import itertools
@@ -22,8 +22,8 @@ Array = NDArray[np.float64]
 MOST_SAMPLES, MOST_FUNCTIONS = 6000, 600
 """With which numbers are chosen: a random choice of many samples will do."""
 
-COARSE_SAMPLES, COARSE_FUNCTIONS = 1500, 300
-"""With which the coarse grid is looked at."""
+COARSE_SAMPLES, COARSE_FUNCTIONS = 1000, 240
+"""With which the coarse grid is looked at, and swept."""
 
 LADDER = (0, 1, 2, 3, 4, 5, 6, 8, 10, 13, 17, 22, 28, 36, MOST)
 """Numbers on it."""
@@ -36,6 +36,9 @@ LEAST_GAIN = 1e-3
 
 ROUNDOFF = 1e-14
 """Of the largest c."""
+
+Data = tuple[Merged, int]
+"""Samples, and functions at the most."""
 
 
 class Scored(NamedTuple):
@@ -59,15 +62,16 @@ def chosen(samples: Samples, period: float, asked: tuple[int | None, ...]) -> Nu
     if not free:
         return fixed[0], fixed[1], fixed[2]
     search = _Search(Merged.of(samples, period), period, largest, free)
-    starts = search.starts(fixed)
-    return search.least([search.swept(start) for start in starts]).numbers
+    found = search.least([search.swept(start, search.few) for start in search.starts(fixed)])
+    return search.swept(found, search.many).numbers
 
 
 class _Search:
     """Of the numbers of least score; free: axes that are to be found."""
 
     def __init__(self, data: Merged, period: float, largest: Numbers, free: list[int]) -> None:
-        self.coarse, self.data = data.some(COARSE_SAMPLES), data.some(MOST_SAMPLES)
+        self.few = data.some(COARSE_SAMPLES), COARSE_FUNCTIONS
+        self.many = data.some(MOST_SAMPLES), MOST_FUNCTIONS
         self.period, self.largest, self.free = period, largest, free
         self.floor = (ROUNDOFF * abs(data.samples.c).max()) ** 2
 
@@ -85,24 +89,25 @@ class _Search:
             numbers = list(fixed)
             for axis, rung in zip(others, rungs, strict=True):
                 numbers[axis] = rung
-            scored = self._line(self.coarse, numbers, line, COARSE_FUNCTIONS)
+            scored = self._line(self.few, numbers, line)
             best.setdefault(rungs[0] if rungs else 0, []).append(scored)
         return sorted(self.least(found) for found in best.values())[:STARTS]
 
-    def swept(self, start: Scored) -> Scored:
+    def swept(self, start: Scored, data: Data) -> Scored:
         """The minimum that is reached by one number after the other."""
         found = start
         for _ in range(ROUNDS):
             before = found.numbers
             for axis in self.free[1:] + self.free[:1]:
-                found = self._line(self.data, list(found.numbers), axis, MOST_FUNCTIONS)
+                found = self._line(data, list(found.numbers), axis)
             if found.numbers == before:
                 break
         return found
 
-    def _line(self, data: Merged, numbers: list[int], axis: int, functions: int) -> Scored:
+    def _line(self, data: Data, numbers: list[int], axis: int) -> Scored:
         """The least along one axis, the other numbers being as they are."""
-        scores = data.along(self.period, numbers, axis, self.largest[axis], functions)
+        samples, functions = data
+        scores = samples.along(self.period, numbers, axis, self.largest[axis], functions)
         at = int(np.argmax(scores <= scores.min() * (1 + LEAST_GAIN) + self.floor))
         numbers[axis] = at
         return Scored(float(scores[at]), (numbers[0], numbers[1], numbers[2]))

@@ -68,7 +68,7 @@ def _delimiter(first: _Line, names: Names) -> str:
     """The one that finds most of the names, or most columns, in the first line."""
 
     def found(delimiter: str) -> tuple[int, int]:
-        header = first.cells(delimiter)
+        header = [cell.strip(' "') for cell in first.text.split(delimiter)]
         return sum(bool(at) for at in _places(header, names).values()), len(header)
 
     return max(DELIMITERS, key=found)

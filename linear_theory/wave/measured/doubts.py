@@ -29,8 +29,8 @@ def doubts(samples: Samples, fit: Fit, misfit: Misfit) -> Iterator[str]:
     elif varying and misfit.missed > LARGEST_MISSED * misfit.varying:
         share = 100 * min(misfit.missed / misfit.varying, 1.0)
         yield (
-            f"the fit may miss {share:.0f} % of what varies in time, which the samples do not resolve; "
-            "measure at more places and times"
+            f"the fit may miss {share:.0f} % of what varies in time, which it does not resolve; "
+            "measure at more places and times, or ask for more functions"
         )
     elif varying and misfit.dropped > MOST_OF and _noise_share(samples, fit) > LARGEST_SHARE:
         yield f"the fit leaves {100 * misfit.dropped:.0f} % of the variance in time; measure more"
@@ -39,12 +39,13 @@ def doubts(samples: Samples, fit: Fit, misfit: Misfit) -> Iterator[str]:
 
 
 def remarks(samples: Samples, fit: Fit, copies: int) -> Iterator[str]:
-    """What does not make the wave doubtful by itself."""
+    """What does not make the wave doubtful."""
     if copies:
         yield f"{copies} samples are copies of others and do not count"
     if (largest := float(abs(samples.c).max())) > USUAL:
         yield f"c reaches {largest:.4g}: is it in per cent? Growth is alpha c"
-    if fit.basis.harmonics > _followed(samples, fit):
+    aliased = _aliased(samples, fit) > LARGEST_ALIASED  # which is a doubt
+    if fit.basis.harmonics > _followed(samples, fit) and not aliased:
         yield _rests_on_period(samples, fit)
 
 

@@ -16,6 +16,9 @@ Array = NDArray[np.float64]
 
 SEED = 20240607
 
+COHERENT = 2.0
+"""A part that was missed may move as one wave, which crawls faster than random functions of its size."""
+
 
 @dataclass(frozen=True, eq=False)
 class FitUncertainty(Shown):
@@ -63,7 +66,7 @@ class FitUncertainty(Shown):
         coefficients = self.noise * solve_triangular(self.larger.factor, normal[:, :-1].T).T
         still = size // self.larger.basis.shape[0]  # what was missed varies in time
         missed = random.standard_normal((count, size - still)) / np.sqrt(max(size - still, 1))
-        coefficients[:, still:] += self.missed * missed
+        coefficients[:, still:] += COHERENT * self.missed * missed
         return np.concatenate([coefficients, self.period_error * normal[:, -1:]], axis=1)
 
     def _moved(self, shift: Array, later: float) -> PolynomialWave:

@@ -52,7 +52,7 @@ class Misfit(Shown):
         varying = fitted(samples, fit.basis.but(0, fit.basis.degree)).noise
         found = cls(varying, fit.noise, 0.0)
         common = _common(samples.some(MOST_SAMPLES), fit, min(found.dropped / MOST_OF, 1.0))
-        return cls(varying, fit.noise, math.hypot(common, _next(samples.size, fit, largest)))
+        return cls(varying, fit.noise, math.hypot(common, _next(fit, largest)))
 
     @property
     def dropped(self) -> float:
@@ -74,16 +74,13 @@ def _common(samples: Samples, fit: Fit, suspicion: float) -> float:
     return fit.noise * math.sqrt(min(max(sure, possible), 1.0))
 
 
-def _next(count: int, fit: Fit, largest: Numbers) -> float:
-    """Root mean square of the last harmonic and of the last degrees, where there is room for no more."""
-    basis, square = fit.basis, 0.0
-    squares = fit.coefficients**2
+def _next(fit: Fit, largest: Numbers) -> float:
+    """Root mean square of the last harmonic and of the last degrees, where samples can tell no more."""
+    squares, square = fit.coefficients**2, 0.0
     squares[1:] /= 2  # the mean of a cosine
-    numbers = (basis.harmonics, *basis.degree)
+    numbers = (fit.basis.harmonics, *fit.basis.degree)
     for axis, (number, top) in enumerate(zip(numbers, largest, strict=True)):
-        more = [n + (i == axis) for i, n in enumerate(numbers)]
-        full = number == top or basis.but(more[0], (more[1], more[2])).size > count // 2
-        if full and number:
+        if number and number == top:
             last = squares[-2:] if axis == 0 else squares.take(-1, axis)
             square += float(last.sum())
     return math.sqrt(square)

@@ -78,6 +78,8 @@ class Samples(Shown):
 
 def _without_copies(columns: list[Array]) -> list[Array]:
     order = np.lexsort(columns)
+    if not order.size:
+        return columns
     new = np.any([np.diff(column[order]) != 0 for column in columns], axis=0)
     kept = np.sort(order[np.concatenate([[True], new])])
     return [np.ascontiguousarray(column[kept]) for column in columns]

@@ -27,8 +27,9 @@ from linear_theory.wave.places import Places
 
 Array = NDArray[np.float64]
 
-MORE = 1, 1, 2
-"""Harmonics and degrees (across, along) that were dropped, but that the error of the wave counts."""
+MORE = (1, 1, 2), (1, 0, 1), (1, 0, 0), (0, 0, 1)
+"""Harmonics and degrees (across, along) that were dropped, but that the error of the wave counts: the
+first for which there are enough samples."""
 
 
 class SampledWave(Sources, Shown):
@@ -123,9 +124,9 @@ class SampledWave(Sources, Shown):
         if self._fit.basis.degree[0] or "x" in self._given:
             degrees = f"degree {self.degree[0]} across and {self.degree[1]} along"
         share = self.residual / self._size if self._size else 0.0
-        what = f"rms {self.residual:.3g}, {100 * share:.2g} % of c"
+        what = f"rms {self.residual:.3g}, {_per_cent(share)} of c"
         if self._misfit.dropped > MOST_OF:
-            what += f", MOST of what varies in time ({100 * self._misfit.dropped:.0f} % of its variance)"
+            what += f"; that is MOST of the wave, {_per_cent(self._misfit.dropped)} of its variance in time"
         return f"all above harmonic {self.harmonics} and {degrees}: {what}"
 
     @property
@@ -178,11 +179,15 @@ class SampledWave(Sources, Shown):
     def _fit_with_more(self, data: Samples) -> Fit:
         """With MORE functions, as far as the samples can tell them."""
         largest, numbers = most(data, self._period), (self.harmonics, *self.degree)
-        more = [
-            max(n, min(n + extra, top)) for n, extra, top in zip(numbers, MORE, largest, strict=True)
-        ]
-        basis = self._fit.basis.but(more[0], (more[1], more[2]))
-        return self._fit if basis.size > data.size // 2 else fitted(data, basis)
+        for extras in MORE:
+            more = [
+                max(n, min(n + extra, top))
+                for n, extra, top in zip(numbers, extras, largest, strict=True)
+            ]
+            basis = self._fit.basis.but(more[0], (more[1], more[2]))
+            if basis.size <= data.size // 2:
+                return fitted(data, basis)
+        return self._fit
 
     def identified_by(self) -> object:
         """What its content key is made of."""
@@ -214,6 +219,10 @@ class SampledWave(Sources, Shown):
         named = [name for name in (*NAMES, "c") if name in data]
         samples = [validation.real_array(name, data[name]) for name in named]
         return cls(*samples, period=period, harmonics=harmonics, degree=degree)
+
+
+def _per_cent(share: float) -> str:
+    return f"{100 * share:.2g} %" if share < 0.99 else f"{100 * share:.0f} %"
 
 
 def _chosen_basis(data: Samples, period: float, wanted: tuple[int | None, ...]) -> Basis:
