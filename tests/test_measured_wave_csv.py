@@ -11,7 +11,10 @@ EXACT = SampledWave(Y, T, C, period=1.0)
 
 
 def table(head, delimiter=",", mark=".", more=()):
-    rows = [delimiter.join(repr(float(v)).replace(".", mark) for v in row) for row in zip(Y, T, C)]
+    rows = [
+        delimiter.join(repr(float(v)).replace(".", mark) for v in row)
+        for row in zip(Y, T, C, strict=True)
+    ]
     return "\n".join([head, *rows, *more]) + "\n"
 
 
@@ -55,7 +58,10 @@ def test_exact_names_come_first(read):
 
 
 BAD = {
-    "a value too many": (table("y,t,c", more=["-20,1,1,1"]), "line 122 has 4 values, .* names 3: must be"),
+    "a value too many": (
+        table("y,t,c", more=["-20,1,1,1"]),
+        "line 122 has 4 values, .* names 3: must be",
+    ),
     "decimal commas between commas": (table("y,t,c", mark=","), "line 2 has 6 values.*by semicolons"),
     "a value too few": (table("y,t,c", more=["-20,1"]), "line 122, column 'c' has nothing"),
     "two marks": (table("y;t;c", ";", ",", ["0.5;0;0"]), "line 122, column 'y' has '0.5', but .* ','"),

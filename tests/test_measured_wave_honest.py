@@ -1,4 +1,4 @@
-"""Measured waves of any kind: no part of the wave is lost in silence, and errors are what they claim."""
+"""Measured waves of any kind: nothing is lost in silence, and errors are what they claim."""
 
 import numpy as np
 import pytest
@@ -152,7 +152,9 @@ class TestPeriodAndUnits:
         t = 0.384 * np.arange(21)
         c = np.sin(W * (Y[:, None] - t / 8))
         wrong, right = (SampledWave(Y, t, c, period=period) for period in (0.8, 8.0))
-        assert "samples are 0.384 apart in time, less than two in a period above harmonic 1" in wrong.doubt
+        assert (
+            "samples are 0.384 apart in time, less than two in a period above harmonic 1" in wrong.doubt
+        )
         assert not line_balance(wrong, 0.1, length=1.0, rtol=0.5).converged
         assert not right.doubt
         assert not right.remarks
@@ -171,7 +173,9 @@ class TestPeriodAndUnits:
     def test_micrometres_on_a_sheet_in_millimetres(self):
         c = np.sin(W * (Y[:, None] - T))
         wave = SampledWave(1000 * Y, T, c, period=1.0)
-        with pytest.raises(ValueError, match="from -500 to 500, more than 10 times as far .* 0.5 from"):
+        with pytest.raises(
+            ValueError, match=r"from -500 to 500, more than 10 times as far .* 0\.5 from"
+        ):
             crawl_speed(Sheet(), wave, 0.1)
 
     @pytest.mark.parametrize("factor", [1e300, 1e-200])

@@ -31,5 +31,5 @@ def uncertainty_of(wave: Wave) -> Uncertainty | None:
 
 
 def doubt_of(wave: Wave) -> str:
-    """Why speeds of the wave are not converged, whatever their error, in words; empty for most waves."""
+    """Why speeds of the wave are not converged, whatever their error; empty for most waves."""
     return str(getattr(wave, "doubt", ""))

@@ -28,7 +28,9 @@ class _Line(NamedTuple):
     def cells(self, delimiter: str) -> list[str]:
         """What stands between the delimiters. Raises ValueError for quotes that are not closed."""
         try:
-            rows = list(csv.reader([self.text], delimiter=delimiter, skipinitialspace=True, strict=True))
+            rows = list(
+                csv.reader([self.text], delimiter=delimiter, skipinitialspace=True, strict=True)
+            )
         except csv.Error as error:
             raise ValueError(f"{self.where} is no line of a table ({error})") from None
         return [cell.strip() for cell in rows[0]] if rows else []
@@ -99,8 +101,9 @@ def _check_header(path: str, header: list[str], names: Names, places: dict[str, 
             wanted = ",".join(names[k] for k in "ytc")
             raise ValueError(
                 f"{path} has no column {names[key]!r}, but {', '.join(header) or 'none'}: columns must "
-                f"be separated by commas, semicolons or tabs and named in the first line, {wanted} (and "
-                f"{names['x']}, where c depends on it); in Python, {key}='...' says which one is {key}"
+                f"be separated by commas, semicolons or tabs and named in the first line, {wanted} "
+                f"(and {names['x']}, where c depends on it); in Python, {key}='...' "
+                "says which one it is"
             )
 
 
@@ -116,8 +119,8 @@ class _Table:
         if any(row[len(self.header) :]):
             hint = "" if self.delimiter != "," else "; with decimal commas, separate them by semicolons"
             raise ValueError(
-                f"{line.where} has {len(row)} values, but the first line names {len(self.header)}: must "
-                f"be as many{hint}"
+                f"{line.where} has {len(row)} values, but the first line names {len(self.header)}: "
+                f"must be as many{hint}"
             )
         return [self._number(row, at, line.where) for at in self.places.values()]
 
@@ -140,8 +143,8 @@ class _Table:
         mark = "," if "," in text and self.delimiter != "," else "." if "." in text else ""
         if mark and self.mark and mark != self.mark:
             raise ValueError(
-                f"{where} has {text!r}, but other numbers have the decimal mark {self.mark!r}: must be "
-                "the same in all"
+                f"{where} has {text!r}, but other numbers have the decimal mark {self.mark!r}: must "
+                "be the same in all"
             )
         self.mark = self.mark or mark
         return text.replace(",", ".") if mark == "," else text

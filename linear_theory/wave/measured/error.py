@@ -17,7 +17,7 @@ Array = NDArray[np.float64]
 SEED = 20240607
 
 COHERENT = 2.0
-"""A part that was missed may move as one wave, which crawls faster than random functions of its size."""
+"""A part that was missed may move as one wave, which crawls faster than random functions do."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,12 +1,12 @@
 """Whether what a fit leaves is noise, or a part of the wave that it missed.
 
-Errors of independent samples do not know each other. Where what is left at a sample is more like what is
-left at its nearest neighbour (in place and phase) than chance allows, it is not noise alone: half the
+Errors of independent samples are independent. Where what is left at a sample is more like what is left
+at its nearest neighbour (in place and phase) than chance allows, it is not noise alone: half the
 mean square of the difference is the variance of the noise, the rest belongs to the wave. The more
 of what varies a fit leaves, the more it is suspected: where it leaves most, all counts as missed that
 chance allows.
 
-A fit with as many functions as the samples can tell may leave nothing and yet miss what would come next:
+A fit with as many functions as samples can tell may leave nothing and yet miss what would come next:
 that is taken to be as large as the last harmonic, or degree, of the fit.
 """
 

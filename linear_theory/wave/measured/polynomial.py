@@ -75,9 +75,9 @@ class PolynomialWave(Shown):
                 )
             if max(-low, high) > FARTHEST * size / 2:
                 raise ValueError(
-                    f"wave: was measured for {name} from {low:.6g} to {high:.6g}, more than {FARTHEST:g} "
-                    f"times as far as the sheet reaches, {size / 2:.6g} from its centre: must be in the "
-                    f"unit of the sheet; scale {name}, or leave out samples beyond the sheet"
+                    f"wave: was measured for {name} from {low:.6g} to {high:.6g}, more than "
+                    f"{FARTHEST:g} times as far as the sheet reaches, {size / 2:.6g} from its centre: "
+                    f"must be in the unit of the sheet; scale {name}, or leave out samples beyond the sheet"
                 )
 
     def _sum(self, x: ArrayLike, y: ArrayLike, t: ArrayLike, times: Array) -> Array:

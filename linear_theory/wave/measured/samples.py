@@ -98,8 +98,8 @@ def _finite(name: str, value: Any) -> Array:
     largest = float(abs(found).max(initial=0.0))
     if largest > LARGEST or 0 < largest < 1 / LARGEST:
         raise ValueError(
-            f"{name} reaches {largest:.3g}: must be between {1 / LARGEST:g} and {LARGEST:g}, or 0; take "
-            "another unit"
+            f"{name} reaches {largest:.3g}: must be between {1 / LARGEST:g} and {LARGEST:g}, or 0; "
+            "take another unit"
         )
     return found
 

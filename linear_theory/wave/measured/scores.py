@@ -69,7 +69,9 @@ class Merged(Shown):
         room = max(min(functions, self.samples.size // 2) // inner, 1)
         top = min(largest, (room - 1) // 2 if axis == 0 else room - 1)
         tops = [top if i == axis else n for i, n in enumerate(numbers)]
-        factors = list(Basis.over(self.samples, period, tops[0], (tops[1], tops[2])).factors(self.samples))
+        factors = list(
+            Basis.over(self.samples, period, tops[0], (tops[1], tops[2])).factors(self.samples)
+        )
         outer = factors.pop(axis)
         columns = np.einsum("no,ni,nj->noij", outer, *factors).reshape(self.samples.size, -1)
         step = 2 if axis == 0 else 1

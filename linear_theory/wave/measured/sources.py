@@ -62,9 +62,10 @@ class Sources:
     ) -> Self:
         """From a text file, a sample in each line, whose first line names the columns.
 
-        x, y, t, c: names of the columns, which may stand there in capitals and with a unit in brackets;
+        x, y, t, c: names of the columns, which may stand there in capitals and with units in brackets;
         x counts where there is one. delimiter: None for the one of commas, semicolons and tabs that is
-        there; unless it is a comma, numbers may have decimal commas. options: period, harmonics, degree.
+        there; unless it is a comma, numbers may have decimal commas. options: period,
+        harmonics, degree.
 
         >>> import numpy as np, tempfile, pathlib
         >>> from linear_theory import SampledWave

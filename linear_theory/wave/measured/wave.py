@@ -126,7 +126,9 @@ class SampledWave(Sources, Shown):
         share = self.residual / self._size if self._size else 0.0
         what = f"rms {self.residual:.3g}, {_per_cent(share)} of c"
         if self._misfit.dropped > MOST_OF:
-            what += f"; that is MOST of the wave, {_per_cent(self._misfit.dropped)} of its variance in time"
+            what += (
+                f"; that is MOST of the wave, {_per_cent(self._misfit.dropped)} of its variance in time"
+            )
         return f"all above harmonic {self.harmonics} and {degrees}: {what}"
 
     @property
