@@ -77,7 +77,8 @@ class PolynomialWave(Shown):
                 raise ValueError(
                     f"wave: was measured for {name} from {low:.6g} to {high:.6g}, more than "
                     f"{FARTHEST:g} times as far as the sheet reaches, {size / 2:.6g} from its centre: "
-                    f"must be in the unit of the sheet; scale {name}, or leave out samples beyond the sheet"
+                    f"must be in the unit of the sheet; scale {name}, or leave out samples "
+                    f"beyond the sheet"
                 )
 
     def _sum(self, x: ArrayLike, y: ArrayLike, t: ArrayLike, times: Array) -> Array:

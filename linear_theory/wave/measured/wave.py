@@ -1,6 +1,7 @@
 """A wave of growth from measured samples, as smooth as their noise asks for."""
 
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from functools import cached_property
 from typing import Any
 
@@ -30,6 +31,9 @@ Array = NDArray[np.float64]
 MORE = (1, 1, 2), (1, 0, 1), (1, 0, 0), (0, 0, 1)
 """Harmonics and degrees (across, along) that were dropped, but that the error of the wave counts: the
 first for which there are enough samples."""
+
+LARGEST_PART = 2 / 3
+"""Functions of the larger fit for each sample, at the most."""
 
 
 class SampledWave(Sources, Shown):
@@ -187,8 +191,9 @@ class SampledWave(Sources, Shown):
                 for n, extra, top in zip(numbers, extras, largest, strict=True)
             ]
             basis = self._fit.basis.but(more[0], (more[1], more[2]))
-            if basis.size <= data.size // 2:
-                return fitted(data, basis)
+            if basis.size <= LARGEST_PART * data.size:
+                with suppress(ValueError):  # scattered samples may not tell them apart
+                    return fitted(data, basis)
         return self._fit
 
     def identified_by(self) -> object:
