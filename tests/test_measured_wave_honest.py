@@ -197,6 +197,6 @@ def test_misfit_of_neighbours_is_that_of_the_missing_wave():
     c = np.sin(W * (y - t)) + 0.5 * random.normal(size=y.size)
     data = Samples(None, y, t, c)
     fit = fitted(data, Basis.over(data, 1.0, 0, (0, 0)))
-    found = Misfit.of(data, fit, (20, 0, 20))
+    found = Misfit.of(data, fit)
     assert found.missed == pytest.approx(np.sqrt(0.5), rel=0.1)
     assert found.dropped == pytest.approx(1.0, rel=1e-6)

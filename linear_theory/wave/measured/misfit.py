@@ -6,8 +6,8 @@ mean square of the difference is the variance of the noise, the rest belongs to 
 of what varies a fit leaves, the more it is suspected: where it leaves most, all counts as missed that
 chance allows.
 
-A fit with as many functions as samples can tell may leave nothing and yet miss what would come next:
-that is taken to be as large as the last harmonic, or degree, of the fit.
+A fit with a function for each phase, or place, leaves nothing and may yet miss what would come next:
+that is taken to go on as the last harmonics, or degrees, of the fit do.
 """
 
 import math
@@ -18,13 +18,13 @@ from numpy.typing import NDArray
 
 from linear_theory.common.shown import Shown
 from linear_theory.wave.measured.basis import Basis
-from linear_theory.wave.measured.bounds import Numbers
 from linear_theory.wave.measured.fit import Fit, fitted
 from linear_theory.wave.measured.samples import Samples
+from linear_theory.wave.measured.scores import SAME_PHASE
 
 Array = NDArray[np.float64]
 
-MOST_SAMPLES = 20_000
+MOST_SAMPLES = 6000
 """Between which neighbours are looked for."""
 
 CHANCE = 2.0
@@ -47,12 +47,12 @@ class Misfit(Shown):
     missed: float
 
     @classmethod
-    def of(cls, samples: Samples, fit: Fit, largest: Numbers) -> "Misfit":
-        """Of a fit to samples, which can tell functions up to the `largest` numbers."""
+    def of(cls, samples: Samples, fit: Fit) -> "Misfit":
+        """Of a fit to samples."""
         varying = fitted(samples, fit.basis.but(0, fit.basis.degree)).noise
         found = cls(varying, fit.noise, 0.0)
         common = _common(samples.some(MOST_SAMPLES), fit, min(found.dropped / MOST_OF, 1.0))
-        return cls(varying, fit.noise, math.hypot(common, _next(fit, largest)))
+        return cls(varying, fit.noise, math.hypot(common, _next(samples, fit)))
 
     @property
     def dropped(self) -> float:
@@ -65,25 +65,44 @@ def _common(samples: Samples, fit: Fit, suspicion: float) -> float:
 
     suspicion: 0 where only what is surely no chance counts, to 1 where all counts that chance allows.
     """
-    left = samples.c - fit.values(samples)
     if fit.noise <= EXACT * math.sqrt(float(np.mean(samples.c**2))):
         return 0.0
-    pure = np.mean((left - left[_nearest(samples, fit.basis)]) ** 2) / 2
-    share, chance = 1 - float(pure) / fit.noise**2, CHANCE * math.sqrt(3 / samples.size)
+    share, chance = 1 - _pure(samples, fit) / fit.noise**2, CHANCE * math.sqrt(3 / samples.size)
     sure, possible = share if share > chance else 0.0, suspicion * (share + chance)
     return fit.noise * math.sqrt(min(max(sure, possible), 1.0))
 
 
-def _next(fit: Fit, largest: Numbers) -> float:
-    """Root mean square of the last harmonic and of the last degrees, where samples can tell no more."""
-    squares, square = fit.coefficients**2, 0.0
+def _pure(samples: Samples, fit: Fit) -> float:
+    """Variance of the noise by differences of what is left at nearest neighbours.
+
+    The fit takes a part h of the noise of a sample along, its leverage, and of that of its neighbour:
+    what is left has covariance noise^2 (1 - H), with H = Q Q^T of the orthogonal columns Q.
+    """
+    from scipy.linalg import solve_triangular  # here: scipy takes long to import
+
+    near, left = _nearest(samples, fit.basis), samples.c - fit.values(samples)
+    q = solve_triangular(fit.factor, fit.basis.columns(samples).T, trans="T")
+    taken = np.sum((q - q[:, near]) ** 2, axis=0)
+    return float(np.sum((left - left[near]) ** 2) / np.sum(np.maximum(2 - taken, 0)))
+
+
+def _next(samples: Samples, fit: Fit) -> float:
+    """Root mean square of the next harmonic and of the next degrees, where no residual could show them."""
+    squares = fit.coefficients**2
     squares[1:] /= 2  # the mean of a cosine
-    numbers = (fit.basis.harmonics, *fit.basis.degree)
-    for axis, (number, top) in enumerate(zip(numbers, largest, strict=True)):
-        if number and number == top:
-            last = squares[-2:] if axis == 0 else squares.take(-1, axis)
-            square += float(last.sum())
-    return math.sqrt(square)
+    sums = [np.sum(squares, axis=axes) for axes in ((1, 2), (0, 2), (0, 1))]
+    sums[0] = sums[0][1:].reshape(-1, 2).sum(axis=1)
+    phases = np.mod(np.round(samples.t / fit.basis.period / SAME_PHASE), round(1 / SAME_PHASE))
+    known = [0 if v is None else np.unique(v).size for v in (phases, samples.x, samples.y)]
+    known[0] -= 1 - known[0] % 2  # of an even number, the last is half a harmonic
+    full = (1 < functions >= count for functions, count in zip(fit.basis.shape, known, strict=True))
+    return math.sqrt(sum(_continued(of) for of, is_full in zip(sums, full, strict=True) if is_full))
+
+
+def _continued(squares: Array) -> float:
+    """What follows: less than the last by as much as that is less than the two before, or the same."""
+    last, before = float(squares[-1]), float(squares[-3:-1].max(initial=0.0))
+    return last * min(last / before, 1.0) if before else last
 
 
 def _nearest(samples: Samples, basis: Basis) -> NDArray[np.intp]:

@@ -89,7 +89,7 @@ class SampledWave(Sources, Shown):
             basis = _chosen_basis(data, first, wanted)
         self._period, self._fit = first, fitted(data, basis)
         self._larger = self._fit_with_more(data)
-        self._misfit = Misfit.of(data, self._fit, most(data, self._period))
+        self._misfit = Misfit.of(data, self._fit)
         self._doubt = "; ".join(doubts(data, self._fit, self._misfit))
         self._remarks = "; ".join(remarks(data, self._fit, self._given["c"].size - data.size))
         self._margins = tuple(margin(v) for v in (data.x, data.y))
