@@ -87,7 +87,7 @@ def _pure(samples: Samples, fit: Fit) -> float:
 
 
 def _next(samples: Samples, fit: Fit) -> float:
-    """Root mean square of the next harmonic and of the next degrees, where no residual could show them."""
+    """Root mean square of the next harmonic and next degrees, where no residual could show them."""
     squares = fit.coefficients**2
     squares[1:] /= 2  # the mean of a cosine
     sums = [np.sum(squares, axis=axes) for axes in ((1, 2), (0, 2), (0, 1))]
