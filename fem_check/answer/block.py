@@ -16,6 +16,7 @@ from fem_check.answer.units import Units
 from fem_check.answer.wave_words import arrows, wave_words
 from linear_theory.growth.laws import Exp
 from linear_theory.scene.scene import Scene
+from linear_theory.wave.uncertain import doubt_of
 
 if TYPE_CHECKING:
     from fem_check.choice.prediction import Prediction
@@ -116,7 +117,10 @@ def _answer(found: "Prediction", units: Units) -> Iterator[Line]:
 
 
 def _missed(found: "Prediction", units: Units) -> str:
-    """A missed tolerance and the error, in per cent of the speed, or as speeds; empty if it is met."""
+    """A missed tolerance and the error, in per cent of the speed, or as speeds; or a wave that is in
+    doubt; empty if it is met."""
+    if doubt := doubt_of(found.scene.wave):
+        return f"the wave is not known well enough: {doubt}"
     if found.tolerance is None:
         return ""
     allowed, size = found.tolerance.allowed(found.mean), abs(found.mean)

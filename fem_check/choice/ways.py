@@ -184,7 +184,7 @@ def _caution(motion: Trajectory) -> str:
     if motion.crossed is not None and motion.crossed.any():
         return "the sheet passes through itself, which no real one does"
     if motion.snaps:
-        lower = ": the error is a lower bound" if np.isnan(motion.errors.snaps) else ""
+        lower = ": the error is a lower bound" if math.isnan(motion.errors.snaps) else ""
         return f"the sheet snaps over in the last period, where its path depends on the steps{lower}"
     scene, spread = motion.scene, motion.errors.spread
     mean = motion.speed.mean

@@ -22,7 +22,7 @@ from linear_theory.motion.rigid import RigidNorm
 from linear_theory.scene.scene import Scene
 from linear_theory.sheet.rectangle import Sheet
 from linear_theory.speed.result import CrawlSpeed, Estimate
-from linear_theory.speed.wave_error import WaveError, equidistant_times, wave_error
+from linear_theory.speed.wave_error import WaveError, doubted, equidistant_times, wave_error
 from linear_theory.speed.words import model_words
 from linear_theory.wave import arguments
 from linear_theory.wave.places import on_axis
@@ -126,7 +126,8 @@ def line_crawl(scene: Scene, tolerance: Tolerance, body: str) -> CrawlSpeed:
         seconds=time.perf_counter() - start,
         model=_words(scene, body),
     )
-    return found if error is None else error.joins(found, tolerance, ALONG)
+    found = found if error is None else error.joins(found, tolerance, ALONG)
+    return doubted(found, scene.wave)
 
 
 def _wave_error(scene: Scene, piece: Piece) -> WaveError | None:

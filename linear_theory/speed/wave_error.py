@@ -31,7 +31,7 @@ from linear_theory.scene.scene import Scene
 from linear_theory.speed.result import CrawlSpeed, Estimate
 from linear_theory.wave.protocol import Wave
 from linear_theory.wave.sampled import drive
-from linear_theory.wave.uncertain import Uncertainty, uncertainty_of
+from linear_theory.wave.uncertain import Uncertainty, doubt_of, uncertainty_of
 
 Array = NDArray[np.float64]
 Mean = Callable[[Wave], Array]
@@ -42,6 +42,9 @@ RESAMPLES, FACTOR = 16, 3.5
 
 LEAST_SHARE = 0.01
 """Of c, by which waves are moved: smaller errors are scaled up, beyond what the resolution hides."""
+
+HALVINGS = 6
+"""Of a scale with which waves are moved so far that the sheet would vanish somewhere."""
 
 COARSE, FEWEST_TIMES, MOST_TIMES = 3e-2, 24, 128
 """Tolerance of fields and cells for differences, and times per period."""
@@ -87,11 +90,20 @@ class WaveError(NamedTuple):
 
 def wave_error(uncertainty: Uncertainty, wave: Wave, mean: Mean) -> WaveError:
     """The error of speeds that `mean` finds."""
-    scale = max(1.0, LEAST_SHARE / uncertainty.share)
-    given = mean(wave)
+    given, scale = mean(wave), max(1.0, LEAST_SHARE / uncertainty.share)
+    for _ in range(HALVINGS):
+        try:
+            return WaveError(given, _spread(uncertainty, mean, given, scale))
+        except ValueError:  # growth that no sheet could follow, where samples leave a wave wide open
+            scale /= 2
+    return WaveError(given, _spread(uncertainty, mean, given, scale))
+
+
+def _spread(uncertainty: Uncertainty, mean: Mean, given: Array, scale: float) -> Array:
+    """Error of the mean motion by waves that are moved by `scale` times the error of the wave."""
     others = uncertainty.waves(RESAMPLES, scale)
     moved = np.stack([mean(other) for other in track("the error of the wave", others)])
-    return WaveError(given, FACTOR / scale * np.sqrt(np.mean((moved - given) ** 2, axis=0)))
+    return np.asarray(FACTOR / scale * np.sqrt(np.mean((moved - given) ** 2, axis=0)))
 
 
 def with_wave_error(
@@ -99,8 +111,21 @@ def with_wave_error(
 ) -> CrawlSpeed:
     """The speed by `solve`, with what the error of the wave does to it.
 
-    That is not known of scenes that are beyond the theories of a flat rectangle: `model` says so.
+    That is not known of scenes that are beyond the theories of a flat rectangle, nor of waves that are
+    in doubt: `model` says so.
     """
+    return doubted(_with_wave_error(scene, tolerance, solve), scene.wave)
+
+
+def doubted(found: CrawlSpeed, wave: Wave) -> CrawlSpeed:
+    """The speed, not converged if the wave is in doubt."""
+    doubt = doubt_of(wave)
+    return replace(found, model=f"{found.model}; wave: {doubt}", converged=False) if doubt else found
+
+
+def _with_wave_error(
+    scene: Scene, tolerance: Tolerance, solve: Callable[[Tolerance], CrawlSpeed]
+) -> CrawlSpeed:
     uncertainty = uncertainty_of(scene.wave)
     if uncertainty is None or scene.alpha == 0:
         return solve(tolerance)

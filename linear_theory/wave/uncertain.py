@@ -11,7 +11,7 @@ class Uncertainty(Protocol):
     """What a wave with the attribute `uncertainty` says of its own error.
 
     Speeds count that error: see `linear_theory.speed.wave_error`. A wave whose `uncertainty` is None,
-    or that has none, is exact.
+    or that has none, is exact. One whose `doubt` says something has an error that is not known.
     """
 
     @property
@@ -28,3 +28,8 @@ class Uncertainty(Protocol):
 def uncertainty_of(wave: Wave) -> Uncertainty | None:
     """What the wave says of its own error; None where it is exact."""
     return getattr(wave, "uncertainty", None)
+
+
+def doubt_of(wave: Wave) -> str:
+    """Why speeds of the wave are not converged, whatever their error; empty for most waves."""
+    return str(getattr(wave, "doubt", ""))

@@ -1,36 +1,35 @@
 """How many harmonics and which degrees samples and their noise allow.
 
-Two bounds hold for each. What the samples can tell at all: a fit must not swing wider between them than
-at them (`most`). What the noise leaves: the least squares of what a fit to all samples but one is off
-at that one, over all of them (leave-one-out cross-validation; n fits in one by the leverages h of the
-samples, (r/(1 - h))^2 of the residuals r). Harmonics and degrees are swept in turn until none changes.
+Two bounds hold for each. What the samples can tell at all (`bounds`). What the noise leaves: the least
+leave-one-out score (`scores`). That has local minima: a wave that grows along the sheet is nothing that
+a harmonic of degree 0 could fit, nor a degree without a harmonic. So the score is first found on a
+coarse grid of all numbers together, with few of the samples; from the best places on it, numbers are
+swept in turn until none changes; from the least of these minima, again with many samples.
 """
 
-import math
+import itertools
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from linear_theory.wave.measured.basis import Basis
+from linear_theory.wave.measured.bounds import MOST, Numbers, most
 from linear_theory.wave.measured.samples import Samples
+from linear_theory.wave.measured.scores import Merged
 
 Array = NDArray[np.float64]
-Numbers = tuple[int, int, int]
-"""Harmonics, degree across, degree along."""
-
-MOST = 48
-"""Harmonics, and degrees, at the most."""
 
 MOST_SAMPLES, MOST_FUNCTIONS = 6000, 600
 """With which numbers are chosen: a random choice of many samples will do."""
 
-BETWEEN = 25.0
-"""Variance of a fit between samples over that of one sample, at the most; at samples it is below 1."""
+COARSE_SAMPLES, COARSE_FUNCTIONS = 1000, 240
+"""With which the coarse grid is looked at, and swept."""
 
-STATIONS, FINER = 400, 8
-"""Different coordinates that are looked at, and places in each gap between them."""
+LADDER = (0, 1, 2, 3, 4, 5, 6, 8, 10, 13, 17, 22, 28, 36, MOST)
+"""Numbers on it."""
 
-ROUNDS = 6
+STARTS, ROUNDS = 3, 6
+"""Places on the grid from which numbers are swept, and sweeps of each."""
 
 LEAST_GAIN = 1e-3
 """By which more functions must lower the score to be taken: less is chance."""
@@ -38,101 +37,77 @@ LEAST_GAIN = 1e-3
 ROUNDOFF = 1e-14
 """Of the largest c."""
 
+Data = tuple[Merged, int]
+"""Samples, and functions at the most."""
+
+
+class Scored(NamedTuple):
+    """Numbers of functions and their score."""
+
+    score: float
+    numbers: Numbers
+
+    @property
+    def functions(self) -> int:
+        """In all."""
+        harmonics, across, along = self.numbers
+        return (2 * harmonics + 1) * (across + 1) * (along + 1)
+
 
 def chosen(samples: Samples, period: float, asked: tuple[int | None, ...]) -> Numbers:
     """Numbers of functions; asked: those that are given already, else None."""
     largest = most(samples, period)
-    numbers = _first(asked, largest)
-    free = [axis for axis in (0, 2, 1) if asked[axis] is None and largest[axis]]
-    some = samples.some(MOST_SAMPLES)
-    for _ in range(ROUNDS):
-        before = list(numbers)
-        for axis in free:
-            numbers[axis] = _best(some, period, numbers, axis, largest[axis])
-        if numbers == before:
-            break
-    return numbers[0], numbers[1], numbers[2]
+    free = [axis for axis in (2, 0, 1) if asked[axis] is None and largest[axis]]
+    fixed = [0 if n is None else n for n in asked]
+    if not free:
+        return fixed[0], fixed[1], fixed[2]
+    search = _Search(Merged.of(samples, period), period, largest, free)
+    found = search.least([search.swept(start, search.few) for start in search.starts(fixed)])
+    return search.swept(found, search.many).numbers
 
 
-def _first(asked: tuple[int | None, ...], largest: Numbers) -> list[int]:
-    """Degrees with which harmonics are chosen first: high, with room for some harmonics beside them."""
-    harmonics, across, along = (
-        n if n is not None else top for n, top in zip(asked, largest, strict=True)
-    )
-    if asked[1] is None:
-        across = min(across, 3)
-    if asked[2] is None:
-        along = min(along, max(MOST_FUNCTIONS // (7 * (across + 1)) - 1, 1))
-    return [harmonics, across, along]
+class _Search:
+    """Of the numbers of least score; free: axes that are to be found."""
 
+    def __init__(self, data: Merged, period: float, largest: Numbers, free: list[int]) -> None:
+        self.few = data.some(COARSE_SAMPLES), COARSE_FUNCTIONS
+        self.many = data.some(MOST_SAMPLES), MOST_FUNCTIONS
+        self.period, self.largest, self.free = period, largest, free
+        self.floor = (ROUNDOFF * abs(data.samples.c).max()) ** 2
 
-def most(samples: Samples, period: float) -> Numbers:
-    """The largest numbers that the samples can tell."""
-    phases = np.unique(np.mod(samples.t / period, 1.0))
-    across = 0 if samples.x is None else _largest_degree(np.unique(samples.x))
-    return _largest_harmonic(phases), across, _largest_degree(np.unique(samples.y))
+    def least(self, found: list[Scored]) -> Scored:
+        """The one of least score; of those that score alike the one of fewest functions."""
+        bound = min(one.score for one in found) * (1 + LEAST_GAIN) + self.floor
+        return min((one for one in found if one.score <= bound), key=lambda one: one.functions)
 
+    def starts(self, fixed: list[int]) -> list[Scored]:
+        """The best on the coarse grid, each with another number on its first ladder."""
+        line, *others = self.free
+        ladders = [[n for n in LADDER if n <= self.largest[axis]] for axis in others]
+        best: dict[int, list[Scored]] = {}
+        for rungs in itertools.product(*ladders):
+            numbers = list(fixed)
+            for axis, rung in zip(others, rungs, strict=True):
+                numbers[axis] = rung
+            scored = self._line(self.few, numbers, line)
+            best.setdefault(rungs[0] if rungs else 0, []).append(scored)
+        return sorted(self.least(found) for found in best.values())[:STARTS]
 
-def _largest_harmonic(phases: Array) -> int:
-    around = _thinned(np.append(phases, phases[0] + 1))
-    known, fine = around[:-1], _between(around)
-    basis = Basis(1.0, min(MOST, (known.size - 1) // 2), (0, 0), (-1, 1), (-1, 1))
-    return (_tame(basis.times(known), basis.times(fine)) - 1) // 2
+    def swept(self, start: Scored, data: Data) -> Scored:
+        """The minimum that is reached by one number after the other."""
+        found = start
+        for _ in range(ROUNDS):
+            before = found.numbers
+            for axis in self.free[1:] + self.free[:1]:
+                found = self._line(data, list(found.numbers), axis)
+            if found.numbers == before:
+                break
+        return found
 
-
-def _largest_degree(places: Array) -> int:
-    known = _thinned(places)
-    degree = min(MOST, known.size - 1)
-    basis = Basis(1.0, 0, (0, degree), (-1, 1), (float(known[0]), float(known[-1])))
-    return max(_tame(*(basis.polynomials(0.0, at)[1] for at in (known, _between(known)))) - 1, 0)
-
-
-def _thinned(places: Array) -> Array:
-    if places.size <= STATIONS:
-        return places
-    return places[np.linspace(0, places.size - 1, STATIONS).astype(int)]
-
-
-def _between(places: Array) -> Array:
-    """Places in all gaps."""
-    gaps = np.arange(FINER * (places.size - 1) + 1) / FINER
-    return np.interp(gaps, np.arange(places.size), places)
-
-
-def _tame(at: Array, between: Array) -> int:
-    """How many of the first functions make a fit that does not swing between samples."""
-    r = np.linalg.qr(at).R
-    safe = abs(np.diag(r)) > 1e-8 * np.sqrt(len(at))
-    count = int(np.argmin(safe)) if not safe.all() else safe.size
-    fine = np.linalg.solve(r[:count, :count].T, between[:, :count].T)
-    tame = np.cumsum(fine**2, axis=0).max(axis=1) <= BETWEEN
-    return int(np.argmin(tame)) if not tame.all() else count
-
-
-def _best(samples: Samples, period: float, numbers: list[int], axis: int, largest: int) -> int:
-    """The number along one axis, the others being as they are, of least score."""
-    sizes = [2 * numbers[0] + 1, numbers[1] + 1, numbers[2] + 1]
-    inner = math.prod(size for i, size in enumerate(sizes) if i != axis)
-    room = max(min(MOST_FUNCTIONS, samples.size // 2) // inner, 1)
-    top = min(largest, (room - 1) // 2 if axis == 0 else room - 1)
-    numbers = [top if i == axis else n for i, n in enumerate(numbers)]
-    basis = Basis.over(samples, period, numbers[0], (numbers[1], numbers[2]))
-    factors = list(basis.factors(samples))
-    outer = factors.pop(axis)
-    columns = np.einsum("no,ni,nj->noij", outer, *factors).reshape(samples.size, -1)
-    step = 2 if axis == 0 else 1
-    scores = _scores(columns, samples.c, [inner * (1 + step * n) for n in range(top + 1)])
-    floor = (ROUNDOFF * abs(samples.c).max()) ** 2
-    return int(np.argmax(scores <= scores.min() * (1 + LEAST_GAIN) + floor))
-
-
-def _scores(columns: Array, c: Array, counts: list[int]) -> Array:
-    """Mean squares of what fits by the first `counts` of columns are off at a sample left out."""
-    q, _ = np.linalg.qr(columns)
-    residual, leverage, start, found = c.copy(), np.zeros(c.size), 0, []
-    for count in counts:
-        part = q[:, start:count]
-        residual = residual - part @ (part.T @ residual)
-        leverage, start = leverage + np.sum(part**2, axis=1), count
-        found.append(np.mean((residual / np.maximum(1 - leverage, 1e-9)) ** 2))
-    return np.array(found)
+    def _line(self, data: Data, numbers: list[int], axis: int) -> Scored:
+        """The least along one axis, the other numbers being as they are."""
+        samples, functions = data
+        scores = samples.along(self.period, numbers, axis, self.largest[axis], functions)
+        at = int(np.argmax(scores <= scores.min() * (1 + LEAST_GAIN) + self.floor))
+        numbers[axis] = at
+        return Scored(float(scores[at]), (numbers[0], numbers[1], numbers[2]))

@@ -31,6 +31,12 @@ class Fit(Shown, _Fit):
     having the covariance noise^2 (R^T R)^-1 where the errors of the samples are independent.
     """
 
+    def values(self, samples: Samples) -> Array:
+        """c of the fit at samples, (n,)."""
+        times, across, along = self.basis.factors(samples)
+        found = np.einsum("nk,ni,nj,kij->n", times, across, along, self.coefficients, optimize=True)
+        return np.asarray(found)
+
 
 def fitted(samples: Samples, basis: Basis) -> Fit:
     """Raises ValueError where the samples do not tell the functions of the basis apart."""

@@ -16,6 +16,9 @@ from linear_theory.wave.sampled import SampledDrive
 
 Array = NDArray[np.float64]
 
+FARTHEST = 10.0
+"""Samples from the centre of the sheet, over half its size: farther ones are in another unit."""
+
 
 class PolynomialWave(Shown):
     """c = sum of coefficients (*basis.shape) times the functions of a basis.
@@ -39,7 +42,7 @@ class PolynomialWave(Shown):
     def words(self) -> str:
         """What it is, in a few words."""
         count = self.basis.harmonics
-        return f"a measured wave of {count} harmonic{'s' if count > 1 else ''} in time"
+        return f"a measured wave of {count} harmonic{'' if count == 1 else 's'} in time"
 
     def value(self, x: ArrayLike, y: ArrayLike, t: ArrayLike, length: float = 1.0) -> Array:
         """c; x, y, t broadcast. The coordinates are those of the sheet: `length` has no effect."""
@@ -59,7 +62,7 @@ class PolynomialWave(Shown):
         return self.basis.degree[0] > 0
 
     def check_covers(self, sheet: Sheet) -> None:
-        """Raise ValueError where the sheet reaches beyond the samples."""
+        """Raise ValueError where the sheet reaches beyond the samples, or these are in another unit."""
         sides = [("y", sheet.length, self.basis.along, self.margins[1])]
         if self.depends_on_x:
             sides.append(("x", sheet.width, self.basis.across, self.margins[0]))
@@ -69,6 +72,13 @@ class PolynomialWave(Shown):
                     f"wave: was measured for {name} from {low:.6g} to {high:.6g}, but the sheet "
                     f"reaches from {-size / 2:.6g} to {size / 2:.6g} (its centre is the origin); shift "
                     f"or scale {name}, or take a sheet that the samples cover"
+                )
+            if max(-low, high) > FARTHEST * size / 2:
+                raise ValueError(
+                    f"wave: was measured for {name} from {low:.6g} to {high:.6g}, more than "
+                    f"{FARTHEST:g} times as far as the sheet reaches, {size / 2:.6g} from its centre: "
+                    f"must be in the unit of the sheet; scale {name}, or leave out samples "
+                    f"beyond the sheet"
                 )
 
     def _sum(self, x: ArrayLike, y: ArrayLike, t: ArrayLike, times: Array) -> Array:

@@ -1,6 +1,5 @@
-"""Samples from files and tables: CSV, netCDF, pandas and xarray."""
+"""Samples from tables of others: pandas, xarray, netCDF."""
 
-import csv
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
@@ -14,35 +13,6 @@ from linear_theory.common.extras import optional
 Array = NDArray[np.float64]
 Names = Mapping[str, str]
 """Names of columns or dimensions for "x" (where c depends on it), "y", "t" and "c"."""
-
-
-def csv_columns(path: str | Path, names: Names, delimiter: str) -> dict[str, Array]:
-    """Columns of a text file whose first line names them; lines that start with # are remarks.
-
-    Raises ValueError, naming file and line, for columns that are missing and for what is no number.
-    """
-    with open(path, newline="", encoding="utf-8-sig") as file:
-        numbered = [(i, line) for i, line in enumerate(file, 1) if line.strip() and line[0] != "#"]
-    rows = csv.reader((line for _, line in numbered), delimiter=delimiter, skipinitialspace=True)
-    header = [name.strip() for name in next(rows, [])]
-    places = {key: header.index(name) for key, name in _there(names, header, str(path)).items()}
-    found: dict[str, list[float]] = {key: [] for key in places}
-    for (line, _), row in zip(numbered[1:], rows, strict=True):
-        for key, place in places.items():
-            found[key].append(_number(row, place, f"{path}, line {line}, column {header[place]!r}"))
-    return {key: np.array(values) for key, values in found.items()}
-
-
-def _number(row: list[str], place: int, where: str) -> float:
-    text = row[place].strip() if place < len(row) else ""
-    try:
-        value = float(text)
-    except ValueError:
-        value = np.nan
-    if not np.isfinite(value):
-        words = repr(text) if text else "nothing"
-        raise ValueError(f"{where} has {words}: must be a finite number; leave out lines without c")
-    return value
 
 
 def frame_columns(frame: Any, names: Names) -> dict[str, Array]:

@@ -18,6 +18,9 @@ NAMES = ("x", "y", "t")
 FEWEST = 16
 """Samples."""
 
+LARGEST = 1e100
+"""Of all numbers: squares of larger ones, and inverse squares, leave the range of computers."""
+
 
 @dataclass(frozen=True, eq=False)
 class Samples(Shown):
@@ -44,10 +47,13 @@ class Samples(Shown):
             known = dict(zip(known, spread, strict=True))
         elif any(value.shape != values.shape for value in known.values()):
             raise ValueError(_shapes(known, values))
-        if values.size < FEWEST:
-            raise ValueError(f"c has {values.size} samples: must have >= {FEWEST}; measure more")
-        flat = {name: np.ascontiguousarray(value.ravel()) for name, value in known.items()}
-        return cls(flat.get("x"), flat["y"], flat["t"], np.ascontiguousarray(values.ravel()))
+        flat = _without_copies([value.ravel() for value in (*known.values(), values)])
+        if flat[0].size < FEWEST:
+            copies = ", without copies" if flat[0].size < values.size else ""
+            raise ValueError(
+                f"c has {flat[0].size} samples{copies}: must have >= {FEWEST}; measure more"
+            )
+        return cls(flat[0] if "x" in known else None, *flat[-3:])
 
     @property
     def size(self) -> int:
@@ -58,7 +64,11 @@ class Samples(Shown):
         """At most so many of them, chosen at random, the same ones in every call."""
         if self.size <= most:
             return self
-        return self.take(np.random.default_rng(most).permutation(self.size)[:most])
+        return self.take(self.choice(most))
+
+    def choice(self, most: int) -> NDArray[np.intp]:
+        """Places of so many of them."""
+        return np.random.default_rng(most).permutation(self.size)[:most]
 
     def take(self, places: NDArray[np.intp] | slice) -> "Samples":
         """Those at these places of the arrays."""
@@ -66,9 +76,18 @@ class Samples(Shown):
         return Samples(x, self.y[places], self.t[places], self.c[places])
 
 
+def _without_copies(columns: list[Array]) -> list[Array]:
+    order = np.lexsort(columns)
+    if not order.size:
+        return columns
+    new = np.any([np.diff(column[order]) != 0 for column in columns], axis=0)
+    kept = np.sort(order[np.concatenate([[True], new])])
+    return [np.ascontiguousarray(column[kept]) for column in columns]
+
+
 def _finite(name: str, value: Any) -> Array:
     try:
-        return validation.real_array(name, value)
+        found = validation.real_array(name, value)
     except ValueError as error:
         if "must be finite" not in str(error):
             raise
@@ -76,6 +95,13 @@ def _finite(name: str, value: Any) -> Array:
             f"{error}; leave such samples out and give the others as scattered ones, "
             "all coordinates as long as c"
         ) from None
+    largest = float(abs(found).max(initial=0.0))
+    if largest > LARGEST or 0 < largest < 1 / LARGEST:
+        raise ValueError(
+            f"{name} reaches {largest:.3g}: must be between {1 / LARGEST:g} and {LARGEST:g}, or 0; "
+            "take another unit"
+        )
+    return found
 
 
 def _shapes(known: dict[str, Array], values: Array) -> str:

@@ -4,6 +4,7 @@ from pathlib import Path
 from typing import Any, Self
 
 from linear_theory.wave.measured import reading
+from linear_theory.wave.measured.csv_table import csv_columns
 
 
 class Sources:
@@ -56,13 +57,15 @@ class Sources:
         y: str = "y",
         t: str = "t",
         c: str = "c",
-        delimiter: str = ",",
+        delimiter: str | None = None,
         **options: Any,
     ) -> Self:
         """From a text file, a sample in each line, whose first line names the columns.
 
-        x, y, t, c: names of the columns; x counts where there is one; options: period, harmonics,
-        degree.
+        x, y, t, c: names of the columns, which may stand there in capitals and with units in brackets;
+        x counts where there is one. delimiter: None for the one of commas, semicolons and tabs that is
+        there; unless it is a comma, numbers may have decimal commas. options: period,
+        harmonics, degree.
 
         >>> import numpy as np, tempfile, pathlib
         >>> from linear_theory import SampledWave
@@ -75,5 +78,5 @@ class Sources:
         >>> print(wave.harmonics, wave.value(0.0, 0.25, 0.0).round(3))
         1 1.0
         """
-        columns = reading.csv_columns(path, {"x": x, "y": y, "t": t, "c": c}, delimiter)
+        columns = csv_columns(path, {"x": x, "y": y, "t": t, "c": c}, delimiter)
         return cls(*columns.values(), **options)

@@ -1,6 +1,7 @@
 """A wave of growth from measured samples, as smooth as their noise asks for."""
 
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from functools import cached_property
 from typing import Any
 
@@ -12,10 +13,13 @@ from linear_theory.common.shown import Shown
 from linear_theory.identity import content_key
 from linear_theory.sheet.rectangle import Sheet
 from linear_theory.wave.measured.basis import Basis
+from linear_theory.wave.measured.bounds import most
 from linear_theory.wave.measured.checks import check_covered, margin, numbers_asked
-from linear_theory.wave.measured.choice import chosen, most
+from linear_theory.wave.measured.choice import chosen
+from linear_theory.wave.measured.doubts import doubts, remarks
 from linear_theory.wave.measured.error import FitUncertainty
 from linear_theory.wave.measured.fit import Fit, fitted
+from linear_theory.wave.measured.misfit import EXACT, MOST_OF, Misfit
 from linear_theory.wave.measured.period import estimated, refined
 from linear_theory.wave.measured.polynomial import PolynomialDrive, PolynomialWave
 from linear_theory.wave.measured.samples import NAMES, Samples
@@ -24,11 +28,12 @@ from linear_theory.wave.places import Places
 
 Array = NDArray[np.float64]
 
-EXACT = 1e-12
-"""Noise over the size of c that is roundoff."""
+MORE = (1, 1, 2), (1, 0, 1), (1, 0, 0), (0, 0, 1)
+"""Harmonics and degrees (across, along) that were dropped, but that the error of the wave counts: the
+first for which there are enough samples."""
 
-MORE = 1, 1, 2
-"""Harmonics and degrees (across, along) that were dropped, but that the error of the wave counts."""
+LARGEST_PART = 2 / 3
+"""Functions of the larger fit for each sample, at the most."""
 
 
 class SampledWave(Sources, Shown):
@@ -44,7 +49,8 @@ class SampledWave(Sources, Shown):
     The wave is that fit by least squares: analytic, of exactly that period. What is dropped says
     `dropped`. noise: standard deviation of a sample; residual: root mean square of what the fit leaves.
     Speeds count the error of the wave in theirs (`uncertainty`), as if the errors of the samples were
-    independent and all of one size: drift and outliers are not seen.
+    independent and all of one size: drift and outliers are not seen. So do they what the fit may have
+    `missed`; where that is much, `doubt` says why, and speeds are not converged.
 
     Raises ValueError, with what to do, for shapes that do not fit, values that are not finite, too few
     samples and a period that is not covered.
@@ -83,6 +89,9 @@ class SampledWave(Sources, Shown):
             basis = _chosen_basis(data, first, wanted)
         self._period, self._fit = first, fitted(data, basis)
         self._larger = self._fit_with_more(data)
+        self._misfit = Misfit.of(data, self._fit)
+        self._doubt = "; ".join(doubts(data, self._fit, self._misfit))
+        self._remarks = "; ".join(remarks(data, self._fit, self._given["c"].size - data.size))
         self._margins = tuple(margin(v) for v in (data.x, data.y))
         self._size = float(np.sqrt(np.mean(data.c**2)))
         self._count = data.size
@@ -119,8 +128,27 @@ class SampledWave(Sources, Shown):
         if self._fit.basis.degree[0] or "x" in self._given:
             degrees = f"degree {self.degree[0]} across and {self.degree[1]} along"
         share = self.residual / self._size if self._size else 0.0
-        what = f"rms {self.residual:.3g}, {100 * share:.2g} % of c"
+        what = f"rms {self.residual:.3g}, {_per_cent(share)} of c"
+        if self._misfit.dropped > MOST_OF:
+            what += (
+                f"; that is MOST of the wave, {_per_cent(self._misfit.dropped)} of its variance in time"
+            )
         return f"all above harmonic {self.harmonics} and {degrees}: {what}"
+
+    @property
+    def missed(self) -> float:
+        """Root mean square of what of the wave the fit may have missed, see `measured.misfit`."""
+        return self._misfit.missed
+
+    @property
+    def doubt(self) -> str:
+        """Why no speed of this wave is converged, in words; empty if there is no such reason."""
+        return self._doubt
+
+    @property
+    def remarks(self) -> str:
+        """What else is odd about the samples, in words."""
+        return self._remarks
 
     def value(self, x: ArrayLike, y: ArrayLike, t: ArrayLike, length: float = 1.0) -> Array:
         """c; x, y, t broadcast. The samples know the sheet: `length` has no effect."""
@@ -142,20 +170,31 @@ class SampledWave(Sources, Shown):
     @property
     def uncertainty(self) -> FitUncertainty | None:
         """How far the true wave may be; None where nothing but roundoff was dropped."""
-        if self.noise <= EXACT * self._size and not self.period_error:
+        if max(self.noise, self.missed) <= EXACT * self._size and not self.period_error:
             return None
         return FitUncertainty(
-            self.smooth, self._larger, self.noise, self._count, self._size, self.period_error
+            self.smooth,
+            self._larger,
+            self.noise,
+            self.missed,
+            self._count,
+            self._size,
+            self.period_error,
         )
 
     def _fit_with_more(self, data: Samples) -> Fit:
         """With MORE functions, as far as the samples can tell them."""
         largest, numbers = most(data, self._period), (self.harmonics, *self.degree)
-        more = [
-            max(n, min(n + extra, top)) for n, extra, top in zip(numbers, MORE, largest, strict=True)
-        ]
-        basis = self._fit.basis.but(more[0], (more[1], more[2]))
-        return self._fit if basis.size > data.size // 2 else fitted(data, basis)
+        for extras in MORE:
+            more = [
+                max(n, min(n + extra, top))
+                for n, extra, top in zip(numbers, extras, largest, strict=True)
+            ]
+            basis = self._fit.basis.but(more[0], (more[1], more[2]))
+            if basis.size <= LARGEST_PART * data.size:
+                with suppress(ValueError):  # scattered samples may not tell them apart
+                    return fitted(data, basis)
+        return self._fit
 
     def identified_by(self) -> object:
         """What its content key is made of."""
@@ -176,7 +215,9 @@ class SampledWave(Sources, Shown):
         words = " x ".join(map(str, self._given["c"].shape))
         error = {"period_error": self.period_error} if self.period_error else {}
         found = {"samples": words, "period": self.period, **error, "harmonics": self.harmonics}
-        return {**found, "degree": self.degree, "noise": self.noise, "dropped": self.dropped}
+        found |= {"degree": self.degree, "noise": self.noise, "dropped": self.dropped}
+        odd = {"DOUBTFUL": self.doubt, "remarks": self.remarks}
+        return found | {name: words for name, words in odd.items() if words}
 
     @classmethod
     def from_data(cls, asked: Sequence[Any], **data: Any) -> "SampledWave":
@@ -185,6 +226,10 @@ class SampledWave(Sources, Shown):
         named = [name for name in (*NAMES, "c") if name in data]
         samples = [validation.real_array(name, data[name]) for name in named]
         return cls(*samples, period=period, harmonics=harmonics, degree=degree)
+
+
+def _per_cent(share: float) -> str:
+    return f"{100 * share:.2g} %" if share < 0.99 else f"{100 * share:.0f} %"
 
 
 def _chosen_basis(data: Samples, period: float, wanted: tuple[int | None, ...]) -> Basis:
