@@ -48,6 +48,7 @@ figures: $(STAMP)
 	$(RUN) -m figures.draw.cost $(FIGURE_OUT)
 	$(RUN) -m figures.draw.regimes $(FIGURE_OUT)
 	$(RUN) -m figures.draw.excitable $(FIGURE_OUT)
+	$(RUN) -m figures.draw.fig4 $(FIGURE_OUT)
 	$(RUN) -m figures.draw.readme_movie $(FIGURE_OUT)
 
 test: $(STAMP)
@@ -71,6 +72,9 @@ bench-shell: $(STAMP)
 
 # Hours; goes on where its table ends.
 gaits: $(STAMP)
+	$(RUN) -m figures.measure.gait_map --friction viscous
+	$(RUN) -m figures.measure.gait_map --friction dry
+	$(RUN) -m figures.draw.gait_page
 	$(RUN) -m figures.measure.gaits
 
 bench-threads: $(STAMP)

@@ -21,8 +21,8 @@ from fem_check.answer.block import block
 from fem_check.choice.levels import LEVELS
 from fem_check.choice.prediction import METHODS, predict
 from fem_check.command import BAD_ARGUMENTS, CLOSED_PIPE, INTERRUPTED, MET, MISSED, main, screens
+from fem_check.command.actions.speed import HINTS
 from fem_check.command.options import Options
-from fem_check.command.speed import HINTS
 from fem_check.command.waiting import PATIENCE, Waiting
 from linear_theory import Sheet, SineWave, TravellingWave, pulse_wave
 from linear_theory.common.progress import Progress
@@ -225,7 +225,7 @@ def test_ctrl_c_is_one_line(monkeypatch, capsys):
     def interrupted(*arguments, **options):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("fem_check.command.speed.predict", interrupted)
+    monkeypatch.setattr("fem_check.command.actions.speed.predict", interrupted)
     status, out, err = run(capsys, "--alpha", "0.1")
     told = "sheetcrawl: interrupted; no partial result was kept, run the command again\n"
     assert (status, out, err) == (INTERRUPTED, "", told)
@@ -234,7 +234,7 @@ def test_ctrl_c_is_one_line(monkeypatch, capsys):
 def test_a_signal_ends_the_program_with_one_line():
     """The signal is sent as soon as the level that takes minutes has begun."""
     code = (
-        "import sys, fem_check.command.speed as c; asked = c.asked\n"
+        "import sys, fem_check.command.actions.speed as c; asked = c.asked\n"
         "def told(options): print('begun', file=sys.stderr, flush=True); return asked(options)\n"
         "from fem_check.command import main\n"
         "c.asked = told; main(['--alpha', '0.3', '--rtol', '1e-9'])"
@@ -428,7 +428,7 @@ def test_a_start_without_work_loads_no_library_of_numbers():
 
 
 def test_a_file_that_cannot_be_written_is_found_out_before_the_work(capsys, tmp_path, monkeypatch):
-    monkeypatch.setattr("fem_check.command.speed.predict", None)  # would be a TypeError
+    monkeypatch.setattr("fem_check.command.actions.speed.predict", None)  # would be a TypeError
     (tmp_path / "file").touch()
     for option, name in (("--plot", "a.png"), ("--movie", "a.gif")):
         path = tmp_path / "file" / name
@@ -439,7 +439,7 @@ def test_a_file_that_cannot_be_written_is_found_out_before_the_work(capsys, tmp_
 
 
 def test_a_movie_without_an_encoder_is_found_out_before_the_work(capsys, tmp_path, monkeypatch):
-    monkeypatch.setattr("fem_check.command.speed.predict", None)
+    monkeypatch.setattr("fem_check.command.actions.speed.predict", None)
     monkeypatch.setitem(sys.modules, "imageio_ffmpeg", None)
     status, out, err = run(capsys, *SPEED, "--movie", str(tmp_path / "a.mp4"))
     assert (status, out, err.count("\n")) == (BAD_ARGUMENTS, "", 1)

@@ -219,8 +219,11 @@ def test_good_meshes_are_accepted() -> None:
 
 def test_the_default_mesh_is_bounded() -> None:
     """A strip a millionth as wide as long has elements as long as growth asks for."""
-    assert default_cells(SineWave().on(Sheet(width=1e-6)), True) == (2, 256)
+    assert default_cells(SineWave().on(Sheet(width=1e-6)), True) == (2, 24)
+    assert default_cells(SineWave().on(Sheet(width=1e-6)), False) == (6, 256)
     assert default_cells(SineWave().on(Sheet()), True) == (2, 4)
+    assert default_cells(SineWave().on(Sheet(width=5.0)), True) == (10, 4)
+    assert default_cells(SineWave().on(Sheet(width=1e6)), True) == (64, 4)
     with pytest.raises(ValueError, match=r"cells = \(2, 400000\): makes 800000 elements"):
         default_cells(SineWave(100_000).on(Sheet()), True)
     for cells, words in (

@@ -12,7 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from fem_check import Bending, Gravity, Ground, Material, Membrane, Scene, bilayer
-from fem_check.command.sweep import example
+from fem_check.command.actions.sweep import example
 from fem_check.files import RunSettings, SceneFileError
 from fem_check.files.tables import TABLES
 from fem_check.sweeps import Between, Grid, LatinHypercube, Paired, Plan, Random

@@ -30,6 +30,7 @@ TRAJECTORY_UNITS = {
     "linear": "1",
     "iterations": "1",
     "buckled": "1",
+    "snapped": "1",
 }
 
 

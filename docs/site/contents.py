@@ -51,6 +51,7 @@ REFERENCE = {
     "conventions": "Conventions",
     "equations": "Equations of the paper",
     "hard_cases": "Hard cases",
+    "gaits": "The paper's gaits",
     "sweeps": "Sweeps: kills and overhead",
 }
 

@@ -1,6 +1,7 @@
 """Markdown to HTML: headings with anchors, links into the site, names of the code to the API."""
 
 import importlib
+import inspect
 import re
 from collections.abc import Callable, MutableMapping, Sequence
 from html import escape
@@ -76,6 +77,8 @@ def _own(module: Any, name: str) -> bool:
     value = module
     for part in name.split("."):
         fields = getattr(value, "__dataclass_fields__", {})  # those without default are no attributes
+        if isinstance(value, type) and part not in {*vars(value), *inspect.get_annotations(value)}:
+            return False  # inherited, and documented there
         value = getattr(value, part, fields.get(part))
     listed = getattr(module, "__all__", None)
     return value is not None and bool(listed or getattr(value, "__module__", "") == module.__name__)

@@ -54,7 +54,7 @@ SceneArgument = Annotated[
 def _speed(
     scene: SceneArgument = None, /, *, options: Annotated[Options | None, Parameter(name="*")] = None
 ) -> int:
-    from fem_check.command.speed import speed
+    from fem_check.command.actions.speed import speed
 
     return speed(options or Options(), scene)
 
@@ -70,14 +70,14 @@ def _run(
     out: Annotated[Path | None, Parameter(help="The folder; NAME here unless given.")] = None,
     resume: Annotated[bool, Parameter(help="Go on from an interrupted run in the folder.")] = False,
 ) -> int:
-    from fem_check.command.runs import run
+    from fem_check.command.actions.runs import run
 
     return run(scene, out, resume)
 
 
 @app.command(name="show", help=SHOW_HELP)
 def _show(folder: FolderArgument, /) -> int:
-    from fem_check.command.runs import show
+    from fem_check.command.actions.runs import show
 
     return show(folder)
 
@@ -93,7 +93,7 @@ def _movie(
     width: Annotated[int, Parameter(help="In pixels.")] = 640,
     exaggerate: Annotated[float, Parameter(help="Factor on the displacement in the sheet.")] = 1.0,
 ) -> int:
-    from fem_check.command.runs import movie
+    from fem_check.command.actions.runs import movie
 
     return movie(folder, file, periods, frames, width, exaggerate)
 
@@ -108,7 +108,7 @@ def _plot(
         str, Parameter(help="In that file: motion, kymographs, or one panel, such as speed or path.")
     ] = "motion",
 ) -> int:
-    from fem_check.command.runs import plot
+    from fem_check.command.actions.runs import plot
 
     return plot(folder, file, what)
 
@@ -120,7 +120,7 @@ def _paraview(
     *,
     file: Annotated[Path | None, Parameter(help="motion.xdmf in the folder unless given.")] = None,
 ) -> int:
-    from fem_check.command.runs import paraview
+    from fem_check.command.actions.runs import paraview
 
     return paraview(folder, file)
 
@@ -133,14 +133,14 @@ def _new(
     *,
     show: Annotated[bool, Parameter(name="--list", help="List the names, write nothing.")] = False,
 ) -> int:
-    from fem_check.command.scene_files import new
+    from fem_check.command.actions.scene_files import new
 
     return new(None if show else name, file)
 
 
 @app.command(name="check", help=CHECK_HELP)
 def _check(scene: Annotated[Path, Parameter(help="A scene file.")], /) -> int:
-    from fem_check.command.scene_files import check
+    from fem_check.command.actions.scene_files import check
 
     return check(scene)
 
@@ -149,7 +149,7 @@ def _check(scene: Annotated[Path, Parameter(help="A scene file.")], /) -> int:
 def _schema(
     *, sweep: Annotated[bool, Parameter(help="Of sweep files instead of scene files.")] = False
 ) -> int:
-    from fem_check.command.scene_files import schema
+    from fem_check.command.actions.scene_files import schema
 
     return schema(sweep)
 
@@ -175,7 +175,7 @@ def _sweep(
     ] = None,
     retry: Annotated[bool, Parameter(help="Try scenes again that have failed.")] = False,
 ) -> int:
-    from fem_check.command.sweep import sweep
+    from fem_check.command.actions.sweep import sweep
 
     return sweep(file, out, workers, scheduler, dry_run, export or [], retry)
 
@@ -188,7 +188,7 @@ def _explore(
     ] = None,
     no_browser: Annotated[bool, Parameter(help="Print the address only.")] = False,
 ) -> int:
-    from fem_check.command.explore import explore
+    from fem_check.command.actions.explore import explore
 
     return explore(port, not no_browser)
 

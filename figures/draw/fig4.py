@@ -17,41 +17,40 @@ from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
 from figures.common import style
-from figures.measure.gait_map import BACKWARD, FORWARD, FRICTIONS, LARGEST, READINGS, TABLE, Row
+from figures.measure.gait_map import BACKWARD, FORWARD, FRICTIONS, LARGEST, READINGS, TABLE, Row, axes
 
 Array = NDArray[np.float64]
 
-FEWEST = 9
-"""Points of a map worth a panel."""
+FEWEST = 60
+"""Gaits of a law of friction that are worth a panel."""
 
 COLOURS = {"printed": "black", "thickness": "#009E73", "hundred": "#CC79A7"}
 
 
-def grid(rows: Sequence[Row]) -> tuple[Array, Array, Array, Array]:
-    """alpha (n,), kappa (m,), V of the third cycle and whether the sheet crosses itself, (m, n)."""
-    inner = [r for r in rows if abs(r.alpha) <= LARGEST[0] and abs(r.kappa) <= LARGEST[1]]
-    counts = {a: sum(r.alpha == a for r in inner) for a in {r.alpha for r in inner}}
-    kappas = sorted({r.kappa for r in inner if counts[r.alpha] == max(counts.values())})
-    alphas = sorted(a for a, count in counts.items() if count == max(counts.values()))
-    known = {(r.alpha, r.kappa): r for r in inner}
-    speed, crossed = (np.full((len(kappas), len(alphas)), np.nan) for _ in range(2))
-    for i, kappa in enumerate(kappas):
-        for j, alpha in enumerate(alphas):
+def grid(rows: Sequence[Row], alphas: Array, kappas: Array) -> tuple[Array, Array]:
+    """V of the third cycle and the number of states in which the sheet crosses itself.
+
+    Both (kappas, alphas), NaN for gaits that the table lacks.
+    """
+    known = {(r.alpha, r.kappa): r for r in rows}
+    speed, crossed = (np.full((kappas.size, alphas.size), np.nan) for _ in range(2))
+    for i, kappa in enumerate(kappas.tolist()):
+        for j, alpha in enumerate(alphas.tolist()):
             found = known.get((alpha, kappa))
             if found is not None:
                 speed[i, j], crossed[i, j] = found.third, found.crossed
-    return np.array(alphas), np.array(kappas), speed, crossed
+    return speed, crossed
 
 
 def draw_map(ax: Axes, rows: Sequence[Row], most: float) -> Any:
     """One panel; its image."""
-    alphas, kappas, speed, crossed = grid(rows)
+    alphas, kappas = axes()
+    speed, crossed = grid(rows, alphas, kappas)
     ax.set_facecolor("0.8")
     image = ax.pcolormesh(
         alphas, kappas, speed, cmap="RdBu_r", vmin=-most, vmax=most, shading="nearest"
     )
-    if np.isfinite(speed).sum() > FEWEST:
-        ax.contour(alphas, kappas, speed, [0.0], colors="black", linewidths=0.8)
+    ax.contour(alphas, kappas, speed, [0.0], colors="black", linewidths=0.8)
     y, x = np.nonzero(crossed > 0)
     ax.plot(alphas[x], kappas[y], ".", color="0.25", markersize=2)
     line = np.array([-1.0, 1.0]) * LARGEST[1] / 100
@@ -69,16 +68,16 @@ def main(arguments: Sequence[str] | None = None) -> None:
     """Draw and write the figure."""
     options = style.options("fig4", __doc__, arguments)
     rows = TABLE.read(TABLE.path)
-    laws = [law for law in FRICTIONS if sum(r.friction == law for r in rows) > 60]
+    laws = [law for law in FRICTIONS if sum(r.friction == law for r in rows) > FEWEST]
     fig = style.figure(style.COLUMN_CM * len(laws), 7.0)
-    axes = fig.subplots(1, len(laws), sharey=True, squeeze=False)[0]
+    panels = fig.subplots(1, len(laws), sharey=True, squeeze=False)[0]
     shown = [r for r in rows if abs(r.kappa) <= LARGEST[1] and r.friction in laws]
     most = float(np.nanpercentile([abs(r.third) for r in shown], 95))
-    for ax, law in zip(axes, laws, strict=True):
+    for ax, law in zip(panels, laws, strict=True):
         image = draw_map(ax, [r for r in shown if r.friction == law], most)
         ax.set_title(f"{law} friction", loc="left")
-    axes[0].set_ylabel(r"rest curvature $\kappa L$ per $c$")
-    fig.colorbar(image, ax=list(axes), label="$V$ ($L$ a cycle)", extend="both")
+    panels[0].set_ylabel(r"rest curvature $\kappa L$ per $c$")
+    fig.colorbar(image, ax=list(panels), label="$V$ ($L$ a cycle)", extend="both")
     for path in style.save(fig, "fig4", options.out, tuple(options.formats)):
         print(path)
 

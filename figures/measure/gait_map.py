@@ -17,6 +17,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from fem_check import (
     Bending,
@@ -105,8 +106,18 @@ def places(points: int) -> Iterator[tuple[float, float]]:
         yield from ((alpha, beta * factor) for factor in READINGS.values())
     for alpha in BILAYER:
         yield from ((a, k * 100 * alpha) for a in (-alpha, alpha) for k in (-1, 1))
-    alphas, kappas = (np.linspace(-most, most, points) for most in LARGEST)
+    alphas, kappas = axes(points)
     yield from ((float(a), float(k)) for a in alphas for k in kappas)
+
+
+def axes(points: int = POINTS) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """alpha and kappa of the grid, as the table has them."""
+    alphas, kappas = (np.linspace(-most, most, points) for most in LARGEST)
+    return np.array([_kept(a) for a in alphas]), np.array([_kept(k) for k in kappas])
+
+
+def _kept(value: float) -> float:
+    return float(f"{value:.{DIGITS}g}")
 
 
 def row(alpha: float, kappa: float, friction: str) -> Row:
@@ -135,7 +146,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     )
     rows = TABLE.read(options.out) if options.out.exists() else []
     known = {(r.alpha, r.kappa, r.friction) for r in rows}
-    wanted = dict.fromkeys((float(f"{a:.4g}"), float(f"{k:.4g}")) for a, k in places(options.points))
+    wanted = dict.fromkeys((_kept(a), _kept(k)) for a, k in places(options.points))
     left = [(a, k) for a, k in wanted if (a, k, options.friction) not in known]
     for alpha, kappa in tracked("gaits", left):
         rows.append(row(alpha, kappa, options.friction))

@@ -5,7 +5,7 @@ import sys
 import warnings
 from pathlib import Path
 
-from fem_check.command.scenes import SUFFIX
+from fem_check.command.actions.scenes import SUFFIX
 from fem_check.command.status import MET, MISSED
 from fem_check.command.text import printable
 from fem_check.command.waiting import Waiting

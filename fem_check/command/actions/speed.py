@@ -11,10 +11,10 @@ from fem_check.answer.block import block, why
 from fem_check.answer.record import record
 from fem_check.answer.units import Units
 from fem_check.choice.prediction import Prediction, predict
+from fem_check.command.actions.scenes import answered, asked_by_file
 from fem_check.command.files import check_files
 from fem_check.command.options import Options
 from fem_check.command.quantities import Asked, asked
-from fem_check.command.scenes import answered, asked_by_file
 from fem_check.command.status import MET, MISSED
 from fem_check.command.text import printable
 from fem_check.command.waiting import Waiting

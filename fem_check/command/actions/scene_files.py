@@ -38,7 +38,7 @@ def new(name: str | None, path: Path | None) -> int:
     if not target.parent.exists():
         raise ValueError(f"{target}: must be in a folder that is there, {str(target.parent)!r} is not")
     if name == SWEEP:
-        from fem_check.command.sweep import example
+        from fem_check.command.actions.sweep import example
 
         _write_all({target: example()}, name)
         print(f"{target} written; next: sheetcrawl sweep {target} --dry-run")

@@ -1,0 +1,142 @@
+"""The page on the gaits of the seed paper, docs/gaits.md, from the table of `figures.measure.gait_map`.
+
+python -m figures.draw.gait_page [--out FILE]
+"""
+
+import math
+from collections.abc import Callable, Iterator, Sequence
+from pathlib import Path
+
+from figures.common.command import parser
+from figures.common.output import replacing
+from figures.measure.gait_map import BACKWARD, BILAYER, FORWARD, FRICTIONS, READINGS, TABLE, Row
+
+ROOT = Path(__file__).parents[2]
+PAGE = ROOT / "docs" / "gaits.md"
+COMMAND = "python -m figures.draw.gait_page"
+
+SAME = 1e-3
+"""V of the second and the third cycle that differ by less, L a cycle, have one sign or none."""
+
+HEAD = """# What of the paper's gaits holds
+
+Made by `python -m figures.draw.gait_page` from figures/data/gait_map.csv, which `python -m
+figures.measure.gait_map` makes: 4 to 30 s of one core for each gait.
+
+Section 3.2 of the seed paper drives a sheet that bends by the waves of eq. 12 and maps its speed
+over alpha and beta. Three of its numbers leave open what was computed, so that every reading is run
+by name:
+
+* **The wave.** With the printed numbers eq. 12 has no travelling wave of order one on the sheet.
+  The threshold −0.1 has one, for twenty cycles: the preset "nu = -0.1"
+  ([waves](howto/own_wave.md)). Its second and third cycle count here.
+* **Friction.** With the printed v0 = 1 and a cycle of 42 units of time, friction is *viscous*;
+  *dry* here has v0 = 0.02 L a cycle.
+* **beta.** Rest curvature kappa c with kappa = beta ("printed"), beta/h ("thickness") or 100 beta
+  ("hundred").
+
+The ground is the printed one, 4 × 8 elements, 64 steps a cycle, no inertia. V is in L a cycle,
+positive along the wave, of the third cycle; where the second one has another sign, both are given.
+*crosses*: the sheet passes through itself at some time, which no real sheet does.
+
+"""
+
+TAIL = """## The map
+
+![Speed over growth coupling and rest curvature](../figures/gallery/fig4.png)
+
+Colours: V in L a cycle. Line: V = 0. Dots: the sheet crosses itself. Dashed: the two lines of two
+equal layers, kappa = ±100 alpha. Symbols: the paper's two gaits, in the reading of their colour.
+
+## What has not been run
+
+Trapezoids (fig. 5), terrain (fig. 6), a ground that is stiff, and meshes finer than 4 × 8. How sure
+such speeds are: [sheets that bend](howto/bending.md).
+"""
+
+
+def page(rows: Sequence[Row]) -> str:
+    """Its text."""
+    known = {(r.alpha, r.kappa, r.friction): r for r in rows}
+
+    def found(alpha: float, kappa: float, friction: str) -> Row | None:
+        return known.get((float(f"{alpha:.4g}"), float(f"{kappa:.4g}"), friction))
+
+    return "\n".join([HEAD + "\n".join(_gaits(found)), *_bilayers(found), TAIL])
+
+
+Found = Callable[[float, float, str], Row | None]
+
+
+def _gaits(found: Found) -> Iterator[str]:
+    yield "## The two gaits\n"
+    yield "The paper: (alpha, beta) = (−0.25, −0.15) runs against the wave, (−0.3, 0.1) along it.\n"
+    yield "| reading of beta | friction | (−0.25, −0.15) | (−0.3, 0.1) | as the paper says |"
+    yield "| --- | --- | --- | --- | --- |"
+    for reading, factor in READINGS.items():
+        for law in FRICTIONS:
+            rows = [found(alpha, beta * factor, law) for alpha, beta in (BACKWARD, FORWARD)]
+            signs = [sign(row) for row in rows]
+            holds = "yes" if signs == [-1, 1] else "no"
+            if holds == "yes" and any(row and row.crossed for row in rows):
+                holds = "only where it crosses itself"
+            yield f"| {reading} | {law} | {' | '.join(map(told, rows))} | {holds} |"
+    yield ""
+
+
+def _bilayers(found: Found) -> Iterator[str]:
+    yield "## Two layers, one of which grows\n"
+    yield "The paper: on both lines beta = ±100 alpha (kappa in 1/L) the sheet runs along the wave.\n"
+    yield "| friction | line | " + " | ".join(f"alpha = {sign_of(a)}" for a in _alphas()) + " |"
+    yield "| --- " * (2 + len(_alphas())) + "|"
+    for law in FRICTIONS:
+        for way in (1, -1):
+            cells = [told(found(a, way * 100 * a, law)) for a in _alphas()]
+            yield f"| {law} | kappa = {'+' if way > 0 else '−'}100 alpha | {' | '.join(cells)} |"
+    yield ""
+    yield (
+        "The layer that grows being the upper or the lower one is the sign of the line; expansion\n"
+        "or contraction is the sign of alpha. Under viscous friction V has one sign on each line for\n"
+        "small alpha: a saddle. The statement holds on the line kappa = −100 alpha and fails on the\n"
+        "other one.\n"
+    )
+
+
+def _alphas() -> list[float]:
+    return [*(-a for a in reversed(BILAYER)), *BILAYER]
+
+
+def sign(row: Row | None) -> int:
+    """1 or -1 if both cycles agree, 0 otherwise."""
+    if row is None or math.isnan(row.third):
+        return 0
+    signs = {math.copysign(1, v) for v in (row.second, row.third) if abs(v) > SAME}
+    return int(signs.pop()) if len(signs) == 1 else 0
+
+
+def told(row: Row | None) -> str:
+    """V in a cell of a table."""
+    if row is None:
+        return "not run"
+    if math.isnan(row.third):
+        return "stopped"
+    values = [row.third] if row.second * row.third > 0 else [row.second, row.third]
+    crossed = ", crosses" if row.crossed else ""
+    return " then ".join(map(sign_of, values)) + crossed
+
+
+def sign_of(value: float) -> str:
+    """A number with its sign, to two digits."""
+    return f"{value:+.2g}".replace("-", "\N{MINUS SIGN}")
+
+
+def main(arguments: Sequence[str] | None = None) -> None:
+    """Write the page."""
+    options = parser(COMMAND, __doc__, PAGE).parse_args(arguments)
+    with replacing(options.out) as part:
+        part.write_text(page(TABLE.read()), encoding="utf-8")
+    print(options.out)
+
+
+if __name__ == "__main__":
+    main()
