@@ -1,7 +1,7 @@
 # Every target does its own set-up; a fresh machine needs only make and Python >= 3.11.
 #
 #   make figures   all figures and the film of the README (options: OUT=folder RTOL=1e-6): a minute
-#   make test      lint, types, tests: six minutes
+#   make test      lint, types, tests: ten minutes on two cores
 #   make test-browser  the pages in a real browser (Debian: chromium, chromium-driver): a minute
 #   make paper     the write-up as a PDF, paper/out/sheetcrawl.pdf, with its figures
 #   make docs      the documentation as one site, build/docs/index.html: a minute
@@ -9,6 +9,7 @@
 #   make bench-threads  times beside a busy core against one BLAS thread
 #   make bench-shell  time and memory of the sheet that bends
 #   make tables    every table that the figures, the paper and predict() read: half an hour
+#   make gaits     bending gaits: the map of figure 4, an hour, and 300 at random, hours
 #   make lock      rewrite requirements.lock after a change of dependencies
 #   make clean     remove figures and caches; `make distclean` also the environment
 #

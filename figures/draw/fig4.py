@@ -14,6 +14,7 @@ from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.lines import Line2D
 from numpy.typing import NDArray
 
 from figures.common import style
@@ -77,6 +78,10 @@ def main(arguments: Sequence[str] | None = None) -> None:
         image = draw_map(ax, [r for r in shown if r.friction == law], most)
         ax.set_title(f"{law} friction", loc="left")
     panels[0].set_ylabel(r"rest curvature $\kappa L$ per $c$")
+    names = {"printed": r"$\beta$", "thickness": r"$\beta/h$", "hundred": r"$100\,\beta$"}
+    marks = [Line2D([], [], marker=">", ls="", mec="white", ms=6, color=COLOURS[r]) for r in READINGS]
+    labels = [rf"$\kappa L$ = {names[r]}" for r in READINGS]
+    fig.legend(marks, labels, loc="outside lower center", ncols=3, handletextpad=0.1)
     fig.colorbar(image, ax=list(panels), label="$V$ ($L$ a cycle)", extend="both")
     for path in style.save(fig, "fig4", options.out, tuple(options.formats)):
         print(path)
