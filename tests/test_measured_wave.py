@@ -201,7 +201,7 @@ class TestErrorOfSpeeds:
         a, b = line_balance(one, 0.25, length=1.0), line_balance(scaled, 0.25, length=20.0)
         assert b.mean == pytest.approx(20 / 3 * a.mean, rel=1e-3)
         assert b.wave_error == pytest.approx(
-            20 / 3 * a.wave_error, rel=1e-2
+            20 / 3 * a.wave_error, rel=1e-6
         )  # of two neighbours as near, either
 
     def test_all_components_of_a_wave_that_depends_on_x(self):

@@ -8,8 +8,10 @@ import subprocess
 import sys
 import time
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
+import numpy as np
 import pytest
 
 from fem_check import Friction, Gravity, Inertia, Material, Membrane, cycle_speed, predict, simulate
@@ -370,6 +372,29 @@ def test_ways_answer_as_they_do_alone() -> None:
     assert not motion.snaps
     assert "not estimated: error of the mesh" in " ".join(block(stepped).split())
     assert "CAUTION" not in block(stepped)
+
+
+@pytest.mark.parametrize(
+    ("crossed", "snaps", "error", "said"),
+    [
+        (np.array([False, True]), True, np.nan, "the sheet passes through itself"),
+        (None, True, np.nan, "depends on the steps: the error is a lower bound"),
+        (np.array([False]), True, 0.1, "the sheet snaps over in the last period"),
+        (None, False, 0.0, ""),
+    ],
+)
+def test_what_is_wrong_with_a_motion_is_a_caution(crossed, snaps, error, said) -> None:  # type: ignore[no-untyped-def]
+    motion = SimpleNamespace(
+        crossed=crossed,
+        snaps=snaps,
+        errors=SimpleNamespace(snaps=error, spread=0.0),
+        scene=Scene(Sheet(), SineWave(), 0.1),
+        speed=SimpleNamespace(mean=1.0),
+    )
+    found = ways._caution(motion)  # type: ignore[arg-type]
+    assert said in found
+    assert bool(found) == bool(said)
+    assert ("lower bound" in found) == (snaps and crossed is None)
 
 
 @pytest.mark.parametrize("name", ["inchworm", "paper", "bumpy"])

@@ -33,6 +33,9 @@ CHANCE = 2.0
 MOST_OF = 0.5
 """Share of the variance in time."""
 
+PLACES = 9
+"""Decimals of phases and places between which neighbours are looked for."""
+
 EXACT = 1e-12
 """Noise over the size of c that is roundoff."""
 
@@ -113,7 +116,8 @@ def _nearest(samples: Samples, basis: Basis) -> NDArray[np.intp]:
     places = [np.cos(angle) / (2 * np.pi), np.sin(angle) / (2 * np.pi), samples.y / np.ptp(basis.along)]
     if samples.x is not None:
         places.append(samples.x / np.ptp(basis.across))
-    points = np.stack(places, axis=1)
+    # Rounding in other units must not tell which of two equally near samples is taken.
+    points = np.round(np.stack(places, axis=1), PLACES)
     near = cKDTree(points).query(points, k=2)[1]
     itself = near[:, 0] == np.arange(samples.size)  # of equal places any one comes first
     return np.where(itself, near[:, 1], near[:, 0])
