@@ -1,6 +1,8 @@
 """Snap-through: the load that a step holds fixed, restrained steps, schemes, random bending gaits."""
 
 import itertools
+import math
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -12,6 +14,7 @@ from fem_check.shell.stepping.lagged import Mixing, change
 from fem_check.shell.stepping.schemes import History
 from fem_check.shell.stepping.snapping import RELEASED, SHORTENED, STIFFEST, Snap
 from fem_check.shell.stepping.step_control import JUMP, StepSize
+from figures.measure import schemes
 from figures.measure.gaits import FRICTIONS, GROUNDS, RTOL, TABLE, WAVES, gait, tried
 from tests.shell_scenes import MATERIAL, planar
 
@@ -212,3 +215,17 @@ def test_no_random_gait_ends_without_a_word() -> None:
         if row.outcome == "converged":
             assert row.error <= RTOL * abs(row.speed)
             assert row.crossed == 0
+
+
+def test_the_page_has_the_speeds_of_the_table() -> None:
+    """docs/howto/bending.md against figures/data/schemes.csv."""
+    text = (Path(__file__).parents[1] / "docs" / "howto" / "bending.md").read_text(encoding="utf-8")
+    cells: dict[str, list[str]] = {}
+    for found in schemes.TABLE.read():
+        sign = "+" if found.sheet == "snapping" else ""
+        fixed = found.scheme == "Newmark, 5e-3"
+        told = f"{found.speed:.4f}" if fixed else f"{found.speed:{sign}.3f} ± {found.error:.3f}"
+        told = "stops" if math.isnan(found.speed) else told.replace("-", "\N{MINUS SIGN}")
+        cells.setdefault(found.sheet, []).append(told)
+    for row in cells.values():
+        assert "| " + " | ".join(row) in text
