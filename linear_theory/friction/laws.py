@@ -95,6 +95,8 @@ class Tanh(Isotropic):
         away."""
         s = self._argument(r)
         near = np.log1p(2 * np.sinh(np.minimum(s, 1) / 2) ** 2)
+        if s.max(initial=0) < 1:
+            return np.asarray(self.width * near)
         far = np.log1p(self._decay(r)) - math.log(2)
         return np.asarray(np.where(s < 1, self.width * near, r + self.width * far))
 

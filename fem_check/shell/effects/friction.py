@@ -9,13 +9,13 @@ from numpy.typing import NDArray
 from fem_check.shell.effects.effect import Effect
 from fem_check.shell.effects.gravity import Gravity
 from fem_check.shell.effects.koiter import Membrane
-from fem_check.shell.kinematics.point_state import PointState, dot
+from fem_check.shell.kinematics.point_state import PointState, dot, once_per_state
 from fem_check.shell.kinematics.rates import Step
 from fem_check.shell.kinematics.region import Entries
 from linear_theory.common import validation
 from linear_theory.common.pairs import outer, pairs_among, product
 from linear_theory.common.shown import Value
-from linear_theory.friction.law import FrictionLaw
+from linear_theory.friction.law import FrictionLaw, Response
 from linear_theory.friction.laws import Tanh, checked_law, friction_law
 from linear_theory.scene.scene import Scene
 
@@ -92,28 +92,36 @@ class Friction(Value, Effect):
 
     def force(self, state: PointState) -> Array:
         """Force of the ground on each point, (components, points)."""
-        velocity, limit = self.velocity(state), self._limit(state)
-        if _is_level(state):  # the law in the plane costs half of that in space
-            return _along(state, -limit * self.law.force(velocity[:2]))
-        return -limit * _along(state, self.law.force(velocity))
+        return -self.gradient(state)[0]
 
     def energy(self, state: PointState) -> Array:
         """See Effect. Time step times dissipation potential."""
         scale = self._limit(state) / state.step.moving.rate
-        velocity = self.velocity(state)
-        return np.asarray(scale * self.law.potential(velocity[:2] if _is_level(state) else velocity))
+        return np.asarray(scale * self.law.potential(self._met(state).v))
 
     def gradient(self, state: PointState) -> Array:
         """See Effect."""
-        return -self.force(state)[None]
+        limit, force = self._limit(state), self._met(state).force
+        if not _is_level(state):
+            return np.asarray(limit * _along(state, force))[None]
+        out = np.zeros((1, 3, limit.size))
+        np.multiply(limit, force, out=out[0, :2])
+        return out
 
     def hessian(self, state: PointState) -> Array:
         """See Effect."""
-        scale = self._limit(state) * state.step.moving.rate
-        velocity = self.velocity(state)
+        scale, tangent = self._limit(state) * state.step.moving.rate, self._met(state).tangent
         if _is_level(state):
-            return _spread(scale * self.law.tangent(velocity[:2]))[None, None]
-        return np.asarray(scale * _tangent_along(state, self.law.tangent(velocity)))[None, None]
+            return _spread(scale * tangent)[None, None]
+        return np.asarray(scale * _tangent_along(state, tangent))[None, None]
+
+    @once_per_state
+    def _met(self, state: PointState) -> Response:
+        """The law at the velocities; on level ground at those in the plane, at half the cost."""
+        if not _is_level(state):
+            return self.law.at(self.velocity(state))
+        rule = state.step.moving
+        return self.law.at(rule.rate * (state.position[:2] - rule.base[:2]))
 
     def _limit(self, state: PointState) -> Array:
         """mu N, (points,)."""

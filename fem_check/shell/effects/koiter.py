@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fem_check.shell.effects.effect import Effect
-from fem_check.shell.kinematics.point_state import PointState, dot
+from fem_check.shell.kinematics.point_state import PointState, dot, once_per_state
 from fem_check.shell.kinematics.rates import Step
 from fem_check.shell.kinematics.region import Entries
 from fem_check.shell.material import Material, check_materials
@@ -36,9 +36,15 @@ _ENGINEERING = np.array([1.0, 1.0, 2.0])[:, None]
 
 def _apply(tensor: Array, strain: Array) -> Array:
     """H : e of (3, 3, points) and covariant (3, points)."""
-    return np.asarray(
-        tensor[:, 0] * strain[0] + tensor[:, 1] * strain[1] + tensor[:, 2] * (2 * strain[2])
-    )
+    out = tensor[:, 0] * strain[0]
+    out += tensor[:, 1] * strain[1]
+    out += tensor[:, 2] * (2 * strain[2])
+    return np.asarray(out)
+
+
+def _contracted(stress: Array, strain: Array) -> Array:
+    """stress : strain of symmetric tensors (3, points)."""
+    return np.asarray(stress[0] * strain[0] + stress[1] * strain[1] + 2 * stress[2] * strain[2])
 
 
 @dataclass(frozen=True)
@@ -54,10 +60,12 @@ class Membrane(Value, Effect):
     def __post_init__(self) -> None:
         validation.instance("material", self.material, Material)
 
+    @once_per_state
     def strain(self, state: PointState) -> Array:
         """alpha = (a - abar)/2, (3, points), covariant."""
         return np.asarray((state.metric - state.rest.abar) / 2)
 
+    @once_per_state
     def stress(self, state: PointState) -> Array:
         """n^ab = K H alpha of appendix A.2, (3, points), contravariant, times the measure."""
         tensor = state.rest.elastic_tensor(self.material.poisson)
@@ -65,13 +73,16 @@ class Membrane(Value, Effect):
 
     def energy(self, state: PointState) -> Array:
         """See Effect."""
-        return np.asarray((self.stress(state) * self.strain(state) * _ENGINEERING).sum(0) / 2)
+        return _contracted(self.stress(state), self.strain(state)) / 2
 
     def gradient(self, state: PointState) -> Array:
         """See Effect."""
         n11, n22, n12 = self.stress(state)
         first, second = state.tangents
-        return np.stack([n11 * first + n12 * second, n12 * first + n22 * second])
+        out = n12 * state.tangents[::-1]
+        out[0] += n11 * first
+        out[1] += n22 * second
+        return np.asarray(out)
 
     def hessian(self, state: PointState) -> Array:
         """See Effect."""
@@ -115,16 +126,20 @@ class Bending(Value, Effect):
     def __post_init__(self) -> None:
         validation.instance("material", self.material, Material)
 
+    @once_per_state
+    def change(self, state: PointState) -> Array:
+        """b - bbar, (3, points), covariant."""
+        return np.asarray(state.curvature - state.rest.bbar)
+
+    @once_per_state
     def moment(self, state: PointState) -> Array:
         """-m^ab of appendix A.2, D H (b - bbar), (3, points), contravariant, times the measure."""
         tensor = state.rest.elastic_tensor(self.material.poisson)
-        change = state.curvature - state.rest.bbar
-        return self.material.bending * state.rest.measure * _apply(tensor, change)
+        return self.material.bending * state.rest.measure * _apply(tensor, self.change(state))
 
     def energy(self, state: PointState) -> Array:
         """See Effect."""
-        change = state.curvature - state.rest.bbar
-        return np.asarray((self.moment(state) * change * _ENGINEERING).sum(0) / 2)
+        return _contracted(self.moment(state), self.change(state)) / 2
 
     def gradient(self, state: PointState) -> Array:
         """See Effect."""
@@ -141,9 +156,15 @@ class Bending(Value, Effect):
 
     def _weights(self, state: PointState) -> Array:
         """m^ab d_ab as coefficients of the entries (_1, _2, _11, _22, _12), (5, points)."""
-        moment = self.moment(state) * _ENGINEERING
-        christoffel = state.christoffel
-        return np.concatenate([-(christoffel * moment).sum(1), moment])
+        out = np.empty((5, state.measure.size))
+        out[2:] = self.moment(state)
+        out[4] *= 2
+        first, second, mixed = state.second
+        bent = out[2] * first
+        bent += out[3] * second
+        bent += out[4] * mixed
+        out[:2] = -dot(state.dual, bent[None])
+        return out
 
     def _scalar(self, state: PointState) -> Array:
         """Factor of n_c n_d in the Hessian, (5, 5, points)."""

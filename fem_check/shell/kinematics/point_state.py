@@ -4,7 +4,10 @@ All quantities are computed on first use: effects that a scene does not name cos
 Points are the last axis, so that every operation runs over contiguous memory.
 """
 
-from functools import cached_property
+from collections.abc import Callable
+from copy import copy
+from functools import cached_property, wraps
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,6 +18,24 @@ from fem_check.shell.kinematics.rest_state import RestState
 from linear_theory.friction.load import Load
 
 Array = NDArray[np.float64]
+Method = TypeVar("Method", bound=Callable[[Any, "PointState"], Any])
+
+
+def once_per_state(method: Method) -> Method:
+    """A method of an effect, method(state), evaluated once for each state: later calls return the same.
+
+    For what energy, gradient and Hessian share; the callers must not change the arrays.
+    """
+
+    @wraps(method)
+    def found(self: Any, state: "PointState") -> Any:
+        key = (method, id(self))
+        if key not in state.found:
+            # The effect is kept with its result so that its id cannot be reused for another one.
+            state.found[key] = self, method(self, state)
+        return state.found[key][1]
+
+    return found  # type: ignore[return-value]
 
 
 def dot(u: Array, v: Array) -> Array:
@@ -56,7 +77,14 @@ class PointState:
         points = region.points(part)
         self.region, self.part, self._points = region, part, points
         self._rest, self.step = rest, STILL if step is None else step
-        self._jet = dict(zip(entries, region.position(u, entries, part), strict=True))
+        self._jet, self._row = region.position(u, entries, part), entries.index
+        self.found: dict[Any, Any] = {}
+
+    def under(self, rest: RestState | None) -> "PointState":
+        """The same positions with another rest state; what is known of the shape is kept."""
+        other = copy(self)
+        other._rest, other.found = rest, {}
+        return other
 
     @property
     def components(self) -> int:
@@ -73,21 +101,26 @@ class PointState:
     @property
     def position(self) -> Array:
         """x, (components, points)."""
-        return np.asarray(self._jet[0])
+        return np.asarray(self._jet[self._row(0)])
 
     def tangent(self, entry: int) -> Array:
         """a_1 or a_2 alone, (components, points)."""
-        return np.asarray(self._jet[entry])
+        return np.asarray(self._jet[self._row(entry)])
 
     @cached_property
     def tangents(self) -> Array:
         """a_1, a_2: (2, components, points)."""
-        return np.stack([self._jet[1], self._jet[2]])
+        return self._rows(1, 2)
 
     @cached_property
     def second(self) -> Array:
         """x_11, x_22, x_12: (3, 3, points)."""
-        return np.stack([self._jet[3], self._jet[4], self._jet[5]])
+        return self._rows(3, 3)
+
+    def _rows(self, first: int, count: int) -> Array:
+        """Entries from `first` on, (count, components, points); entries are in ascending order."""
+        start = self._row(first)
+        return np.asarray(self._jet[start : start + count])
 
     @cached_property
     def measure(self) -> Array:
@@ -97,8 +130,10 @@ class PointState:
     @cached_property
     def metric(self) -> Array:
         """a_11, a_22, a_12: (3, points)."""
-        first, second = self.tangents
-        return np.stack([dot(first, first), dot(second, second), dot(first, second)])
+        tangents = self.tangents
+        out = np.empty((3, tangents.shape[-1]))
+        out[:2], out[2] = dot(tangents, tangents), dot(tangents[0], tangents[1])
+        return out
 
     @cached_property
     def director(self) -> Array:
@@ -135,15 +170,20 @@ class PointState:
     def inverse_metric(self) -> Array:
         """a^11, a^22, a^12: (3, points)."""
         a11, a22, a12 = self.metric
-        scale = 1 / self.jacobian**2
-        return np.stack([a22 * scale, a11 * scale, -a12 * scale])
+        out = np.empty_like(self.metric)
+        out[0], out[1], out[2] = a22, a11, -a12
+        out /= self.jacobian**2
+        return out
 
     @cached_property
     def dual(self) -> Array:
         """a^1, a^2 with a^c . a_d = delta_cd, (2, components, points)."""
         i11, i22, i12 = self.inverse_metric
         first, second = self.tangents
-        return np.stack([i11 * first + i12 * second, i12 * first + i22 * second])
+        out = i12 * self.tangents[::-1]
+        out[0] += i11 * first
+        out[1] += i22 * second
+        return np.asarray(out)
 
     @cached_property
     def curvature(self) -> Array:

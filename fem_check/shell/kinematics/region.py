@@ -47,6 +47,8 @@ class Region(Shown):
         self.elements, self.parameters, self.weights, self.dofs = elements, parameters, weights, dofs
         self.components, self.tangents = components, tangents
         self._shapes: dict[Entries, Array] = {}
+        self._tables: dict[Entries, Array] = {}
+        self._origins: dict[Entries, Array] = {}
         self._jets: dict[int, Array] = {}
 
     def _title(self) -> str:
@@ -134,19 +136,42 @@ class Region(Shown):
 
         u: (scalar degrees of freedom * components,), components of one degree of freedom together.
         """
-        shapes = self.shapes(entries)
-        local = u.reshape(-1, self.components)[self.dofs[part]]
-        rows = (shapes if len(shapes) == 1 else shapes[part]).reshape(
-            -1, shapes.shape[1] * len(entries), shapes.shape[3]
-        )
-        values = (rows @ local).reshape(-1, len(entries), self.components)
-        return np.ascontiguousarray(values.transpose(1, 2, 0))
+        table = self.table(entries)
+        local = np.take(u.reshape(-1, self.components).T, self.dofs[part], axis=1)
+        if len(table) == 1:  # the same for all elements: one product for each derivative
+            values = local.reshape(-1, local.shape[-1]) @ table[0].swapaxes(1, 2)
+            return values.reshape(len(entries), self.components, -1)
+        values = local.swapaxes(0, 1)[:, None] @ table[part].swapaxes(2, 3)
+        return np.ascontiguousarray(values.transpose(1, 2, 0, 3)).reshape(*values.shape[1:3], -1)
+
+    def integral(self, density: Array, entries: Entries, part: slice = slice(None)) -> Array:
+        """Sums over the points of each element of derivatives of shape functions times a density.
+
+        density: (entries, components, points) -> (components, elements, shapes): the transpose of
+        `displacement` before the elements are added up.
+        """
+        table = self.table(entries)
+        if len(table) == 1:
+            rows = density.reshape(len(entries), -1, table.shape[2])
+            summed = (rows @ table[0]).sum(0)
+        else:
+            columns = density.reshape(*density.shape[:2], -1, table.shape[2]).transpose(2, 0, 1, 3)
+            summed = (columns @ table[part]).sum(1).swapaxes(0, 1)
+        return np.asarray(summed.reshape(self.components, -1, table.shape[3]))
 
     def position(self, u: Array, entries: Entries, part: slice = slice(None)) -> Array:
         """Derivatives of the exact reference plus displacement, (entries, components, points)."""
         jet = self.displacement(u, entries, part)
-        jet += self.reference[list(entries), :, self.points(part)]
+        if entries not in self._origins:
+            self._origins[entries] = self.reference[list(entries)]
+        jet += self._origins[entries][..., self.points(part)]
         return jet
+
+    def table(self, entries: Entries) -> Array:
+        """`shapes` by derivative, (elements or 1, entries, points, shapes)."""
+        if entries not in self._tables:
+            self._tables[entries] = np.ascontiguousarray(self.shapes(entries).swapaxes(1, 2))
+        return self._tables[entries]
 
     def points(self, part: slice) -> slice:
         """The points of a slice of elements."""

@@ -22,7 +22,7 @@ Array = NDArray[np.float64]
 SECOND = 2
 """Entries of a jet beyond this one are second derivatives."""
 
-POINTS_AT_ONCE = 1024
+POINTS_AT_ONCE = 2048
 """Points per batch of Hessians: enough to hide Python's overhead, few enough to stay in the cache."""
 
 
@@ -150,28 +150,18 @@ class Term:
 
     def add_gradient(self, u: Array, out: Array) -> float:
         """Add the gradient to `out`; returns the energy, available at little cost."""
-        count, total = self.region.components, 0.0
-        nodal = out.reshape(-1, count)
+        nodal, total = out.reshape(-1, self.region.components), 0.0
         for part in self.parts:
             state = self.state(u, part)
-            forces = np.zeros((*self.region.dofs[part.elements].shape, count))
+            forces: Array | float = 0.0
             for group in self.groups:
-                density = np.zeros((len(group.entries), count, state.measure.size))
-                for effect in group.effects:
-                    density[_rows(group, effect)] += asked(effect, "gradient", state)
-                    total += float(asked(effect, "energy", state).sum())
-                forces += self._integrated(group, density, part)
+                density = _summed_gradient(group, state)
+                forces = forces + self.region.integral(density, group.entries, part.elements)
+                total += sum(float(asked(effect, "energy", state).sum()) for effect in group.effects)
             dofs = self.region.dofs[part.elements].ravel()
-            for c in range(count):
-                nodal[:, c] += np.bincount(dofs, forces[..., c].ravel(), len(nodal))
+            for component, force in enumerate(np.asarray(forces)):
+                nodal[:, component] += np.bincount(dofs, force.ravel(), len(nodal))
         return total
-
-    def _integrated(self, group: Group, density: Array, part: Part) -> Array:
-        """Sum over the points of each element of shape functions times density."""
-        shapes = self._shapes(group.entries, part)
-        rows = shapes.reshape(len(shapes), -1, shapes.shape[3])
-        columns = density.transpose(2, 0, 1).reshape(-1, rows.shape[1], density.shape[1])
-        return np.asarray(rows.swapaxes(1, 2) @ columns)
 
     def hessian(self, u: Array) -> Array:
         """Element Hessians, (elements, shapes, component pairs, shapes)."""
@@ -223,6 +213,17 @@ def _rows(group: Group, effect: Effect) -> slice:
     start = group.entries.index(effect.entries[0])
     assert group.entries[start : start + len(effect.entries)] == tuple(effect.entries)
     return slice(start, start + len(effect.entries))
+
+
+def _summed_gradient(group: Group, state: PointState) -> Array:
+    shape = (len(group.entries), state.components, state.measure.size)
+    first, *others = group.effects
+    total = asked(first, "gradient", state)
+    if total.shape != shape:
+        others, total = list(group.effects), np.zeros(shape)
+    for effect in others:
+        total[_rows(group, effect)] += asked(effect, "gradient", state)
+    return np.asarray(total)
 
 
 def _summed_hessian(group: Group, state: PointState) -> Array | None:

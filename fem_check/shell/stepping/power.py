@@ -102,8 +102,8 @@ class Ledger:
             # Weight per current area has no potential; the mean area over the step is used.
             area = (before.area + after.area) / 2
         old, new = before.rest, after.rest
-        first, last = self._energies(before.state, old, area), self._energies(after.state, new, area)
-        late, early = self._energies(after.state, old, area), self._energies(before.state, new, area)
+        first, early = self._energies(before.state, (old, new), area)
+        late, last = self._energies(after.state, (old, new), area)
         change = last - first
         growth = ((last - late) + (early - first)).sum() / 2
         way = after.position - before.position
@@ -113,12 +113,14 @@ class Ledger:
         values = (growth, *change, kinetic, friction, damping)
         return Works(*(np.asarray(value) for value in values))
 
-    def _energies(self, u: Array, rest: RestState, area: Array | None) -> Array:
-        """Elastic energy, and energies of the weight and of the ground."""
-        state = PointState(self.region, u, self.entries, rest, Step(area=area))
-        out = np.zeros(3)
-        for slot, effect in self.stored:
-            out[slot] += effect.energy(state).sum()
+    def _energies(self, u: Array, rests: tuple[RestState, ...], area: Array | None) -> Array:
+        """Elastic energy, and energies of the weight and of the ground, for each rest state."""
+        shape = PointState(self.region, u, self.entries, rests[0], Step(area=area))
+        out = np.zeros((len(rests), 3))
+        for energies, rest in zip(out, rests, strict=True):
+            state = shape.under(rest)
+            for slot, effect in self.stored:
+                energies[slot] += effect.energy(state).sum()
         return out
 
     def _kinetic(self, moment: Moment) -> float:
