@@ -34,6 +34,9 @@ smaller predicted decreases the energy is unreliable, and a step that halves the
 CONTRACTION = 0.2
 """A factor is reused as long as each correction is at most this fraction of the previous one."""
 
+SMALLEST_RATIO = 0.1
+"""Ratio of successive corrections with one factor that is trusted at the least."""
+
 SMALLEST_STEP = 2.0**-30
 
 
@@ -43,7 +46,8 @@ class Minimiser:
     reused.
 
     tolerance: root mean square over the sheet of the last correction, relative to the size of the
-    sheet (the root of its area). iterations: limit per minimisation. keep_factor: reuse the factor of
+    sheet (the root of its area); with a reused factor, of what further corrections would add up to.
+    iterations: limit per minimisation. keep_factor: reuse the factor of
     an earlier iteration or minimisation while it converges, for series of similar problems.
     check_stability: test for negative curvature at the end; if False, only if the last factorised
     Hessian had one. Raises ValueError for values out of range.
@@ -75,17 +79,18 @@ class Minimiser:
         """
         begin = time.perf_counter()
         search = _Search(self, potential, np.array(start, float))
-        correction, count = np.inf, 0
-        while correction > self.tolerance * self.length:
+        count = 0
+        while search.left > search.tolerance:
             if count == patience * self.iterations:
-                text = f"no minimum within {count} iterations (last correction {correction:.2g})"
+                text = f"no minimum within {count} iterations (last correction {search.correction:.2g})"
                 raise ConvergenceError(text, search.state)
-            correction = search.advance()
+            search.advance()
             count += 1
         suspected = self.check_stability or search.shifted
         curvature, mode = search.negative_curvature() if suspected else (np.nan, None)
         seconds = time.perf_counter() - begin
-        return Equilibrium(search.state, search.energy, count, correction, seconds, curvature, mode)
+        size = search.correction
+        return Equilibrium(search.state, search.energy, count, size, seconds, curvature, mode)
 
     @property
     def length(self) -> float:
@@ -136,7 +141,11 @@ class Factorised:
 
 
 class _Search:
-    """One minimisation: the present state with its energy and derivatives."""
+    """One minimisation: the present state with its energy and derivatives.
+
+    correction, left: root mean square over the sheet of the last correction, and of those that would
+    follow, which is the correction itself where nothing better is known.
+    """
 
     def __init__(self, minimiser: Minimiser, potential: Potential, state: Array) -> None:
         self.minimiser, self.potential, self.state = minimiser, potential, state
@@ -147,12 +156,13 @@ class _Search:
         self.gradient = gradient[minimiser.sparsity.order]
         self.current: Factorised | None = minimiser.kept if minimiser.keep_factor else None
         self.fresh = self.inverts = False
-        self.correction = np.inf
+        self.correction = self.left = np.inf
+        self.tolerance = minimiser.tolerance * minimiser.length
         if not np.isfinite(self.energy):
             raise ConvergenceError("the energy of the initial state is not finite", state)
 
-    def advance(self) -> float:
-        """Make one correction; returns its root mean square."""
+    def advance(self) -> None:
+        """Make one correction."""
         size = self._correct() if self.current is not None else None
         if size is None:
             self._factorise()
@@ -161,8 +171,10 @@ class _Search:
             raise ConvergenceError(self._why(), self.state)
         if not self.minimiser.keep_factor:
             self.current = None
-        self.correction, self.fresh = size, False
-        return size
+        # A factor that is kept contracts like a geometric series; the first ratios may flatter it.
+        known = not self.fresh and size < self.correction < np.inf
+        ratio = max(size / self.correction, SMALLEST_RATIO) if known else 0.5
+        self.left, self.correction, self.fresh = size * ratio / (1 - ratio), size, False
 
     def _why(self) -> str:
         """Why no step is possible."""
@@ -190,11 +202,23 @@ class _Search:
         if not self.fresh and (self.current.shift > 0 or size > CONTRACTION * self.correction):
             return None
         share, slope, self.inverts = 1.0, float(step @ self.gradient), True
+        if size <= self.tolerance and self._accept_last(self.state + change, slope):
+            return size
         while share >= (SMALLEST_STEP if self.fresh else 1.0):
             if self._accept(self.state + share * change, share * slope):
                 return size
             share /= 2
         return None
+
+    def _accept_last(self, trial: Array, slope: float) -> bool:
+        """Accept a step within the tolerance, whose energy the quadratic model gives to roundoff."""
+        assert self.current is not None
+        if self.current.shift > 0 or not self.minimiser.orientation.keeps(
+            self.directors, self.minimiser.orientation.directors(trial)
+        ):
+            return False
+        self.state, self.energy = trial, self.energy + slope / 2
+        return True
 
     def _accept(self, trial: Array, slope: float) -> bool:
         orientation = self.minimiser.orientation

@@ -23,7 +23,8 @@ SECOND = 2
 """Entries of a jet beyond this one are second derivatives."""
 
 POINTS_AT_ONCE = 2048
-"""Points per batch of Hessians: enough to hide Python's overhead, few enough to stay in the cache."""
+"""Points per batch: enough to hide Python's overhead, few enough for their Hessians to stay in the cache.
+"""
 
 
 class Load(NamedTuple):
@@ -123,10 +124,12 @@ class Term:
         self.region = region
         self.groups = grouped(effects, region.components)
         self.entries = tuple(sorted({e for group in self.groups for e in group.entries}))
-        elements = max(1, POINTS_AT_ONCE // region.per_element)
-        self.parts = []
-        for start in range(0, len(region.elements), elements):
-            part = slice(start, min(start + elements, len(region.elements)))
+        self.parts: list[Part] = []
+        self._last: tuple[Array, PointState] | None = None
+        count = len(region.elements)
+        elements = -(-count // -(-count * region.per_element // POINTS_AT_ONCE))  # batches of a size
+        for start in range(0, count, elements):
+            part = slice(start, min(start + elements, count))
             points = region.points(part)
             self.parts.append(
                 Part(
@@ -137,8 +140,16 @@ class Term:
             )
 
     def state(self, u: Array, part: Part) -> PointState:
-        """Kinematics of some elements."""
-        return PointState(self.region, u, self.entries, part.rest, part.step, part.elements)
+        """Kinematics of some elements.
+
+        A sheet of one batch keeps those of the last unknowns: a Hessian follows the gradient there.
+        """
+        if self._last is not None and np.array_equal(self._last[0], u):
+            return self._last[1]
+        state = PointState(self.region, u, self.entries, part.rest, part.step, part.elements)
+        if len(self.parts) == 1:
+            self._last = u.copy(), state
+        return state
 
     def energy(self, u: Array) -> float:
         """Sum over effects and points."""
