@@ -1,7 +1,7 @@
 """Newton's method with line search, for the free unknowns of a discretised sheet."""
 
 import time
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,6 +11,7 @@ from fem_check.shell.statics.equilibrium import ConvergenceError, Equilibrium
 from fem_check.shell.statics.linear_solver import Factor, factorise
 from fem_check.shell.statics.orientation import Orientation
 from fem_check.shell.statics.potential import Potential
+from fem_check.shell.statics.secants import Secants
 from fem_check.shell.statics.sparsity import Sparsity
 from fem_check.shell.statics.stability import NEUTRAL, lowest_mode
 from linear_theory.common import validation
@@ -31,8 +32,9 @@ UNSEEN = 1e-6
 """Relative error of the energy of strains of 1e-10, which are differences of lengths of order 1. For
 smaller predicted decreases the energy is unreliable, and a step that halves the forces is accepted."""
 
-CONTRACTION = 0.2
-"""A factor is reused as long as each correction is at most this fraction of the previous one."""
+CONTRACTION = 0.6
+"""A factor is reused as long as each correction is at most this fraction of the previous one. A Hessian
+and its factor cost as much as five evaluations of the forces."""
 
 SMALLEST_RATIO = 0.1
 """Ratio of successive corrections with one factor that is trusted at the least."""
@@ -113,11 +115,11 @@ class Minimiser:
             factor = factorise(self.sparsity, self._shifted(values, used))
         return Factorised(values, self._scale(values), used, factor)
 
-    def factorised_again(self, values: Array, shift: float) -> "Factorised":
-        """The factor with these entries and this shift, reproduced bit for bit."""
+    def factorised_again(self, values: Array, shift: float, secants: Secants) -> "Factorised":
+        """The factor with these entries, shift and secants, reproduced bit for bit."""
         factor = factorise(self.sparsity, values if shift == 0 else self._shifted(values, shift))
         assert factor is not None
-        return Factorised(values, self._scale(values), shift, factor)
+        return Factorised(values, self._scale(values), shift, factor, secants)
 
     def _scale(self, values: Array) -> Array:
         """Unit of the shifts of the diagonal, (n,)."""
@@ -132,12 +134,16 @@ class Minimiser:
 
 @dataclass(frozen=True, eq=False)
 class Factorised:
-    """Stored entries of a Hessian, and the factor of values + shift * diag(scale)."""
+    """Stored entries of a Hessian, and the factor of values + shift * diag(scale).
+
+    secants: what steps since then have taught of it.
+    """
 
     values: Array
     scale: Array
     shift: float
     factor: Factor
+    secants: Secants = Secants()
 
 
 class _Search:
@@ -195,7 +201,7 @@ class _Search:
     def _correct(self) -> float | None:
         """Correct with the present factor; None if it does not converge (any longer)."""
         assert self.current is not None
-        step = -self.current.factor.solve(self.gradient)
+        step = -self.current.secants.solve(self.current.factor, self.gradient)
         change = np.zeros_like(self.state)
         change[self.minimiser.sparsity.order] = step
         size = self.minimiser.rms(change)
@@ -205,10 +211,19 @@ class _Search:
         if size <= self.tolerance and self._accept_last(self.state + change, slope):
             return size
         while share >= (SMALLEST_STEP if self.fresh else 1.0):
+            before = self.gradient
             if self._accept(self.state + share * change, share * slope):
+                self._learn(share * step, self.gradient - before)
                 return size
             share /= 2
         return None
+
+    def _learn(self, step: Array, change: Array) -> None:
+        """Correct the factor, if it is kept, by a step and the change of the gradient along it."""
+        if not self.minimiser.keep_factor or self.current is None or self.current.shift > 0:
+            return
+        secants = self.current.secants.with_step(step, change)
+        self.minimiser.kept = self.current = replace(self.current, secants=secants)
 
     def _accept_last(self, trial: Array, slope: float) -> bool:
         """Accept a step within the tolerance, whose energy the quadratic model gives to roundoff."""

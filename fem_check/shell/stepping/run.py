@@ -15,6 +15,7 @@ from fem_check.shell.kinematics.rates import Affine, Step
 from fem_check.shell.model import ShellModel
 from fem_check.shell.statics.equilibrium import ConvergenceError
 from fem_check.shell.statics.newton import Factorised
+from fem_check.shell.statics.secants import Secants
 from fem_check.shell.stepping.between import probe_region
 from fem_check.shell.stepping.power import Ledger, Moment, Works
 from fem_check.shell.stepping.record import NO_COUNTS, Counts, Record
@@ -291,6 +292,9 @@ class Run:
         kept = self.stepper.minimiser.kept
         if kept is not None:
             found |= {"hessian": kept.values, "shift": np.array(kept.shift)}
+            secants = kept.secants
+            if secants.steps:
+                found |= {"steps": np.array(secants.steps), "changes": np.array(secants.changes)}
         return {name: value for name, value in found.items() if value is not None}
 
     def resume(self, target: Target) -> float:
@@ -318,6 +322,8 @@ class Run:
             **{name: get(f"moment_{name}") for name in MOMENT},
         )
         if "hessian" in found:
-            minimiser.kept = minimiser.factorised_again(found["hessian"], float(found["shift"]))
+            secants = Secants(*(tuple(found.get(name, ())) for name in ("steps", "changes")))
+            shift = float(found["shift"])
+            minimiser.kept = minimiser.factorised_again(found["hessian"], shift, secants)
         self.landing = self._land()
         return self.history.time
