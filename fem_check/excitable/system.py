@@ -15,8 +15,8 @@ Array = NDArray[np.float64]
 
 
 DENSE = 160
-"""Nodes up to which the product with a dense matrix is faster than scipy's way to that with a sparse one,
-which takes 20 microseconds however small it is."""
+"""Nodes up to which products with a dense matrix are faster: scipy takes 20 microseconds to begin one
+with a sparse matrix."""
 
 
 @dataclass(frozen=True, eq=False)

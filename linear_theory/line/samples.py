@@ -57,8 +57,8 @@ CLOSE = 0.02
 COARSE_CELLS, COARSE_SHARE = 128, 0.1
 """Cells of `coarse_mean` at least, and the share of c that they may miss."""
 
-BLOCK = 1 << 19
-"""Cells times times held at once."""
+BLOCK = 1 << 16
+"""Cells times times held at once: few enough to stay in the cache."""
 
 
 class Snapshot(NamedTuple):
@@ -209,7 +209,8 @@ def _snapshot(
             velocity = _regularised_speed(alpha * g, weight, law, velocity)
     slip = velocity[:, None] + alpha * g
     tolerance = REST_SPEED * np.ptp(slip, axis=1, keepdims=True)
-    rest = np.mean(_part_below(slip, tolerance) - _part_below(slip, -tolerance), axis=1)
+    ends = _Ends.of(slip)
+    rest = np.mean(ends.part_below(tolerance) - ends.part_below(-tolerance), axis=1)
     return Snapshot(velocity, first, second, abs(slip).max(axis=1), rest)
 
 
@@ -236,12 +237,34 @@ def _middle(values: Array) -> Array:
     return np.asarray((values[:, 1:] + values[:, :-1]) / 2)
 
 
-def _part_below(g: Array, level: Array) -> Array:
-    """Part of each cell where the linear g is <= level, (times, cells); level (times, 1)."""
-    low, high = np.minimum(g[:, 1:], g[:, :-1]), np.maximum(g[:, 1:], g[:, :-1])
-    with np.errstate(divide="ignore", invalid="ignore"):
-        part = np.clip((level - low) / (high - low), 0, 1)
-    return np.where(high > low, part, level >= high)
+class _Ends(NamedTuple):
+    """A function that is linear on each cell: its smaller value there, and by how much it rises,
+    (times, cells). flat: cells on which it does not; None if there are none."""
+
+    low: Array
+    rise: Array
+    flat: NDArray[np.bool_] | None
+
+    @classmethod
+    def of(cls, g: Array) -> "_Ends":
+        """Of values g (times, cells + 1) at the ends of the cells."""
+        low = np.minimum(g[:, 1:], g[:, :-1])
+        rise = np.maximum(g[:, 1:], g[:, :-1]) - low
+        flat = rise == 0
+        return cls(low, rise, flat if flat.any() else None)
+
+    def part_below(self, level: Array) -> Array:
+        """Part of each cell where the function is <= level, (times, cells); level (times, 1)."""
+        part = level - self.low
+        with np.errstate(divide="ignore", invalid="ignore"):
+            part /= self.rise
+        np.maximum(part, 0, out=part)
+        np.minimum(part, 1, out=part)
+        return part if self.flat is None else np.where(self.flat, level >= self.low, part)
+
+    def weight_below(self, level: Array, weight: Array) -> Array:
+        """Sum of the weights (times, cells) of what is below a level (times,)."""
+        return np.einsum("tc,tc->t", weight, self.part_below(level[:, None]))
 
 
 def _weighted_median(g: Array, weight: Array) -> tuple[Array, Array]:
@@ -250,21 +273,23 @@ def _weighted_median(g: Array, weight: Array) -> tuple[Array, Array]:
     The weight below a level is linear between neighbours of the sorted samples: bisect for the
     neighbours, then interpolate. It jumps where a cell is flat.
     """
-    rows = np.arange(g.shape[0])
+    rows, ends = np.arange(g.shape[0]), _Ends.of(g)
     ordered, half = np.sort(g, axis=1), weight.sum(axis=1) / 2
     below, above = np.zeros(rows.size, int), np.full(rows.size, g.shape[1] - 1)
     while np.any(above - below > 1):
         middle = (below + above) // 2
-        enough = np.sum(weight * _part_below(g, ordered[rows, middle, None]), axis=1) >= half
+        enough = ends.weight_below(ordered[rows, middle], weight) >= half
         below, above = np.where(enough, below, middle), np.where(enough, middle, above)
     low, high = ordered[rows, below], ordered[rows, above]
-    flat = (g[:, 1:] == g[:, :-1]) & (g[:, 1:] == high[:, None])
-    at_low = np.sum(weight * _part_below(g, low[:, None]), axis=1)
-    at_high = np.sum(weight * np.where(flat, 0.0, _part_below(g, high[:, None])), axis=1)
+    at_low = ends.weight_below(low, weight)
+    sloping = (
+        weight if ends.flat is None else np.where(ends.flat & (ends.low == high[:, None]), 0, weight)
+    )
+    at_high = ends.weight_below(high, sloping)
     gain = np.where(at_high > at_low, at_high - at_low, np.inf)
     level = low + (high - low) * np.clip((half - at_low) / gain, 0, 1)
     level = np.where((at_low < half) & (half < at_high), level, high)
-    return level, _part_below(g, level[:, None])
+    return level, ends.part_below(level[:, None])
 
 
 def _at_level(g: Array, level: Array) -> Array:

@@ -2,8 +2,9 @@
 
 An effect is a potential: a sum over points of a density that depends on the position and its
 derivatives. It states which derivatives (`entries`) it reads and returns, at every point, its value,
-gradient and Hessian with respect to them, in arrays of its own. Sums over elements and unknowns are computed for all effects
-together. No other code depends on the class of an effect: effects are an open set.
+gradient and Hessian with respect to them, in arrays of its own. Sums over elements and unknowns are
+computed for all effects together. No other code depends on the class of an effect: effects are an open
+set.
 
 The Hessian is symmetric in (entry, component); the blocks of the component pairs c <= d are stored, in
 the order of `pairs.PAIRS`: block [k, l, (c, d)] belongs to component c of entry k and d of entry l.

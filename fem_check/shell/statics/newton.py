@@ -11,7 +11,7 @@ from fem_check.shell.statics.equilibrium import ConvergenceError, Equilibrium
 from fem_check.shell.statics.linear_solver import Factor, factorise
 from fem_check.shell.statics.orientation import Orientation
 from fem_check.shell.statics.potential import Potential
-from fem_check.shell.statics.secants import Secants
+from fem_check.shell.statics.secants import NO_SECANTS, Secants
 from fem_check.shell.statics.sparsity import Sparsity
 from fem_check.shell.statics.stability import NEUTRAL, lowest_mode
 from linear_theory.common import validation
@@ -32,12 +32,10 @@ UNSEEN = 1e-6
 """Relative error of the energy of strains of 1e-10, which are differences of lengths of order 1. For
 smaller predicted decreases the energy is unreliable, and a step that halves the forces is accepted."""
 
-CONTRACTION = 0.6
-"""A factor is reused as long as each correction is at most this fraction of the previous one. A Hessian
-and its factor cost as much as five evaluations of the forces."""
-
-SMALLEST_RATIO = 0.1
-"""Ratio of successive corrections with one factor that is trusted at the least."""
+CONTRACTION = 0.5
+"""A factor is reused as long as each correction is at most this fraction of the previous one: those
+that would still follow the last one then add up to no more than it. A Hessian and its factor cost as
+much as five evaluations of the forces."""
 
 SMALLEST_STEP = 2.0**-30
 
@@ -48,8 +46,7 @@ class Minimiser:
     reused.
 
     tolerance: root mean square over the sheet of the last correction, relative to the size of the
-    sheet (the root of its area); with a reused factor, of what further corrections would add up to.
-    iterations: limit per minimisation. keep_factor: reuse the factor of
+    sheet (the root of its area). iterations: limit per minimisation. keep_factor: reuse the factor of
     an earlier iteration or minimisation while it converges, for series of similar problems.
     check_stability: test for negative curvature at the end; if False, only if the last factorised
     Hessian had one. Raises ValueError for values out of range.
@@ -82,7 +79,7 @@ class Minimiser:
         begin = time.perf_counter()
         search = _Search(self, potential, np.array(start, float))
         count = 0
-        while search.left > search.tolerance:
+        while search.correction > search.tolerance:
             if count == patience * self.iterations:
                 text = f"no minimum within {count} iterations (last correction {search.correction:.2g})"
                 raise ConvergenceError(text, search.state)
@@ -143,14 +140,13 @@ class Factorised:
     scale: Array
     shift: float
     factor: Factor
-    secants: Secants = Secants()
+    secants: Secants = NO_SECANTS
 
 
 class _Search:
     """One minimisation: the present state with its energy and derivatives.
 
-    correction, left: root mean square over the sheet of the last correction, and of those that would
-    follow, which is the correction itself where nothing better is known.
+    correction: root mean square over the sheet of the last one.
     """
 
     def __init__(self, minimiser: Minimiser, potential: Potential, state: Array) -> None:
@@ -162,7 +158,7 @@ class _Search:
         self.gradient = gradient[minimiser.sparsity.order]
         self.current: Factorised | None = minimiser.kept if minimiser.keep_factor else None
         self.fresh = self.inverts = False
-        self.correction = self.left = np.inf
+        self.correction = np.inf
         self.tolerance = minimiser.tolerance * minimiser.length
         if not np.isfinite(self.energy):
             raise ConvergenceError("the energy of the initial state is not finite", state)
@@ -177,10 +173,7 @@ class _Search:
             raise ConvergenceError(self._why(), self.state)
         if not self.minimiser.keep_factor:
             self.current = None
-        # A factor that is kept contracts like a geometric series; the first ratios may flatter it.
-        known = not self.fresh and size < self.correction < np.inf
-        ratio = max(size / self.correction, SMALLEST_RATIO) if known else 0.5
-        self.left, self.correction, self.fresh = size * ratio / (1 - ratio), size, False
+        self.correction, self.fresh = size, False
 
     def _why(self) -> str:
         """Why no step is possible."""

@@ -23,8 +23,7 @@ SECOND = 2
 """Entries of a jet beyond this one are second derivatives."""
 
 POINTS_AT_ONCE = 2048
-"""Points per batch: enough to hide Python's overhead, few enough for their Hessians to stay in the cache.
-"""
+"""Points per batch: enough to hide Python's overhead, few enough that Hessians stay in the cache."""
 
 
 class Load(NamedTuple):

@@ -57,3 +57,7 @@ class Secants:
         for (step, change, curvature), share in zip(pairs, reversed(shares), strict=True):
             found += (share - float(change @ found) / curvature) * step
         return found
+
+
+NO_SECANTS = Secants()
+"""Right after a factorisation."""
