@@ -1,5 +1,7 @@
 """Slow, literal balances of friction: eq. 11 on one fine grid, and the convex function itself."""
 
+from functools import lru_cache
+
 import numpy as np
 from scipy.optimize import brentq
 
@@ -11,11 +13,18 @@ def grid(sheet, across, along):
     return x[:, None], y
 
 
+@lru_cache(maxsize=2)
+def on_grid(field, t, points):
+    """Velocity per unit alpha and strain at one time, which takes most of the time of a balance."""
+    x, y = grid(field.sheet, *points)
+    return field.velocity(x, y, t), field.strain(x, y, t)
+
+
 def speed_at(field, alpha, t, load="current", force=lambda r: 1 / r, points=(400, 800)):
     """V_y at one time: eq. 11 by the midpoint rule and bisection. force: f(r)/r."""
     x, y = grid(field.sheet, *points)
-    v = alpha * field.velocity(x, y, t)
-    strain = field.strain(x, y, t)
+    velocity, strain = on_grid(field, t, points)
+    v = alpha * velocity
     rate = {
         "current": strain[0] + strain[1],
         "grown": 2 * field.wave.value(x, y, t, field.sheet.length),
@@ -32,8 +41,8 @@ def speed_at(field, alpha, t, load="current", force=lambda r: 1 / r, points=(400
 def dissipation(field, alpha, t, motion, points=(200, 400)):
     """Integral of (1 + alpha tr eps) |v + V + Omega x r| over the sheet, which the motion minimises."""
     x, y = np.broadcast_arrays(*grid(field.sheet, *points))
-    v = alpha * field.velocity(x, y, t)
-    strain = field.strain(x, y, t)
+    velocity, strain = on_grid(field, t, points)
+    v = alpha * velocity
     v_x, v_y, omega = motion
     speed = np.hypot(v[0] + v_x - omega * y, v[1] + v_y + omega * x)
     return float(np.mean((1 + alpha * (strain[0] + strain[1])) * speed))

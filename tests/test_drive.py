@@ -11,6 +11,7 @@ from fem_check import Friction, Gravity, Material, Membrane, Scene, cycle_speed,
 from fem_check.choice.levels import MESHES
 from fem_check.shell.cycle import speed as cycle
 from linear_theory import (
+    CrawlSpeed,
     FieldWave,
     Sheet,
     SineWave,
@@ -21,6 +22,7 @@ from linear_theory import (
     ritz_field,
 )
 from linear_theory.balance.crawl import Crawl, first_resolution
+from linear_theory.deformation.ritz.field import RitzField
 from linear_theory.friction.contact import Contact
 from linear_theory.wave.places import on_axis, spread
 
@@ -181,6 +183,19 @@ def test_a_sampled_sine_is_the_sine(count: int) -> None:
     assert faint.sine.size == 3
 
 
+NARROW = Sheet(width=0.375)
+
+
+@cache
+def speed_of_noisy_pulse(rtol: float) -> CrawlSpeed:
+    return crawl_speed(NARROW, noisy_pulse(), 0.12, rtol=rtol)
+
+
+@cache
+def field_of_noisy_pulse() -> RitzField:
+    return ritz_field(NARROW, noisy_pulse(), degree=(9, 25))
+
+
 @cache
 def noisy_pulse() -> FieldWave:
     """2 % noise on 41 x 64 samples, as measured waves are, and splines between them."""
@@ -195,10 +210,8 @@ def noisy_pulse() -> FieldWave:
 
 def test_noise_is_not_taken_for_a_wave_that_is_resolved() -> None:
     """Its harmonics in time go on to the 32nd: the doubling of 16 phases stopped at once."""
-    narrow = Sheet(width=0.375)
-    assert noisy_pulse().on(narrow).rates.highest(0.1) >= 30
-    found = crawl_speed(narrow, noisy_pulse(), 0.12, rtol=1e-2)
-    field = ritz_field(narrow, noisy_pulse(), degree=(9, 25))
+    assert noisy_pulse().on(NARROW).rates.highest(0.1) >= 30
+    found, field = speed_of_noisy_pulse(1e-2), field_of_noisy_pulse()
     times = np.random.default_rng(3).uniform(size=400)
     some = Crawl(field, 0.12, Contact(), first_resolution(1e-1)).balance(times)
     v = 0.12 * (some.leading + 0.12 * some.remainder)[:, 1]
@@ -209,8 +222,7 @@ def test_noise_is_not_taken_for_a_wave_that_is_resolved() -> None:
 
 def mean_of_noisy_pulse(times: int = 211) -> tuple[float, float]:
     """Mean V and its standard error from a prime number of equidistant times."""
-    field = ritz_field(Sheet(width=0.375), noisy_pulse(), degree=(9, 25))
-    crawl = Crawl(field, 0.12, Contact(), first_resolution(1e-1))
+    crawl = Crawl(field_of_noisy_pulse(), 0.12, Contact(), first_resolution(1e-1))
     velocity = crawl.counted(crawl.balance((np.arange(times) + 0.3) / times))[1]
     return float(velocity.mean()), float(velocity.std()) / math.sqrt(times)
 
@@ -219,7 +231,7 @@ def test_a_tolerance_out_of_reach_gives_the_best_that_is_not() -> None:
     """The times that the work allows see the wave to 10 %, not to 1 %: no error of 100 % from a few."""
     exact, deviation = mean_of_noisy_pulse()
     for rtol, least in ((1e-1, 1e-1), (1e-2, 3e-1)):
-        found = crawl_speed(Sheet(width=0.375), noisy_pulse(), 0.12, rtol=rtol)
+        found = speed_of_noisy_pulse(rtol)
         assert abs(found.mean - exact) <= found.error + 3 * deviation
         assert found.error <= least * abs(found.mean)
         assert found.converged == (rtol == least)

@@ -151,7 +151,7 @@ class _Search:
 
     def __init__(self, minimiser: Minimiser, potential: Potential, state: Array) -> None:
         self.minimiser, self.potential, self.state = minimiser, potential, state
-        self.directors = minimiser.orientation.directors(state)
+        self.directors = self._directors(state)
         if not minimiser.orientation.keeps(self.directors, self.directors):
             raise ConvergenceError("the initial state is inverted, or has no area, somewhere", state)
         self.energy, gradient = potential.energy_and_gradient(state)
@@ -221,17 +221,19 @@ class _Search:
     def _accept_last(self, trial: Array, slope: float) -> bool:
         """Accept a step within the tolerance, whose energy the quadratic model gives to roundoff."""
         assert self.current is not None
-        if self.current.shift > 0 or not self.minimiser.orientation.keeps(
-            self.directors, self.minimiser.orientation.directors(trial)
-        ):
+        if self.current.shift > 0:
+            return False
+        if not self.minimiser.orientation.keeps(self.directors, self._directors(trial)):
             return False
         self.state, self.energy = trial, self.energy + slope / 2
         return True
 
+    def _directors(self, state: Array) -> Array:
+        return self.minimiser.orientation.directors(state, self.potential.shape(state))
+
     def _accept(self, trial: Array, slope: float) -> bool:
-        orientation = self.minimiser.orientation
-        directors = orientation.directors(trial)
-        if not orientation.keeps(self.directors, directors):
+        directors = self._directors(trial)
+        if not self.minimiser.orientation.keeps(self.directors, directors):
             return False
         self.inverts = False
         energy, gradient = self.potential.energy_and_gradient(trial)

@@ -26,9 +26,13 @@ class Orientation:
         a11, a22, a12 = region.metric
         self._scale = 1 / np.sqrt(a11 * a22 - a12**2)
 
-    def directors(self, u: Array) -> Array:
-        """Directors (3, points); in the plane the deformation gradient's determinant, (1, points)."""
-        return np.asarray(PointState(self._region, u, (1, 2)).director * self._scale)
+    def directors(self, u: Array, shape: PointState | None = None) -> Array:
+        """Directors (3, points); in the plane the deformation gradient's determinant, (1, points).
+
+        shape: that of the region at u, if it is known.
+        """
+        shape = PointState(self._region, u, (1, 2)) if shape is None else shape
+        return np.asarray(shape.director * self._scale)
 
     def keeps(self, before: Array, after: Array) -> bool:
         """Whether no point is inverted between two states given by their directors."""

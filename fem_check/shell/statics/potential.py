@@ -93,6 +93,13 @@ class Potential(Shown):
             if max(effect.entries) > SECOND:
                 require_h2(self.discretisation.element)
 
+    def shape(self, u: Array) -> PointState | None:
+        """The sheet at unknowns u (size,), kept for its energies; None if its tangents are not."""
+        for term in self._terms:
+            if term.region is self.discretisation.interior and len(term.parts) == 1:
+                return term.state(u, term.parts[0]) if {1, 2} <= set(term.entries) else None
+        return None
+
     def energy(self, u: Array) -> float:
         """Sum of the effects at unknowns u (size,), force times length."""
         return sum(term.energy(u) for term in self._terms)

@@ -13,7 +13,7 @@ from fem_check.shell.statics.linear_solver import Factor
 
 Array = NDArray[np.float64]
 
-DEPTH = 8
+DEPTH = 6
 """Steps that are remembered."""
 
 SMALLEST = 1e-8

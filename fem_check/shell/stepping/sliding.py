@@ -74,16 +74,17 @@ def _slip_change(law: FrictionLaw, velocity: Array, load: Array) -> Array:
     if not law.regularised:
         return np.full(2, np.nan)
     narrower, target = law.scaled(1 / COMPARED), law.force(velocity) @ load
-    w, lacking = np.zeros(2), target - narrower.force(velocity) @ load
+    w, here = np.zeros(2), narrower.at(velocity)
+    lacking = target - here.force @ load
     for _ in range(MOST_CORRECTIONS):
-        tangent = load * narrower.tangent(velocity + w[:, None])
+        tangent = load * here.tangent
         change = _solve(tangent, lacking)
-        after = target - narrower.force(velocity + (w + change)[:, None]) @ load
-        if not np.abs(after).max() < np.abs(lacking).max():
+        there = narrower.at(velocity + (w + change)[:, None])
+        if not np.abs(target - there.force @ load).max() < np.abs(lacking).max():
             stiffness = _largest(tangent).sum()
             change = lacking / stiffness if stiffness > 0 else np.zeros(2)
-            after = target - narrower.force(velocity + (w + change)[:, None]) @ load
-        w, lacking = w + change, after
+            there = narrower.at(velocity + (w + change)[:, None])
+        w, here, lacking = w + change, there, target - there.force @ load
         if np.abs(change).max() < 1e-6 * narrower.width:
             break
     return w
