@@ -19,7 +19,7 @@ class Uncertainty(Protocol):
         """Root mean square of the error of c, as a share of that of c."""
 
     def waves(self, count: int, scale: float = 1.0) -> Sequence[Wave]:
-        """Waves that could as well be the true one, the same ones in every call.
+        """Waves that could as well be the true one, `count` at most, the same ones in every call.
 
         scale: factor of their distance from the given wave.
         """

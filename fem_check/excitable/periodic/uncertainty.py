@@ -14,7 +14,7 @@ from linear_theory.wave.protocol import Wave
 
 Array = NDArray[np.float64]
 
-SEED, PHASES, POINTS = 20240607, 48, 65
+PHASES, POINTS = 48, 65
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,9 +38,11 @@ class OrbitUncertainty(Shown):
         return float(max(np.sqrt(np.mean((apart - c) ** 2) / np.mean(c**2)), 1e-12))
 
     def waves(self, count: int, scale: float = 1.0) -> list[Wave]:
-        """Waves moved along the difference by normal random multiples of `part`, times `scale`."""
-        shifts = np.random.default_rng(SEED).standard_normal(count)
-        return [self._moved(scale * float(shift)) for shift in shifts]
+        """Two waves, moved along the difference by `part` times `scale` either way.
+
+        In this one direction two have the variance of any number of normal random multiples.
+        """
+        return [self._moved(shift) for shift in (-scale, scale)[:count]]
 
     def _moved(self, shift: float) -> "Wave":
         amount, known = self.part * shift, self.wave.period
