@@ -7,7 +7,8 @@ error. That takes friction as it is, not linearised, and counts the bias of nois
 are quadratic in the wave.
 
 A speed of the sheet takes the theory of small strain for the differences, whatever it is found by: what
-counts is how V depends on c, of order alpha. It costs RESAMPLES + 1 balances at a few dozen times.
+counts is how V depends on c, of order alpha. It costs RESAMPLES + 1 balances, at most, at a few dozen
+times.
 """
 
 import math
