@@ -17,7 +17,8 @@ from fem_check.shell.effects.effect import Effect
 from fem_check.shell.effects.friction import Friction
 from fem_check.shell.model import ShellModel
 from fem_check.shell.statics.meter import Meter, metered
-from fem_check.shell.stepping.run import Progress as Steps
+from fem_check.shell.stepping.progress import FIRST
+from fem_check.shell.stepping.progress import Progress as Steps
 from fem_check.shell.stepping.simulation import simulate
 from fem_check.shell.stepping.trajectory import Trajectory
 from linear_theory.common import validation
@@ -201,8 +202,8 @@ def _steps_to(report: Report) -> Callable[[Steps], None]:
     """Tells of steps in time as of any other work."""
 
     def heard(steps: Steps) -> None:
-        share = steps.time / steps.end if steps.end else 1.0
-        report(Progress("steps in time", share, steps.seconds, steps.left))
+        task = "" if steps.task == FIRST else f" {steps.task}"
+        report(Progress(f"steps in time{task}", steps.share, steps.seconds, steps.left))
 
     return heard
 

@@ -1,7 +1,6 @@
 """A running simulation: its full state, which can be saved, resumed and rewound."""
 
 import time
-from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -17,7 +16,8 @@ from fem_check.shell.statics.equilibrium import ConvergenceError
 from fem_check.shell.statics.newton import Factorised
 from fem_check.shell.stepping.between import probe_region
 from fem_check.shell.stepping.power import Ledger, Moment, Works
-from fem_check.shell.stepping.record import NO_COUNTS, Counts, Record
+from fem_check.shell.stepping.progress import Listener, Progress
+from fem_check.shell.stepping.record import COLUMNS, NO_COUNTS, Counts, Record
 from fem_check.shell.stepping.schemes import History
 from fem_check.shell.stepping.settings import Settings
 from fem_check.shell.stepping.sliding import Sliding, sliding
@@ -27,7 +27,6 @@ from fem_check.shell.stepping.start import first_history
 from fem_check.shell.stepping.step_control import GROWTH, LANDED, step_size
 from fem_check.shell.stepping.stepper import Stepper, StepResult
 from fem_check.shell.stepping.trajectory import Trajectory
-from linear_theory.common.shown import Shown
 from linear_theory.common.threads import one_blas_thread
 from linear_theory.scene.scene import Scene
 
@@ -43,21 +42,11 @@ CHECKED = 8
 """Interval, in steps, of checks for negative curvature at the end of a step, which cost a Hessian: a
 reused factor, or symmetry, can hide it from the minimisations."""
 
+SNAPPED = COLUMNS.index("snapped")
+"""Column of the record that says whether the sheet jumped in a step."""
+
 MOMENT = ("area", "sliding", "drag", "velocity")
 """Arrays of a Moment that only some scenes have."""
-
-
-class _Progress(NamedTuple):
-    time: float
-    end: float
-    steps: int
-    rejected: int
-    seconds: float
-    left: float
-
-
-class Progress(Shown, _Progress):
-    """time and end of the run, accepted and rejected steps, seconds spent and left (estimated)."""
 
 
 class Target(NamedTuple):
@@ -115,8 +104,13 @@ class Run:
         """Number of accepted steps so far."""
         return len(self.record.rows) - 1
 
+    @property
+    def snaps(self) -> bool:
+        """Whether the sheet has jumped in the last period, so far."""
+        return any(row[SNAPPED] and row[0] > self.marks[-2] for row in self.record.rows)
+
     @one_blas_thread
-    def finish(self, target: Target | None, report: Callable[[Progress], None] | None) -> None:
+    def finish(self, target: Target | None, report: Listener | None) -> None:
         """Step to the end, with snapshots at regular intervals if there is a target for them."""
         begin, before = time.perf_counter(), self.history.time
         if target is not None and self._remaining() > 0:
