@@ -22,9 +22,9 @@ from fem_check.shell.material import Material
 from fem_check.shell.model import ShellModel
 from fem_check.shell.statics.equilibrium import ConvergenceError
 from fem_check.shell.statics.newton import Minimiser
-from fem_check.shell.stepping.progress import Progress, Whole
+from fem_check.shell.stepping.further.progress import Progress, Whole
+from fem_check.shell.stepping.further.second_runs import COARSER_WORK
 from fem_check.shell.stepping.schemes import History
-from fem_check.shell.stepping.second_runs import COARSER_WORK
 from fem_check.shell.stepping.simulation import simulate
 from fem_check.shell.stepping.step_control import StepSize
 from fem_check.shell.stepping.trajectory import Trajectory

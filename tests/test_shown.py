@@ -25,7 +25,7 @@ from fem_check.shell.kinematics.rates import Affine
 from fem_check.shell.kinematics.surface import AnnulusSector, Cylinder, Flat, SpherePart
 from fem_check.shell.model import ShellModel
 from fem_check.shell.statics.equilibrium import Equilibrium
-from fem_check.shell.stepping.progress import Progress
+from fem_check.shell.stepping.further.progress import Progress
 from linear_theory.common.shown import LINES, WIDTH, Shown, in_words, number, with_error
 from linear_theory.friction.law import Response
 from linear_theory.growth.bilayer import Couplings

@@ -15,8 +15,8 @@ from fem_check.shell.model import ShellModel
 from fem_check.shell.statics.equilibrium import ConvergenceError
 from fem_check.shell.statics.newton import Factorised
 from fem_check.shell.stepping.between import probe_region
+from fem_check.shell.stepping.further.progress import Listener, Progress
 from fem_check.shell.stepping.power import Ledger, Moment, Works
-from fem_check.shell.stepping.progress import Listener, Progress
 from fem_check.shell.stepping.record import COLUMNS, NO_COUNTS, Counts, Record
 from fem_check.shell.stepping.schemes import History
 from fem_check.shell.stepping.settings import Settings

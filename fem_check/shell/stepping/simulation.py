@@ -8,8 +8,8 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from fem_check.shell.stepping import second_runs
-from fem_check.shell.stepping.progress import Listener, Progress, Whole, printed
+from fem_check.shell.stepping.further import second_runs
+from fem_check.shell.stepping.further.progress import Listener, Progress, Whole, printed
 from fem_check.shell.stepping.run import Run, Target
 from fem_check.shell.stepping.schemes import Scheme
 from fem_check.shell.stepping.settings import Settings
@@ -86,7 +86,7 @@ def simulate(
         if target is not None:
             resumed = run.resume(target)
         whole = _whole(progress, mesh_error)
-        run.finish(target, whole and _watching(run, whole))
+        run.finish(target, None if whole is None else _watching(run, whole))
         difference = second_runs.mesh_error(run, whole) if mesh_error else np.nan
         jumps = second_runs.snap_error(run, whole)
     except KeyboardInterrupt:

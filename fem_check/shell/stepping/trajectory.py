@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from fem_check.shell.cycle.frame import poses
-from fem_check.shell.kinematics.crossing import Crossings, CrossingsUnknown
+from fem_check.shell.kinematics.crossing import crossed, crossing_words
 from fem_check.shell.model import ShellModel
 from fem_check.shell.stepping import columns
 from fem_check.shell.stepping.between import between, interpolation_error, motion_around
@@ -150,23 +150,7 @@ class Trajectory(Drawable, Tabular):
 
         None if that could not be found out, for lack of ipctk.
         """
-        if self.model.planar:
-            return np.zeros(len(self.states), bool)
-        looks = Crossings(self.model.discretisation)
-        try:
-            return np.array([looks.found(u) for u in self.states])
-        except CrossingsUnknown:
-            return None
-
-    @property
-    def _crossing_in_words(self) -> str:
-        """Empty if the sheet does not pass through itself."""
-        crossed = self.crossed
-        if crossed is None:
-            return "not looked at for crossing itself (pip install 'sheetcrawl[contact]')"
-        if not crossed.any():
-            return ""
-        return f"passes through itself from t = {self.stored_times[crossed][0]:.4g}"
+        return crossed(self.model.discretisation, self.states)
 
     @property
     def iterations(self) -> int:
@@ -309,7 +293,7 @@ class Trajectory(Drawable, Tabular):
         last, errors = self._last(1), self.errors
         unknown = "mesh error not estimated" if np.isnan(errors.mesh) else ""
         snapped = "snaps over" if self.snaps else ""
-        crossing = self._crossing_in_words
+        crossing = crossing_words(self.crossed, self.stored_times)
         crosses = self.crossed is not None and bool(self.crossed.any())
         shape, scene = "Koiter shell stepped in time", self.scene
         rubs = any(effect.law for effect in self.model.effects)

@@ -41,7 +41,7 @@ class Whole:
 
     report: the listener; planned: work of the runs that follow the first one, by task.
 
-    >>> from fem_check.shell.stepping.progress import Progress, Whole
+    >>> from fem_check.shell.stepping.further.progress import Progress, Whole
     >>> whole = Whole(lambda p: print(f"{p.task}: {p.share:.0%}"), {"on a coarser mesh": 0.25})
     >>> whole.of()(Progress(1.0, 2.0, 10, 0, 3.0, 3.0))
     the motion: 40%

@@ -4,7 +4,7 @@ import numpy as np
 
 from fem_check.mesh.elements import default_cells
 from fem_check.shell.statics.equilibrium import ConvergenceError
-from fem_check.shell.stepping.progress import Whole
+from fem_check.shell.stepping.further.progress import Whole
 from fem_check.shell.stepping.run import Run
 from linear_theory.scene.scene import Scene
 
@@ -27,7 +27,7 @@ COARSER_WORK, LONGER_WORK = 0.5, 0.7
 def mesh_error(run: Run, whole: Whole | None) -> float:
     """Mesh error of the mean speed of a finished run, from the same run on a coarser mesh."""
     coarse = Run(coarser(run.scene), run.settings)
-    coarse.finish(None, whole and whole.of(COARSER))
+    coarse.finish(None, None if whole is None else whole.of(COARSER))
     difference = coarse.trajectory().period_speeds[-1] - run.trajectory().period_speeds[-1]
     return float(MESH_MARGIN * abs(difference))
 
@@ -44,7 +44,7 @@ def snap_error(run: Run, whole: Whole | None) -> float:
         whole.plan(LONGER, LONGER_WORK)
     try:
         rough = Run(run.scene, run.settings.rougher())
-        rough.finish(None, whole and whole.of(LONGER))
+        rough.finish(None, None if whole is None else whole.of(LONGER))
     except (ConvergenceError, ValueError):
         return np.inf
     difference = rough.trajectory().period_speeds[-1] - found.period_speeds[-1]
