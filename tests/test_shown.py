@@ -64,6 +64,16 @@ def full_scene():
     return fem_check.Scene(SHEET, SINE, alpha=0.1, curvature_coupling=10, effects=effects, cells=(2, 4))
 
 
+@cache
+def sunk():
+    """Of one motion thrice, as if its ground gave no more."""
+    contact = [fem_check.Gravity(2.5e-4), fem_check.Ground(0.5), fem_check.Friction(1.0, 0.1)]
+    effects = [MEMBRANE, fem_check.Bending(MATERIAL), *contact]
+    scene = fem_check.Scene(SHEET, SINE, alpha=0.02, effects=effects, cells=(1, 2))
+    motion = fem_check.simulate(scene, periods=1, rtol=0.5)
+    return fem_check.RigidGround((motion,) * 3, 0.1, 1.0)
+
+
 def many_harmonics():
     return linear_theory.TravellingWave(np.linspace(1, 0.1, 40), np.zeros(40))
 
@@ -180,6 +190,7 @@ MADE = {
     "Growth": lambda: linear_theory.Growth(0.25),
     "Inertia": lambda: fem_check.Inertia(1.0, MATERIAL),
     "IsotropicResponse": lambda: linear_theory.Tanh(0.1).at(np.ones((2, 3))),
+    "Limit": lambda: sunk().limit,
     "Linear": linear_theory.Linear,
     "Material": lambda: MATERIAL,
     "Membrane": lambda: MEMBRANE,
@@ -203,6 +214,7 @@ MADE = {
     "Region": lambda: ShellModel(full_scene()).discretisation.interior,
     "Record": lambda: next(swept().rows())[1],
     "Response": lambda: Response(linear_theory.Coulomb(), np.ones((2, 3))),
+    "RigidGround": sunk,
     "RestState": lambda: ShellModel(planar()).rest(0.2),
     "RigidSpeed": lambda: turning().turning,
     "RitzField": lambda: field("RitzField"),

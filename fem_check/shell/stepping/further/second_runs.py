@@ -6,6 +6,7 @@ from fem_check.mesh.elements import default_cells
 from fem_check.shell.statics.equilibrium import ConvergenceError
 from fem_check.shell.stepping.further.progress import Whole
 from fem_check.shell.stepping.run import Run
+from fem_check.shell.stepping.trajectory import Trajectory
 from linear_theory.scene.scene import Scene
 
 MESH_MARGIN = 2
@@ -28,8 +29,12 @@ def mesh_error(run: Run, whole: Whole | None) -> float:
     """Mesh error of the mean speed of a finished run, from the same run on a coarser mesh."""
     coarse = Run(coarser(run.scene), run.settings)
     coarse.finish(None, None if whole is None else whole.of(COARSER))
-    difference = coarse.trajectory().period_speeds[-1] - run.trajectory().period_speeds[-1]
-    return float(MESH_MARGIN * abs(difference))
+    return mesh_change(run.trajectory(), coarse.trajectory())
+
+
+def mesh_change(found: Trajectory, coarse: Trajectory) -> float:
+    """Mesh error of the mean speed of a motion, from that on the coarser mesh."""
+    return float(MESH_MARGIN * abs(coarse.period_speeds[-1] - found.period_speeds[-1]))
 
 
 def snap_error(run: Run, whole: Whole | None) -> float:
