@@ -67,7 +67,7 @@ def full_scene():
 @cache
 def sunk():
     """Of one motion thrice, as if its ground gave no more."""
-    contact = [fem_check.Gravity(2.5e-4), fem_check.Ground(0.5), fem_check.Friction(1.0, 0.1)]
+    contact = [fem_check.Gravity(2.5e-4), fem_check.Ground(0.5), fem_check.Friction(1.0, 0.001)]
     effects = [MEMBRANE, fem_check.Bending(MATERIAL), *contact]
     scene = fem_check.Scene(SHEET, SINE, alpha=0.02, effects=effects, cells=(1, 2))
     motion = fem_check.simulate(scene, periods=1, rtol=0.5)
