@@ -93,7 +93,7 @@ def checked(stated: gaits.Row) -> Row:
         return Row(
             **known, finer=np.nan, holds=-1, crossed=int(crossed), seconds=spent, said=str(error)
         )
-    finer = float(found.period_speeds[-1])
+    finer = found.mean_speed
     crossed = crossed or (found.crossed is not None and bool(found.crossed.any()))
     row = Row(**known, finer=finer, holds=0, crossed=int(crossed), seconds=0.0, said="")
     holds = int(abs(finer - stated.speed) <= stated.error)

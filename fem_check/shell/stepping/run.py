@@ -42,8 +42,8 @@ CHECKED = 8
 """Interval, in steps, of checks for negative curvature at the end of a step, which cost a Hessian: a
 reused factor, or symmetry, can hide it from the minimisations."""
 
-SNAPPED = COLUMNS.index("snapped")
-"""Column of the record that says whether the sheet jumped in a step."""
+BRANCHING = [COLUMNS.index(name) for name in ("buckled", "snapped")]
+"""Columns of the record that say whether the sheet buckled or jumped in a step."""
 
 MOMENT = ("area", "sliding", "drag", "velocity")
 """Arrays of a Moment that only some scenes have."""
@@ -105,9 +105,10 @@ class Run:
         return len(self.record.rows) - 1
 
     @property
-    def snaps(self) -> bool:
-        """Whether the sheet has jumped in the last period, so far."""
-        return any(row[SNAPPED] and row[0] > self.marks[-2] for row in self.record.rows)
+    def branches(self) -> bool:
+        """Whether the sheet has buckled or jumped in the last period, so far."""
+        rows = self.record.rows
+        return any(row[BRANCHING].any() and row[0] > self.marks[-2] for row in rows)
 
     @one_blas_thread
     def finish(self, target: Target | None, report: Listener | None) -> None:
@@ -150,7 +151,14 @@ class Run:
             record.rejected,
             0.0,
             rtol=self.size.rtol,
+            corrects=self._corrects,
         )
+
+    @property
+    def _corrects(self) -> bool:
+        """Whether the error of the steps is known: friction, not mass, balances a change of speed."""
+        heavy = any(effect.areal_mass for effect in self.model.effects)
+        return self.size.rtol is not None and self.history.scheme.known_error and not heavy
 
     def _remaining(self) -> float:
         """Time to the next end of a period (or of the ramp); 0 at the end of the run."""

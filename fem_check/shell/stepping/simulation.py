@@ -50,8 +50,9 @@ def simulate(
     `Trajectory.shape_error`. mesh_error: estimate the mesh error from a second run on a coarser mesh.
     progress: True prints, a function is called after each step, of further runs too (`Progress`).
 
-    Steps are short enough to resolve the significant harmonics in time of the wave. A sheet that snaps
-    through is simulated a second time with longer steps, for the error of V.
+    Steps are short enough to resolve the significant harmonics in time of the wave. A sheet that
+    buckles or snaps through in the last period is simulated a second time with longer steps, for the
+    error of V: it may take another way.
 
     A scene without Friction and Inertia is not time dependent; use `cycle_speed.cycle_speed`.
     Raises ValueError for such scenes, for values out of range, for too few `steps` to resolve the wave
@@ -116,11 +117,11 @@ def _whole(progress: bool | Listener | None, mesh_error: bool) -> Whole | None:
 
 
 def _watching(run: Run, whole: Whole) -> Listener:
-    """What listens to the first run, and counts on another one as soon as the sheet snaps through."""
+    """What listens to the first run, and counts on another one as soon as the sheet buckles or jumps."""
     listener = whole.of()
 
     def heard(progress: Progress) -> None:
-        if run.snaps:
+        if run.branches:
             whole.plan(second_runs.LONGER, second_runs.LONGER_WORK)
         listener(progress)
 

@@ -203,18 +203,18 @@ def _stiffened(
 
 
 def _ground(scene: Scene) -> Ground:
-    found = scene.find(Ground)
+    found: Ground | None = scene.find(Ground)
     if found is None:
         names = ", ".join(type(e).__name__ for e in scene.effects)
         raise ValueError(f"effects = {names}: must include Ground")
-    assert isinstance(found, Ground)
     return found
 
 
 def _on(scene: Scene, stiffness: float) -> Scene:
     """The scene on a ground of that stiffness, else the same."""
-    effects = (replace(e, stiffness=stiffness) if isinstance(e, Ground) else e for e in scene.effects)
-    return scene.but(effects=tuple(effects))
+    ground = _ground(scene)
+    stiffer = replace(ground, stiffness=stiffness)
+    return scene.but(effects=tuple(stiffer if e is ground else e for e in scene.effects))
 
 
 def _part(report: Listener, k: int, most: int, task: str) -> Listener:

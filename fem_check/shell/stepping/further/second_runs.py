@@ -14,8 +14,8 @@ MESH_MARGIN = 2
 with dry friction the quadrature of a discontinuous force dominates, which converges irregularly."""
 
 SNAP_MARGIN = 2
-"""Error of a speed with snap-throughs relative to the difference to a run with steps twice as long,
-whose snaps start elsewhere and take another way."""
+"""Error of a speed with buckling or snap-throughs relative to the difference to a run with longer
+steps, whose snaps start elsewhere and take another way."""
 
 COARSER = "on a coarser mesh"
 LONGER = "with longer steps"
@@ -34,16 +34,16 @@ def mesh_error(run: Run, whole: Whole | None) -> float:
 
 def mesh_change(found: Trajectory, coarse: Trajectory) -> float:
     """Mesh error of the mean speed of a motion, from that on the coarser mesh."""
-    return float(MESH_MARGIN * abs(coarse.period_speeds[-1] - found.period_speeds[-1]))
+    return float(MESH_MARGIN * abs(coarse.mean_speed - found.mean_speed))
 
 
 def snap_error(run: Run, whole: Whole | None) -> float:
-    """Error of the mean speed of a sheet that snaps through, from the same run with longer steps.
+    """Error of the mean speed of a sheet that may take another way, from a run with longer steps.
 
-    NaN if it does not snap in the last period, infinite if the run with longer steps fails.
+    NaN if it neither buckles nor snaps in the last period, infinite if that run fails.
     """
     found = run.trajectory()
-    if not found.snaps:
+    if not found.branches:
         return np.nan
     if whole is not None:
         whole.plan(LONGER, LONGER_WORK)
@@ -52,7 +52,7 @@ def snap_error(run: Run, whole: Whole | None) -> float:
         rough.finish(None, None if whole is None else whole.of(LONGER))
     except (ConvergenceError, ValueError):
         return np.inf
-    difference = rough.trajectory().period_speeds[-1] - found.period_speeds[-1]
+    difference = rough.trajectory().mean_speed - found.mean_speed
     return float(SNAP_MARGIN * abs(difference))
 
 
