@@ -26,7 +26,7 @@ from fem_check.shell.stepping.snapshot import check_writable, load_snapshot, sav
 from fem_check.shell.stepping.start import first_history
 from fem_check.shell.stepping.step_control import GROWTH, LANDED, step_size
 from fem_check.shell.stepping.stepper import Stepper, StepResult
-from fem_check.shell.stepping.trajectory import Trajectory
+from fem_check.shell.stepping.trajectory import Trajectory, may_branch
 from linear_theory.common.threads import one_blas_thread
 from linear_theory.scene.scene import Scene
 
@@ -80,8 +80,8 @@ class Run:
         self.scene, self.settings, period = scene, settings, scene.period
         self.model = ShellModel(scene)
         scene.drive.check_until(period * (settings.ramp + settings.periods))
-        heavy, steps = any(e.areal_mass for e in self.model.effects), settings.steps_of(period)
-        self.size = step_size(period, settings.rtol, steps, scene.drive.rates, heavy)
+        steps = settings.steps_of(period)
+        self.size = step_size(period, settings.rtol, steps, scene.drive.rates, self.model.heavy)
         self.size.scale = abs(scene.alpha) * scene.sheet.length / period
         self.snap = Snap(first_stiffness(scene.sheet))
         self.start = settings.ramp * period
@@ -106,9 +106,9 @@ class Run:
 
     @property
     def branches(self) -> bool:
-        """Whether the sheet has buckled or jumped in the last period, so far."""
-        rows = self.record.rows
-        return any(row[BRANCHING].any() and row[0] > self.marks[-2] for row in rows)
+        """Whether the sheet could have taken another way in the last period, see `Trajectory`."""
+        rows = np.array([row for row in self.record.rows if row[0] > self.marks[-2]])
+        return may_branch(self.model, *rows[:, BRANCHING].T) if rows.size else False
 
     @one_blas_thread
     def finish(self, target: Target | None, report: Listener | None) -> None:
@@ -157,8 +157,8 @@ class Run:
     @property
     def _corrects(self) -> bool:
         """Whether the error of the steps is known: friction, not mass, balances a change of speed."""
-        heavy = any(effect.areal_mass for effect in self.model.effects)
-        return self.size.rtol is not None and self.history.scheme.known_error and not heavy
+        known = self.history.scheme.known_error and not self.model.heavy
+        return self.size.rtol is not None and known
 
     def _remaining(self) -> float:
         """Time to the next end of a period (or of the ramp); 0 at the end of the run."""

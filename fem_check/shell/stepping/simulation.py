@@ -51,8 +51,8 @@ def simulate(
     progress: True prints, a function is called after each step, of further runs too (`Progress`).
 
     Steps are short enough to resolve the significant harmonics in time of the wave. A sheet that
-    buckles or snaps through in the last period is simulated a second time with longer steps, for the
-    error of V: it may take another way.
+    snaps through in the last period, or buckles and has inertia, is simulated a second time with longer
+    steps, for the error of V: it may take another way.
 
     A scene without Friction and Inertia is not time dependent; use `cycle_speed.cycle_speed`.
     Raises ValueError for such scenes, for values out of range, for too few `steps` to resolve the wave
@@ -117,7 +117,7 @@ def _whole(progress: bool | Listener | None, mesh_error: bool) -> Whole | None:
 
 
 def _watching(run: Run, whole: Whole) -> Listener:
-    """What listens to the first run, and counts on another one as soon as the sheet buckles or jumps."""
+    """What listens to the first run, and counts on another one when the sheet may branch."""
     listener = whole.of()
 
     def heard(progress: Progress) -> None:

@@ -67,8 +67,8 @@ class SpeedErrors(Shown, _Errors):
     coarser mesh if requested, else NaN. slip_speed: distance to dry friction, twice the change on
     halving the slip speed (it decreases at least proportionally), NaN if the slip ratio is above 0.3
     and friction far from dry; not part of the error of the speed at the given slip speed. snaps: of the
-    path through buckling and snap-throughs in the last period, from a run with longer steps; NaN if
-    there are none.
+    path through snap-throughs in the last period (and buckling, of a sheet with inertia), from a run
+    with longer steps; NaN if there are none.
     """
 
 
@@ -258,8 +258,9 @@ class Trajectory(Drawable, Tabular):
 
     @property
     def branches(self) -> bool:
-        """Whether it buckles or jumps within the last period, and could have taken another way."""
-        return self.snaps or bool(self.buckled[self._last(1)].any())
+        """Whether it could have taken another way within the last period, see `may_branch`."""
+        last = self._last(1)
+        return may_branch(self.model, self.buckled[last], self.snapped[last])
 
     @cached_property
     def path(self) -> Poses:
@@ -393,3 +394,12 @@ class Trajectory(Drawable, Tabular):
         steps = np.diff(self.times)[last.start - 1 :]
         values = self.table[name][last]
         return float((np.abs(values) if size else values) @ steps / steps.sum())
+
+
+def may_branch(model: ShellModel, buckled: ArrayLike, snapped: ArrayLike) -> bool:
+    """Whether another way was open to a sheet in steps with these flags, (n,) each.
+
+    Where it jumps; and, with inertia, where negative curvature was met: long steps damp vibrations by
+    which it would leave a shape that is not stable.
+    """
+    return bool(np.any(snapped)) or (model.heavy and bool(np.any(buckled)))

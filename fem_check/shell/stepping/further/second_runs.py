@@ -40,7 +40,7 @@ def mesh_change(found: Trajectory, coarse: Trajectory) -> float:
 def snap_error(run: Run, whole: Whole | None) -> float:
     """Error of the mean speed of a sheet that may take another way, from a run with longer steps.
 
-    NaN if it neither buckles nor snaps in the last period, infinite if that run fails.
+    NaN if no other way was open in the last period, infinite if that run fails.
     """
     found = run.trajectory()
     if not found.branches:
