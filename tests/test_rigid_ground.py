@@ -77,8 +77,8 @@ def test_the_limit_of_power_laws(power: float, second: float) -> None:
     ("values", "value", "error"),
     [
         ((1.0, 1.0, 1.0), 1.0, 0.0),
-        ((0.0, 1.0, 0.5), 0.5, 1.5),
-        ((0.0, 0.1, 1.0), 1.0, 12.15),
+        ((0.0, 1.0, 0.5), 0.5, 2.0),
+        ((0.0, 0.1, 1.0), 1.0, 16.2),
     ],
     ids=["equal", "alternating", "growing"],
 )

@@ -69,7 +69,7 @@ def simulate(
     >>> scene = Scene(Sheet(), SineWave(), alpha=0.1, effects=effects, cells=(1, 2))
     >>> motion = simulate(scene, periods=1, rtol=0.1)
     >>> print(f"V = {motion.speed.mean:.3f} L/T, friction is {motion.regime}")
-    V = 0.016 L/T, friction is dry
+    V = 0.015 L/T, friction is dry
     """
     run, target = None, None
     hint = "make one by Scene(sheet, wave, alpha, effects=...)"
