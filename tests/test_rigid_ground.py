@@ -96,6 +96,8 @@ def test_bad_input() -> None:
         rigid_ground(lying(), most=2)
     with pytest.raises(ValueError, match="values: has 2 entries, must have >= 3"):
         Limit([1.0, 2.0])
+    with pytest.raises(ValueError, match="motions: has 0 entries, must have >= 3"):
+        RigidGround((), 0.1, 0.0)
 
 
 def test_progress_is_that_of_all_runs(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -82,7 +82,8 @@ class RigidGround(Shown):
     motions: one simulation for each stiffness, the softest first. `speed`: the limit; its error is that
     of the last run (steps, periods, mesh if requested, snap-throughs) plus `ground_error`.
     stopped: why no stiffer ground was tried although `ground_error` misses rtol; empty if it meets it.
-    rtol: asked for. seconds: of all runs.
+    rtol: asked for. seconds: of all runs. Raises ValueError for fewer than three motions, and for a
+    scene without Ground.
 
     >>> from fem_check import Bending, Friction, Gravity, Ground, Material, Membrane, RigidGround, Scene
     >>> from fem_check import simulate
@@ -99,6 +100,10 @@ class RigidGround(Shown):
     rtol: float
     seconds: float
     stopped: str = ""
+
+    def __post_init__(self) -> None:
+        if len(self.motions) < FEWEST:
+            raise ValueError(f"motions: has {len(self.motions)} entries, must have >= {FEWEST}")
 
     @property
     def stiffnesses(self) -> Array:
