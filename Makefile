@@ -77,6 +77,7 @@ gaits: $(STAMP)
 	$(RUN) -m figures.measure.gait_map --friction dry
 	$(RUN) -m figures.draw.gait_page
 	$(RUN) -m figures.measure.gaits
+	$(RUN) -m figures.measure.gaits_checked
 
 bench-threads: $(STAMP)
 	$(RUN) -m figures.measure.bench.threads

@@ -22,6 +22,7 @@ from .shell.effects.koiter import Bending, Membrane
 from .shell.effects.loads import DeadLoad
 from .shell.effects.terrain import Terrain
 from .shell.material import Material
+from .shell.stepping.further.rigid_ground import RigidGround, rigid_ground
 from .shell.stepping.schemes import BackwardDifferences, Newmark
 from .shell.stepping.simulation import simulate
 from .shell.stepping.trajectory import Trajectory
@@ -45,6 +46,7 @@ __all__ = [
     "Outline",
     "PlaneStressField",
     "Prediction",
+    "RigidGround",
     "Scene",
     "Terrain",
     "Trajectory",
@@ -54,6 +56,7 @@ __all__ = [
     "excitable_preset",
     "plane_stress_field",
     "predict",
+    "rigid_ground",
     "simulate",
     "speeds",
     "sweep",

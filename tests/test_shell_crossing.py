@@ -7,14 +7,18 @@ import numpy as np
 import pytest
 import skfem
 
+from fem_check.choice import ways
 from fem_check.mesh.elements import grid
+from fem_check.shell.cycle.speed import cycle_speed
+from fem_check.shell.effects.koiter import Bending, Membrane
 from fem_check.shell.kinematics import crossing
 from fem_check.shell.kinematics.crossing import Crossings, CrossingsUnknown
 from fem_check.shell.kinematics.discretisation import Discretisation
 from fem_check.shell.stepping.simulation import simulate
 from fem_check.shell.stepping.trajectory import Trajectory
-from linear_theory import Sheet
-from tests.shell_scenes import lying, planar
+from linear_theory import FieldWave, Sheet
+from linear_theory.scene.scene import Scene
+from tests.shell_scenes import MATERIAL, lying, planar
 
 SHEET = Sheet()
 
@@ -148,3 +152,18 @@ def test_a_planar_sheet_cannot_cross_itself(monkeypatch: pytest.MonkeyPatch) -> 
     motion = simulate(planar(0.1, cells=(1, 2), slip=0.02), periods=1, rtol=0.2)
     assert motion.crossed is not None
     assert not motion.crossed.any()
+
+
+@pytest.mark.parametrize(("curvature", "crosses"), [(0.5, False), (8.0, True)])
+def test_a_cycle_of_shapes_that_cross_is_not_converged(curvature: float, crosses: bool) -> None:
+    """Bent to an arc of half a radian, and to one of 8 radians, which is more than a full turn."""
+    wave = FieldWave(lambda x, y, t: 1 + 0.1 * np.sin(2 * np.pi * (y - t)) + 0 * x, 1.0)
+    bends = (Membrane(MATERIAL), Bending(MATERIAL))
+    scene = Scene(SHEET, wave, 0.05, curvature, bends, cells=(2, 6))
+    found = cycle_speed(scene, friction="viscous", rtol=0.3, atol=1.0)
+    assert found.error < 1
+    assert found.converged is not crosses
+    assert ("passes through itself from t = 0," in found.model) is crosses
+    shapes = found.deformation.shapes  # type: ignore[union-attr]
+    assert shapes.crossed.tolist() == [crosses] * len(shapes.states)
+    assert (ways._crossing(found) != "") is crosses

@@ -22,8 +22,10 @@ from fem_check.shell.material import Material
 from fem_check.shell.model import ShellModel
 from fem_check.shell.statics.equilibrium import ConvergenceError
 from fem_check.shell.statics.newton import Minimiser
+from fem_check.shell.stepping.further.progress import Progress, Whole
+from fem_check.shell.stepping.further.second_runs import COARSER_WORK
 from fem_check.shell.stepping.schemes import History
-from fem_check.shell.stepping.simulation import Progress, simulate
+from fem_check.shell.stepping.simulation import simulate
 from fem_check.shell.stepping.step_control import StepSize
 from fem_check.shell.stepping.trajectory import Trajectory
 from linear_theory import Sheet, SineWave, TravellingWave, ViscousRegimeWarning
@@ -264,6 +266,36 @@ def test_progress_tells_the_time_left() -> None:
     assert seen[-1].left == 0
     assert seen[5].left > 0
     assert seen[-1].time == pytest.approx(seen[-1].end)
+    assert [p.share for p in seen] == pytest.approx(np.arange(1, 13) / 12)
+
+
+def test_progress_counts_further_runs() -> None:
+    """A run on a coarser mesh is part of the work from the start, and of the time left."""
+    seen: list[Progress] = []
+    simulate(planar(cells=(2, 4)), periods=1, steps=8, progress=seen.append, mesh_error=True)
+    shares = np.array([p.share for p in seen])
+    assert len(shares) == 24
+    assert np.all(np.diff(shares) > 0)
+    assert shares[11] == pytest.approx(1 / (1 + COARSER_WORK))
+    assert shares[-1] == pytest.approx(1)
+    assert {p.task for p in seen[:12]} == {"the motion"}
+    assert {p.task for p in seen[12:]} == {"on a coarser mesh"}
+    assert seen[11].left > 0
+    assert seen[-1].left == 0
+
+
+def test_progress_never_falls_when_a_further_run_turns_out_to_be_needed() -> None:
+    shares: list[float] = []
+    whole = Whole(lambda p: shares.append(p.share), {})
+    for task, planned in (("the motion", False), ("with longer steps", True)):
+        listener = whole.of(task)
+        for k in range(1, 9):
+            if k == 7:
+                whole.plan("with longer steps", 0.7)
+            listener(Progress(k / 8, 1.0, k, 0, k, 8.0 - k))
+        assert planned or 0.75 < shares[-1] < 0.9
+    assert np.all(np.diff(shares) > 0)
+    assert shares[-1] == pytest.approx(1)
 
 
 def test_a_planar_scene_builds_nothing_of_a_shell(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -25,7 +25,7 @@ from fem_check.shell.kinematics.rates import Affine
 from fem_check.shell.kinematics.surface import AnnulusSector, Cylinder, Flat, SpherePart
 from fem_check.shell.model import ShellModel
 from fem_check.shell.statics.equilibrium import Equilibrium
-from fem_check.shell.stepping.run import Progress
+from fem_check.shell.stepping.further.progress import Progress
 from linear_theory.common.shown import LINES, WIDTH, Shown, in_words, number, with_error
 from linear_theory.friction.law import Response
 from linear_theory.growth.bilayer import Couplings
@@ -62,6 +62,16 @@ def full_scene():
         fem_check.DeadLoad((0.0, 0.0, 1e-9)),
     ]
     return fem_check.Scene(SHEET, SINE, alpha=0.1, curvature_coupling=10, effects=effects, cells=(2, 4))
+
+
+@cache
+def sunk():
+    """Of one motion thrice, as if its ground gave no more."""
+    contact = [fem_check.Gravity(2.5e-4), fem_check.Ground(0.5), fem_check.Friction(1.0, 0.001)]
+    effects = [MEMBRANE, fem_check.Bending(MATERIAL), *contact]
+    scene = fem_check.Scene(SHEET, SINE, alpha=0.02, effects=effects, cells=(1, 2))
+    motion = fem_check.simulate(scene, periods=1, rtol=0.5)
+    return fem_check.RigidGround((motion,) * 3, 0.1, 1.0)
 
 
 def many_harmonics():
@@ -180,6 +190,7 @@ MADE = {
     "Growth": lambda: linear_theory.Growth(0.25),
     "Inertia": lambda: fem_check.Inertia(1.0, MATERIAL),
     "IsotropicResponse": lambda: linear_theory.Tanh(0.1).at(np.ones((2, 3))),
+    "Limit": lambda: sunk().limit,
     "Linear": linear_theory.Linear,
     "Material": lambda: MATERIAL,
     "Membrane": lambda: MEMBRANE,
@@ -203,6 +214,7 @@ MADE = {
     "Region": lambda: ShellModel(full_scene()).discretisation.interior,
     "Record": lambda: next(swept().rows())[1],
     "Response": lambda: Response(linear_theory.Coulomb(), np.ones((2, 3))),
+    "RigidGround": sunk,
     "RestState": lambda: ShellModel(planar()).rest(0.2),
     "RigidSpeed": lambda: turning().turning,
     "RitzField": lambda: field("RitzField"),

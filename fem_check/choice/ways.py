@@ -12,12 +12,14 @@ from typing import Any, NamedTuple
 
 from fem_check.choice.prediction import Prediction, predict
 from fem_check.shell.abilities import CYCLE, STEPPED, left_out
+from fem_check.shell.cycle.deformation import CycleDeformation
 from fem_check.shell.cycle.speed import cycle_speed
 from fem_check.shell.effects.effect import Effect
 from fem_check.shell.effects.friction import Friction
 from fem_check.shell.model import ShellModel
 from fem_check.shell.statics.meter import Meter, metered
-from fem_check.shell.stepping.run import Progress as Steps
+from fem_check.shell.stepping.further.progress import FIRST
+from fem_check.shell.stepping.further.progress import Progress as Steps
 from fem_check.shell.stepping.simulation import simulate
 from fem_check.shell.stepping.trajectory import Trajectory
 from linear_theory.common import validation
@@ -45,6 +47,7 @@ TIGHTER = 0.35
 REPEATED = 0.1
 """Largest difference of the last two periods, relative to the speed, of a motion that repeats."""
 
+CROSSES = "the sheet passes through itself, which no real one does"
 NOISY = "the error is without that of the measured wave, which may be larger than the tolerance"
 UNSTABLE = "growth is so strong that the shapes may not exist on a finer mesh"
 SIDEWAYS = "the tolerance is met along the sheet, but not by the sideways motion or the turning"
@@ -125,14 +128,20 @@ def solved(
 def _by_cycle(scene: Scene, tolerance: Tolerance, progress: Report | None) -> Prediction:
     """The answer of a cycle of shapes."""
     speed = cycle_speed(scene, rtol=tolerance.rtol, progress=progress)
-    lacking, caution, noise = [], "", _noise(speed, scene)
+    lacking, caution, noise = [], _crossing(speed), _noise(speed, scene)
     if math.isnan(speed.model_error):
         lacking.append("deformation by friction, taken as too weak")
     met = speed.error <= tolerance.allowed(speed.mean)
-    if met and not speed.converged and not speed.beyond_reach:
+    if met and not (speed.converged or speed.beyond_reach or caution):
         caution = NOISY if noise else SIDEWAYS if _turns_too_vaguely(speed, tolerance) else UNSTABLE
     named = {type(effect) for effect in scene.effects} - {Friction}
     return _found("cycle", speed, named, scene, tolerance, (*lacking, *noise), caution)
+
+
+def _crossing(speed: CrawlSpeed) -> str:
+    """A caution, if the shapes of a cycle pass through themselves."""
+    shown = speed.deformation
+    return CROSSES if isinstance(shown, CycleDeformation) and shown.crosses else ""
 
 
 def _turns_too_vaguely(speed: CrawlSpeed, tolerance: Tolerance) -> bool:
@@ -182,7 +191,7 @@ def _found(
 def _caution(motion: Trajectory) -> str:
     """What is wrong with the speed of a motion, whatever tolerance is asked for."""
     if motion.crossed is not None and motion.crossed.any():
-        return "the sheet passes through itself, which no real one does"
+        return CROSSES
     if motion.snaps:
         lower = ": the error is a lower bound" if math.isnan(motion.errors.snaps) else ""
         return f"the sheet snaps over in the last period, where its path depends on the steps{lower}"
@@ -201,8 +210,8 @@ def _steps_to(report: Report) -> Callable[[Steps], None]:
     """Tells of steps in time as of any other work."""
 
     def heard(steps: Steps) -> None:
-        share = steps.time / steps.end if steps.end else 1.0
-        report(Progress("steps in time", share, steps.seconds, steps.left))
+        task = "" if steps.task == FIRST else f" {steps.task}"
+        report(Progress(f"steps in time{task}", steps.share, steps.seconds, steps.left))
 
     return heard
 

@@ -52,6 +52,11 @@ class ShellModel(Shown):
         return next((effect for effect in self.effects if isinstance(effect, kind)), None)
 
     @property
+    def heavy(self) -> bool:
+        """Whether the sheet has inertia."""
+        return any(effect.areal_mass for effect in self.effects)
+
+    @property
     def static_effects(self) -> tuple[Effect, ...]:
         """Effects that are defined without a velocity."""
         return tuple(effect for effect in self.effects if effect.is_static)

@@ -1,6 +1,6 @@
 """Bending gaits at random: how many end with a speed, how many with a reason, at what cost.
 
-    python -m figures.measure.gaits [--out FILE] [--count 300] [--first 0] [--seconds 180]
+    python -m figures.measure.gaits [--out FILE] [--count 300] [--seconds 180]
 
 Writes figures/data/gaits.csv, one row for each scene; the scene of a number is always the same. Hours
 of computing for all 300; a run goes on where the file ends. alpha is uniform in [-0.4, 0.4], the rest

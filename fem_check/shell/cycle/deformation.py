@@ -41,6 +41,12 @@ class CycleDeformation(Shown):
         return {"words": self.words, "alpha": self.alpha, "load": self._load, "law": self.law}
 
     @property
+    def crosses(self) -> bool:
+        """Whether the sheet passes through itself; False if unknown, see `Shapes.crossed`."""
+        crossed = self.shapes.crossed
+        return crossed is not None and bool(crossed.any())
+
+    @property
     def drive(self) -> Drive:
         """See Deformation."""
         return self.shapes.scene.drive

@@ -7,6 +7,7 @@ for velocities, the unknowns are interpolated by the trigonometric polynomial th
 
 import time
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -15,6 +16,7 @@ from fem_check.shell.depth import laid_down
 from fem_check.shell.effects.effect import Effect
 from fem_check.shell.effects.ground import Ground
 from fem_check.shell.effects.koiter import Membrane
+from fem_check.shell.kinematics.crossing import crossed
 from fem_check.shell.kinematics.discretisation import Discretisation
 from fem_check.shell.kinematics.extrapolation import extrapolated
 from fem_check.shell.kinematics.supports import Supports
@@ -83,6 +85,11 @@ class Shapes(Shown):
     def times(self) -> Array:
         """The phases, (N,), in units of the wave's period."""
         return phases(self.scene.period, len(self.states))
+
+    @cached_property
+    def crossed(self) -> NDArray[np.bool_] | None:
+        """Whether the sheet passes through itself at each phase, (N,); None without ipctk."""
+        return crossed(self.discretisation, self.states)
 
     @property
     def harmonics(self) -> Array:

@@ -23,6 +23,7 @@ from fem_check.shell.cycle.deformation import CycleDeformation
 from fem_check.shell.cycle.motion import UnresolvedError
 from fem_check.shell.cycle.shapes import Shapes, cycle_of_shapes
 from fem_check.shell.effects.friction import friction_over_growth
+from fem_check.shell.kinematics.crossing import crossing_words
 from fem_check.shell.kinematics.places import distinct
 from fem_check.shell.model import ShellModel
 from linear_theory.common import validation
@@ -74,10 +75,11 @@ def cycle_speed(
     and rigid_mean are used (see `rigid.RigidNorm`).
 
     Phases and times are added until they meet the tolerance. The mesh is that of the scene; its error
-    is estimated from another mesh (`other_mesh`) and can leave a result unconverged. So can growth so
-    strong that the shape would not exist on finer meshes (UnstableError if it does not exist on this
-    mesh), or so small that alpha^2 is below roundoff, 1e-15 L/T (alpha < 3e-7 at rtol = 1e-2): for
-    such speeds use `linear_theory.crawl_speed` with order = 2.
+    is estimated from another mesh (`other_mesh`) and can leave a result unconverged. So can a sheet
+    that passes through itself (`model` says so, see `Shapes.crossed`), growth so strong that the shape
+    would not exist on finer meshes (UnstableError if it does not exist on this mesh), or so small that
+    alpha^2 is below roundoff, 1e-15 L/T (alpha < 3e-7 at rtol = 1e-2): for such speeds use
+    `linear_theory.crawl_speed` with order = 2.
     model_error is 0 for a scene that only stretches in the plane, which is the target: the nonlinear
     sheet with the stated growth law, area measure and load; NaN for other scenes, such as those with
     Friction, which deforms the sheet slightly.
@@ -140,11 +142,11 @@ class Cycle(Shown):
         return CrawlSpeed(
             estimate=Estimate(float(period.mean[1]), float(error[1])),
             model_error=0.0 if _is_target(scene) else math.nan,
-            converged=self._stable(balance) and balance.norm.meets(period.mean, error, tolerance),
+            converged=self._sound(balance) and balance.norm.meets(period.mean, error, tolerance),
             times=times,
             velocity=rigid[1],
             seconds=time.perf_counter() - start,
-            model=_words(scene, contact),
+            model=_words(scene, contact, balance.shapes),
             slip_ratio=contact.friction.slip_ratio(fastest),
             first_order=0.0 if _starts_at_second_order(scene, contact) else math.nan,
             sticks=period.sticks,
@@ -164,6 +166,11 @@ class Cycle(Shown):
         shapes = kept.at(len(balance.shapes.states))
         other = balance.on(shapes).balance(period.grid.times)
         return np.asarray(abs(balance.mean(period.grid, other.leading) - period.mean) / gain)
+
+    def _sound(self, balance: CycleBalance) -> bool:
+        """Whether a real sheet has these shapes: they do not cross themselves, nor need this mesh."""
+        crossed = balance.shapes.crossed
+        return (crossed is None or not crossed.any()) and self._stable(balance)
 
     def _stable(self, balance: CycleBalance) -> bool:
         """Whether the shapes exist on finer meshes, from the stability margin on two meshes."""
@@ -283,9 +290,10 @@ def _starts_at_second_order(scene: Scene, contact: Contact) -> bool:
     return even and drive.series is not None and drive.changes_sign
 
 
-def _words(scene: Scene, contact: Contact) -> str:
+def _words(scene: Scene, contact: Contact, shapes: Shapes | None = None) -> str:
     where = "in the plane" if scene.planar else "in space"
     weak = friction_over_growth(scene)
     ratio = f" (its strain is {weak:.1g} of that by growth)" if 0 < weak < math.inf else ""
     static = f"static shapes not deformed by friction{ratio}"
-    return model_words(f"nonlinear sheet {where}", scene.growth, contact, static)
+    crossing = "" if shapes is None else crossing_words(shapes.crossed, shapes.times)
+    return model_words(f"nonlinear sheet {where}", scene.growth, contact, static, crossing)

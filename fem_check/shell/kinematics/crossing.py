@@ -6,6 +6,7 @@ middle surface whose vertices are points of the sheet, a linear map of the unkno
 are flat, so that parts closer than their sagitta may be missed, or be taken to touch.
 """
 
+from collections.abc import Iterable
 from functools import cached_property
 from typing import Any
 
@@ -18,6 +19,7 @@ from linear_theory.common.extras import optional
 
 Array = NDArray[np.float64]
 Integers = NDArray[np.int64]
+Flags = NDArray[np.bool_]
 
 PIECES = 3
 """Parts into which the side of an element is divided."""
@@ -116,6 +118,27 @@ class Crossings:
             faces = triangles.astype(np.int32)
             self._mesh = ipctk.CollisionMesh(rest, ipctk.edges(faces), faces)
         return self._mesh
+
+
+def crossed(discretisation: Discretisation, states: Iterable[Array]) -> Flags | None:
+    """Whether the sheet passes through itself in each of some states (n, size), (n,).
+
+    In the plane it does not. None if that could not be found out, for lack of ipctk.
+    """
+    if discretisation.components == 2:
+        return np.array([False for _ in states])
+    looks = Crossings(discretisation)
+    try:
+        return np.array([looks.found(u) for u in states])
+    except CrossingsUnknown:
+        return None
+
+
+def crossing_words(crossed: Flags | None, times: Array) -> str:
+    """What the flags of states at some times (n,) say of a speed; nothing if the sheet stays apart."""
+    if crossed is None:
+        return "not looked at for crossing itself (pip install 'sheetcrawl[contact]')"
+    return f"passes through itself from t = {times[crossed][0]:.4g}" if crossed.any() else ""
 
 
 def _quadrilateral() -> tuple[Array, Integers]:

@@ -1,7 +1,6 @@
 """A running simulation: its full state, which can be saved, resumed and rewound."""
 
 import time
-from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -17,8 +16,9 @@ from fem_check.shell.statics.equilibrium import ConvergenceError
 from fem_check.shell.statics.newton import Factorised
 from fem_check.shell.statics.secants import Secants
 from fem_check.shell.stepping.between import probe_region
+from fem_check.shell.stepping.further.progress import Listener, Progress
 from fem_check.shell.stepping.power import Ledger, Moment, Works
-from fem_check.shell.stepping.record import NO_COUNTS, Counts, Record
+from fem_check.shell.stepping.record import COLUMNS, NO_COUNTS, Counts, Record
 from fem_check.shell.stepping.schemes import History
 from fem_check.shell.stepping.settings import Settings
 from fem_check.shell.stepping.sliding import Sliding, sliding
@@ -27,8 +27,7 @@ from fem_check.shell.stepping.snapshot import check_writable, load_snapshot, sav
 from fem_check.shell.stepping.start import first_history
 from fem_check.shell.stepping.step_control import GROWTH, LANDED, step_size
 from fem_check.shell.stepping.stepper import Stepper, StepResult
-from fem_check.shell.stepping.trajectory import Trajectory
-from linear_theory.common.shown import Shown
+from fem_check.shell.stepping.trajectory import Trajectory, may_branch
 from linear_theory.common.threads import one_blas_thread
 from linear_theory.scene.scene import Scene
 
@@ -44,21 +43,11 @@ CHECKED = 8
 """Interval, in steps, of checks for negative curvature at the end of a step, which cost a Hessian: a
 reused factor, or symmetry, can hide it from the minimisations."""
 
+BRANCHING = [COLUMNS.index(name) for name in ("buckled", "snapped")]
+"""Columns of the record that say whether the sheet buckled or jumped in a step."""
+
 MOMENT = ("area", "sliding", "drag", "velocity")
 """Arrays of a Moment that only some scenes have."""
-
-
-class _Progress(NamedTuple):
-    time: float
-    end: float
-    steps: int
-    rejected: int
-    seconds: float
-    left: float
-
-
-class Progress(Shown, _Progress):
-    """time and end of the run, accepted and rejected steps, seconds spent and left (estimated)."""
 
 
 class Target(NamedTuple):
@@ -92,8 +81,8 @@ class Run:
         self.scene, self.settings, period = scene, settings, scene.period
         self.model = ShellModel(scene)
         scene.drive.check_until(period * (settings.ramp + settings.periods))
-        heavy, steps = any(e.areal_mass for e in self.model.effects), settings.steps_of(period)
-        self.size = step_size(period, settings.rtol, steps, scene.drive.rates, heavy)
+        steps = settings.steps_of(period)
+        self.size = step_size(period, settings.rtol, steps, scene.drive.rates, self.model.heavy)
         self.size.scale = abs(scene.alpha) * scene.sheet.length / period
         self.snap = Snap(first_stiffness(scene.sheet))
         self.start = settings.ramp * period
@@ -116,8 +105,14 @@ class Run:
         """Number of accepted steps so far."""
         return len(self.record.rows) - 1
 
+    @property
+    def branches(self) -> bool:
+        """Whether the sheet could have taken another way in the last period, see `Trajectory`."""
+        rows = np.array([row for row in self.record.rows if row[0] > self.marks[-2]])
+        return may_branch(self.model, *rows[:, BRANCHING].T) if rows.size else False
+
     @one_blas_thread
-    def finish(self, target: Target | None, report: Callable[[Progress], None] | None) -> None:
+    def finish(self, target: Target | None, report: Listener | None) -> None:
         """Step to the end, with snapshots at regular intervals if there is a target for them."""
         begin, before = time.perf_counter(), self.history.time
         if target is not None and self._remaining() > 0:
@@ -157,7 +152,14 @@ class Run:
             record.rejected,
             0.0,
             rtol=self.size.rtol,
+            corrects=self._corrects,
         )
+
+    @property
+    def _corrects(self) -> bool:
+        """Whether the error of the steps is known: friction, not mass, balances a change of speed."""
+        known = self.history.scheme.known_error and not self.model.heavy
+        return self.size.rtol is not None and known
 
     def _remaining(self) -> float:
         """Time to the next end of a period (or of the ramp); 0 at the end of the run."""

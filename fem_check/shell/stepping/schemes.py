@@ -8,6 +8,7 @@ the sheet rings on, and unresolved ringing can grow. Backward differences damp w
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass, field, replace
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,9 +32,13 @@ SMALLEST_ERROR = 1 / 12
 
 
 class Scheme(ABC):
-    """A scheme; step: length of its steps in units of time, None if it follows from rtol or steps."""
+    """A scheme; step: length of its steps in units of time, None if it follows from rtol or steps.
+
+    known_error: whether `velocity_error` is the error itself, to first order, and not only its size.
+    """
 
     step: float | None
+    known_error: ClassVar[bool] = False
 
     @abstractmethod
     def rules(self, history: "History", dt: float) -> tuple[Affine, Affine | None]:
@@ -61,6 +66,7 @@ class BackwardDifferences(Value, Scheme):
     """
 
     step: float | None = None
+    known_error: ClassVar[bool] = True
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "step", _step(self.step))

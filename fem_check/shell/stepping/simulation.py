@@ -2,16 +2,15 @@
 
 import os
 import sys
-from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from fem_check.mesh.elements import default_cells
-from fem_check.shell.statics.equilibrium import ConvergenceError
-from fem_check.shell.stepping.run import Progress, Run, Target
+from fem_check.shell.stepping.further import second_runs
+from fem_check.shell.stepping.further.progress import Listener, Progress, Whole, printed
+from fem_check.shell.stepping.run import Run, Target
 from fem_check.shell.stepping.schemes import Scheme
 from fem_check.shell.stepping.settings import Settings
 from fem_check.shell.stepping.snapshot import check_path, check_writable, run_fingerprint
@@ -21,14 +20,6 @@ from linear_theory.friction.regime import warn_if_viscous
 from linear_theory.scene.scene import Scene
 
 Array = NDArray[np.float64]
-
-MESH_MARGIN = 2
-"""Mesh error relative to the difference to a mesh 1.5 times coarser. The elastic part is far smaller;
-with dry friction the quadrature of a discontinuous force dominates, which converges irregularly."""
-
-SNAP_MARGIN = 2
-"""Error of a speed with snap-throughs relative to the difference to a run with steps twice as long,
-whose snaps start elsewhere and take another way."""
 
 
 def simulate(
@@ -44,7 +35,7 @@ def simulate(
     snapshot_every: int = 50,
     keep_every: int = 1,
     mesh_error: bool = False,
-    progress: bool | Callable[[Progress], None] = False,
+    progress: bool | Listener = False,
 ) -> Trajectory:
     """The motion of a scene from the ungrown sheet at rest, through a ramp of growth and `periods`.
 
@@ -57,10 +48,11 @@ def simulate(
     resumes from it, and the results are bit for bit those of an uninterrupted run (one thread, same
     machine). keep_every: interval, in steps, of states kept in the trajectory, see
     `Trajectory.shape_error`. mesh_error: estimate the mesh error from a second run on a coarser mesh.
-    progress: True prints, a function is called after each step.
+    progress: True prints, a function is called after each step, of further runs too (`Progress`).
 
-    Steps are short enough to resolve the significant harmonics in time of the wave. A sheet that snaps
-    through is simulated a second time with longer steps, for the error of V.
+    Steps are short enough to resolve the significant harmonics in time of the wave. A sheet that
+    snaps through in the last period, or buckles and has inertia, is simulated a second time with longer
+    steps, for the error of V: it may take another way.
 
     A scene without Friction and Inertia is not time dependent; use `cycle_speed.cycle_speed`.
     Raises ValueError for such scenes, for values out of range, for too few `steps` to resolve the wave
@@ -77,7 +69,7 @@ def simulate(
     >>> scene = Scene(Sheet(), SineWave(), alpha=0.1, effects=effects, cells=(1, 2))
     >>> motion = simulate(scene, periods=1, rtol=0.1)
     >>> print(f"V = {motion.speed.mean:.3f} L/T, friction is {motion.regime}")
-    V = 0.016 L/T, friction is dry
+    V = 0.015 L/T, friction is dry
     """
     run, target = None, None
     hint = "make one by Scene(sheet, wave, alpha, effects=...)"
@@ -94,15 +86,17 @@ def simulate(
         run, resumed = Run(scene, settings), np.nan
         if target is not None:
             resumed = run.resume(target)
-        run.finish(target, (_printed if progress is True else progress) or None)
-        difference = _mesh_error(run) if mesh_error else np.nan
-        jumps = _snap_error(run)
+        whole = _whole(progress, mesh_error)
+        run.finish(target, None if whole is None else _watching(run, whole))
+        difference = second_runs.mesh_error(run, whole) if mesh_error else np.nan
+        jumps = second_runs.snap_error(run, whole)
     except KeyboardInterrupt:
-        if progress is True:
-            print(file=sys.stderr)
         # Not a subclass, for which Python would not exit with the status of an interrupted process;
         # from None, since the traceback into a step does not help the user.
         raise KeyboardInterrupt(_interrupted(run, target)) from None
+    finally:
+        if progress is True and run is not None:
+            print(file=sys.stderr)
     found = replace(
         run.trajectory(),
         seconds=run.seconds,
@@ -114,37 +108,32 @@ def simulate(
     return found
 
 
+def _whole(progress: bool | Listener | None, mesh_error: bool) -> Whole | None:
+    """What tells of the progress of all runs; None if no one listens."""
+    if not progress:
+        return None
+    planned = {second_runs.COARSER: second_runs.COARSER_WORK} if mesh_error else {}
+    return Whole(printed if progress is True else progress, planned)
+
+
+def _watching(run: Run, whole: Whole) -> Listener:
+    """What listens to the first run, and counts on another one when the sheet may branch."""
+    listener = whole.of()
+
+    def heard(progress: Progress) -> None:
+        if run.branches:
+            whole.plan(second_runs.LONGER, second_runs.LONGER_WORK)
+        listener(progress)
+
+    return heard
+
+
 def _target(path: Path, scene: Scene, settings: Settings, every: int) -> Target:
     """Destination of the snapshots of a run; raises, before any work, if they cannot be written."""
     check_path(path)
     if not os.path.exists(path):
         check_writable(path)
     return Target(path, run_fingerprint(path, scene, settings), every)
-
-
-def _mesh_error(run: Run) -> float:
-    """Mesh error of the mean speed, from the same run on a coarser mesh."""
-    coarse = Run(coarser(run.scene), run.settings)
-    coarse.finish(None, None)
-    difference = coarse.trajectory().period_speeds[-1] - run.trajectory().period_speeds[-1]
-    return float(MESH_MARGIN * abs(difference))
-
-
-def _snap_error(run: Run) -> float:
-    """Error of the mean speed of a sheet that snaps through, from the same run with longer steps.
-
-    NaN if it does not snap in the last period, infinite if the run with longer steps fails.
-    """
-    found = run.trajectory()
-    if not found.snapped[found.last_period].any():
-        return np.nan
-    try:
-        rough = Run(run.scene, run.settings.rougher())
-        rough.finish(None, None)
-    except (ConvergenceError, ValueError):
-        return np.inf
-    difference = rough.trajectory().period_speeds[-1] - found.period_speeds[-1]
-    return float(SNAP_MARGIN * abs(difference))
 
 
 def _interrupted(run: Run | None, target: Target | None) -> str:
@@ -161,27 +150,3 @@ def _interrupted(run: Run | None, target: Target | None) -> str:
     except OSError as error:
         return f"{text}; {error}; it is unchanged"
     return f"{text}, all kept in {target.path}; the same call resumes from there"
-
-
-def coarser(scene: Scene) -> Scene:
-    """The scene on a mesh with elements about 1.5 times as long.
-
-    Raises ValueError for a mesh that cannot be coarsened: a given one, or one with a single row.
-    """
-    if scene.mesh is not None:
-        raise ValueError("mesh_error = True: must be False for a scene with its own mesh")
-    across, along = scene.cells or default_cells(scene.drive, scene.planar)
-    if min(across, along) < 2:
-        raise ValueError(f"cells = {scene.cells}: must both be >= 2 if mesh_error = True")
-    return scene.but(cells=(round(across / 1.5), round(along / 1.5)))
-
-
-def _printed(progress: Progress) -> None:
-    share = 100 * progress.time / progress.end
-    end = "\n" if progress.time >= progress.end * (1 - 1e-9) else ""
-    print(
-        f"\r{share:5.1f} %, {progress.steps} steps, {progress.left:.0f} s left ",
-        end=end,
-        file=sys.stderr,
-        flush=True,
-    )
