@@ -4,6 +4,8 @@ Read by `lazy_loader` as it runs, and by type checkers.
 """
 
 from .choice.prediction import Prediction, predict
+from .choice.settings import RunSettings
+from .choice.solving import solve
 from .excitable.equation import FitzHughNagumo
 from .excitable.excitation import Excitation
 from .excitable.presets import excitable_preset
@@ -45,6 +47,7 @@ __all__ = [
     "Outline",
     "PlaneStressField",
     "Prediction",
+    "RunSettings",
     "Scene",
     "Terrain",
     "Trajectory",
@@ -55,6 +58,7 @@ __all__ = [
     "plane_stress_field",
     "predict",
     "simulate",
+    "solve",
     "speeds",
     "sweep",
     "write_paraview",
