@@ -35,18 +35,9 @@ class Sources:
         return cls(*coordinates.values(), values, **options)
 
     @classmethod
-    def from_netcdf(
-        cls,
-        path: str | Path,
-        *,
-        x: str = "x",
-        y: str = "y",
-        t: str = "t",
-        c: str = "c",
-        **options: Any,
-    ) -> Self:
-        """From the variable `c` of a netCDF file; the rest as `from_xarray`. Needs xarray."""
-        return cls.from_xarray(reading.netcdf_array(path, c), x=x, y=y, t=t, **options)
+    def from_netcdf(cls, path: str | Path, *, c: str = "c", **named: Any) -> Self:
+        """From the variable `c` of a netCDF file. Needs xarray. named: x, y, t, options of `from_xarray`."""
+        return cls.from_xarray(reading.netcdf_array(path, c), **named)
 
     @classmethod
     def from_csv(
