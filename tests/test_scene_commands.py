@@ -18,6 +18,7 @@ from fem_check import Friction, Gravity, Inertia, Material, Membrane, cycle_spee
 from fem_check.answer.block import block
 from fem_check.choice import solving, ways
 from fem_check.choice.expected import expected_seconds
+from fem_check.choice.settings import RunSettings
 from fem_check.choice.solving import solve, solved
 from fem_check.choice.ways import way_of
 from fem_check.command import BAD_ARGUMENTS, MET, MISSED, main, screens
@@ -261,7 +262,9 @@ def test_growth_that_no_sheet_has_is_no_scene(capsys: Any, growth: str, named: s
 
 def test_a_smaller_tolerance_is_expected_to_cost_more(capsys: Any) -> None:
     scene = read(gallery.FOLDER / "paper.toml").scene
-    costs = [expected_seconds(scene, "predict", rtol) for rtol in (1e-1, 1e-2, 1e-4, 1e-6)]
+    costs = [
+        expected_seconds(scene, "predict", RunSettings(rtol=rtol)) for rtol in (1e-1, 1e-2, 1e-4, 1e-6)
+    ]
     assert costs[0] == costs[1]
     assert costs[3] / costs[1] == pytest.approx(20, rel=0.5)  # measured: 12 s and 0.6 s
 

@@ -36,7 +36,7 @@ class Sources:
 
     @classmethod
     def from_netcdf(cls, path: str | Path, *, c: str = "c", **named: Any) -> Self:
-        """From the variable `c` of a netCDF file. Needs xarray. named: x, y, t, options of `from_xarray`."""
+        """From the variable `c` of a netCDF file. Needs xarray. named: as for `from_xarray`."""
         return cls.from_xarray(reading.netcdf_array(path, c), **named)
 
     @classmethod
@@ -53,10 +53,10 @@ class Sources:
     ) -> Self:
         """From a text file, a sample in each line, whose first line names the columns.
 
-        x, y, t, c: names of the columns, which may stand there in capitals and with units in brackets;
-        x counts where there is one. delimiter: None for the one of commas, semicolons and tabs that is
-        there; unless it is a comma, numbers may have decimal commas. options: period,
-        harmonics, degree.
+        x, y, t, c: names of the columns, which may stand there in capitals and with units in brackets,
+        as c [%], which is converted; x counts where there is one. delimiter: None for the one of
+        commas, semicolons and tabs that is there; unless it is a comma, numbers may have decimal
+        commas. options: period, harmonics, degree, progress.
 
         >>> import numpy as np, tempfile, pathlib
         >>> from linear_theory import SampledWave
