@@ -61,7 +61,7 @@ def free(task: Task) -> Record:
 
 
 def deadly(task: Task) -> Record:
-    """The first scene ends its worker each time, as a crash of a library does; the others cost nothing."""
+    """The first scene ends its worker each time, as a crash of a library does; others are free."""
     scene = task.question.scene
     if scene.alpha == FIRST and scene.sheet.poisson == 0.0:
         with Path(os.environ[LOG]).open("a") as log:

@@ -57,7 +57,7 @@ def _write_all(texts: dict[Path, str], name: str) -> None:
         for path, text in texts.items():
             _write_new(text, path)
             written.append(path)
-    except BaseException as problem:
+    except BaseException as problem:  # Ctrl-C, too, leaves no half of them
         for done in written:
             done.unlink()
         if isinstance(problem, FileExistsError):
@@ -80,7 +80,7 @@ def _write_new(text: str, path: Path) -> None:
         try:
             file.write(text)
             file.flush()
-        except BaseException:
+        except BaseException:  # Ctrl-C, too, leaves no half of it
             path.unlink()
             raise
 

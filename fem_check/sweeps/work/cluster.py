@@ -73,6 +73,9 @@ def _local(distributed: Any, workers: int) -> Iterator[Any]:
     try:
         yield cluster
     finally:
+        with suppress(TimeoutError):  # one that is being started again would complain on stderr
+            if len(cluster.scheduler_info["workers"]) < len(cluster.worker_spec):
+                cluster.wait_for_workers(len(cluster.worker_spec), timeout=PATIENCE)
         with suppress(TimeoutError):  # its processes end with this one at the latest
             cluster.close(timeout=PATIENCE)
 
