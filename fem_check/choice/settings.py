@@ -17,7 +17,7 @@ class RunSettings(Value):
     a period: of a scene that is stepped through time; where steps are given, they take the place of the
     tolerance, and rtol is None. Raises ValueError for numbers out of range.
 
-    >>> from fem_check.choice.settings import RunSettings
+    >>> from fem_check import RunSettings
     >>> print(RunSettings(steps=64).rtol)
     None
     """
