@@ -4,6 +4,8 @@ Read by `lazy_loader` as it runs, and by type checkers.
 """
 
 from .choice.prediction import Prediction, predict
+from .choice.settings import RunSettings
+from .choice.solving import solve
 from .excitable.equation import FitzHughNagumo
 from .excitable.excitation import Excitation
 from .excitable.presets import excitable_preset
@@ -47,6 +49,7 @@ __all__ = [
     "PlaneStressField",
     "Prediction",
     "RigidGround",
+    "RunSettings",
     "Scene",
     "Terrain",
     "Trajectory",
@@ -58,6 +61,7 @@ __all__ = [
     "predict",
     "rigid_ground",
     "simulate",
+    "solve",
     "speeds",
     "sweep",
     "write_paraview",

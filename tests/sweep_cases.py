@@ -1,6 +1,7 @@
 """Sweeps whose scenes cost next to nothing, for tests of what keeps and distributes them."""
 
 import os
+import signal
 import time
 from dataclasses import replace
 from pathlib import Path
@@ -15,6 +16,9 @@ from linear_theory import Scene, Sheet, SineWave
 LOG = "SHEETCRAWL_TEST_LOG"
 """A file that is told of every scene that is computed, an environment variable."""
 
+FIRST = 0.01
+"""Growth of the first scenes."""
+
 PAUSE = 0.01
 """Seconds."""
 
@@ -22,7 +26,10 @@ PAUSE = 0.01
 def plan(count: int = 200) -> Plan:
     """That many scenes, a grid over growth and Poisson ratio, answered in milliseconds."""
     scene = Scene(Sheet(), SineWave(), alpha=0.1)
-    over = {"growth.alpha": Between(0.01, 0.2, count=count // 4), "sheet.poisson": [0.0, 0.2, 0.3, 0.5]}
+    over = {
+        "growth.alpha": Between(FIRST, 0.2, count=count // 4),
+        "sheet.poisson": [0.0, 0.2, 0.3, 0.5],
+    }
     return plan_of(scene, over, Grid(), RunSettings(level="strip", rtol=0.1))
 
 
@@ -51,6 +58,16 @@ def free(task: Task) -> Record:
         seconds=0.0,
         **circumstances(task.question, str(os.getpid())),
     )
+
+
+def deadly(task: Task) -> Record:
+    """The first scene ends its worker each time, as a crash of a library does; others are free."""
+    scene = task.question.scene
+    if scene.alpha == FIRST and scene.sheet.poisson == 0.0:
+        with Path(os.environ[LOG]).open("a") as log:
+            log.write(f"{task.key}\n")
+        os.kill(os.getpid(), signal.SIGKILL)
+    return free(task)
 
 
 def broken(task: Task) -> Record:

@@ -6,6 +6,7 @@ import signal
 import subprocess
 import sys
 import time
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -13,7 +14,7 @@ import pytest
 import xarray
 
 from fem_check.answer.record import record
-from fem_check.choice.ways import answer
+from fem_check.choice.solving import solve, solved
 from fem_check.command import BAD_ARGUMENTS, MET, MISSED, TERMINATED, main
 from fem_check.files import read
 from fem_check.runs import finished, run
@@ -179,7 +180,7 @@ def test_json_says_what_the_block_and_the_motion_say(place):
     assert "model" not in found.block
     assert "not estimated: error of the mesh" in " ".join(found.block.split())
     assert "no tolerance asked for" in (found.folder / "report.html").read_text(encoding="utf-8")
-    direct = answer(file.scene, file.run.level, None, 1, file.run.steps)
+    direct = solve(file.scene, file.run.level, None, periods=1, steps=file.run.steps)
     again = record(direct, file.units)
     assert {**again, "seconds": 0} == {**said, "seconds": 0}
     assert direct.to_row()["error"] == said["error"]
@@ -295,7 +296,7 @@ def test_sigterm_keeps_the_snapshot_and_says_how_to_go_on(tmp_path):
     with np.load(folder / SNAPSHOT) as kept:
         before = float(kept["seconds"])
     file = read(path)
-    direct = answer(file.scene, file.run.level, None, 1, file.run.steps)
+    direct = solve(file.scene, file.run.level, None, periods=1, steps=file.run.steps)
     start = time.perf_counter()
     resumed = run(file.scene, folder, file.run, file.units, resume=True)
     spent = time.perf_counter() - start
@@ -316,13 +317,13 @@ def test_periods_that_differ_are_a_caution_whatever_the_tolerance(tmp_path, monk
     path = tmp_path / "stepped.toml"
     path.write_text(STEPPED.replace("periods = 1", "periods = 2"))
     file = read(path)
-    asked = (file.scene, file.run.level, None, 2, file.run.steps)
-    usual = answer(*asked)
+    settings = replace(file.run, rtol=None)
+    usual = solved(file.scene, settings).answer
     assert (usual.converged, usual.caution) == (True, "")
     assert usual.not_in_error == ("error of the mesh",)
     speeds = np.array([0.5, 1.0]) * usual.mean
     monkeypatch.setattr("fem_check.shell.stepping.trajectory.Trajectory.period_speeds", speeds)
-    found = answer(*asked)
+    found = solved(file.scene, settings).answer
     assert not found.converged
     assert "the last two periods differ by 50 % of the speed" in found.caution
     assert "CAUTION" in str(found)

@@ -53,6 +53,12 @@ def test_a_unit_in_another_encoding(read):
     assert read(table("y [µm];t;c", ";"), "latin-1").noise == EXACT.noise
 
 
+@pytest.mark.parametrize(("unit", "factor"), [("[%]", 0.01), ("(percent)", 0.01), ("[‰]", 0.001)])
+def test_growth_in_per_cent_is_converted(unit, factor, read):
+    wave = read(table(f"y [mm],t [s],c {unit}"))
+    np.testing.assert_allclose(wave.value(0.0, 0.1, 0.2), factor * EXACT.value(0.0, 0.1, 0.2))
+
+
 def test_exact_names_come_first(read):
     assert read(table("y,t,c,C").replace("\n", ",0\n").replace("C,0", "C")).noise == EXACT.noise
 

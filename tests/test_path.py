@@ -189,7 +189,7 @@ def test_error_of_the_radius_is_honest() -> None:
     assert rough.radius_error < 0.1 * rough.radius
 
 
-def close(path: Path, other: Path, mirror: tuple[float, float, float]) -> None:
+def assert_image(path: Path, other: Path, mirror: tuple[float, float, float]) -> None:
     """One step is the image of the other, within the errors, which are small."""
     image = np.array([*other.step, other.turn]) * mirror
     off = abs(np.array([*path.step, path.turn]) - image)
@@ -202,9 +202,9 @@ def close(path: Path, other: Path, mirror: tuple[float, float, float]) -> None:
 def test_images_of_a_wave_make_images_of_the_path(growth: Growth) -> None:
     """Turned by half a circle, mirrored in x and mirrored in y; a mirror turns the heading round."""
     path, rough = theory(growth, rtol=1e-2), {"rtol": 1e-2}
-    close(theory(lambda x, y, t: growth(-x, -y, t), **rough), path, (-1, -1, 1))
-    close(theory(lambda x, y, t: growth(-x, y, t), **rough), path, (-1, 1, -1))
-    close(theory(lambda x, y, t: growth(x, -y, t), **rough), path, (1, -1, -1))
+    assert_image(theory(lambda x, y, t: growth(-x, -y, t), **rough), path, (-1, -1, 1))
+    assert_image(theory(lambda x, y, t: growth(-x, y, t), **rough), path, (-1, 1, -1))
+    assert_image(theory(lambda x, y, t: growth(x, -y, t), **rough), path, (1, -1, -1))
 
 
 def test_a_square_does_not_know_x_from_y() -> None:

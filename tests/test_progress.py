@@ -3,11 +3,12 @@
 import math
 from concurrent.futures import ThreadPoolExecutor
 
+import numpy as np
 import pytest
 
 from fem_check import Material, Membrane, Scene, cycle_speed, predict
 from fem_check.mesh.elements import default_cells
-from linear_theory import Sheet, SineWave, crawl_speed
+from linear_theory import SampledWave, Sheet, SineWave, crawl_speed
 from linear_theory.common.progress import part_of, track, watched
 
 SCENE = Scene(Sheet(), SineWave(), 0.1, effects=[Membrane(Material(0.03, 0.5))], cells=(1, 2))
@@ -18,6 +19,19 @@ CALLS = {
         Sheet(), SineWave(), 0.1, rtol=1e-2, method="first order", **told
     ),
 }
+
+
+def test_a_measured_wave_says_how_far_its_fit_is():
+    x, y, t = np.linspace(-0.25, 0.25, 6), np.linspace(-0.5, 0.5, 12), np.arange(8) / 8
+    c = (1 + x[:, None, None]) * np.sin(2 * np.pi * (y[:, None] - t))
+    seen = []
+    told = SampledWave(x, y, t, c, period=1.0, progress=seen.append)
+    assert told == SampledWave(x, y, t, c, period=1.0)
+    assert {one.task for one in seen} == {
+        "measured wave: looking for its numbers",
+        "measured wave: sweeping them",
+    }
+    assert seen[-1].share == 1
 
 
 @pytest.mark.parametrize("name", CALLS)

@@ -15,7 +15,7 @@ import xarray
 from PIL import Image
 
 from fem_check.answer.block import block
-from fem_check.choice.ways import answer
+from fem_check.choice.solving import solve
 from fem_check.command import BAD_ARGUMENTS, INTERRUPTED, MET, MISSED, main, screens
 from fem_check.files import RunSettings, read
 from fem_check.output.kymographs import Quantity, line_of
@@ -71,7 +71,7 @@ def test_a_run_leaves_its_files_and_nothing_half_done(place):
 
 def test_the_result_is_the_answer_with_errors_units_scene_versions_and_cost(plane, place):
     file = read(place / "plane.toml")
-    expected = answer(file.scene, rtol=file.run.rtol)
+    expected = solve(file.scene, rtol=file.run.rtol)
     said = plane.result["answer"]
     assert (said["mean"], said["error"]) == (expected.mean, expected.error)
     assert (said["unit"], plane.units) == ("mm/s", file.units)
@@ -87,7 +87,7 @@ def test_show_prints_the_block_of_the_run(plane, capsys):
     status, out, _ = command(capsys, "show", plane.folder)
     assert (status, out.strip("\n")) == (MET, plane.block)
     file = read(plane.folder.with_suffix(".toml"))
-    expected = block(answer(file.scene, rtol=file.run.rtol), file.units, hints=("", ""))
+    expected = block(solve(file.scene, rtol=file.run.rtol), file.units, hints=("", ""))
     assert plane.block.splitlines()[:-1] == expected.splitlines()[:-1]  # the last is the time it took
 
 
@@ -244,7 +244,7 @@ def test_a_run_that_is_stopped_goes_on_and_ends_with_the_same_numbers(how, long,
     assert "--resume" in err
     file = read(long)
     resumed = run(file.scene, folder, file.run, file.units, resume=True)
-    whole = answer(file.scene, file.run.level, None, 1, file.run.steps)
+    whole = solve(file.scene, file.run.level, None, periods=1, steps=file.run.steps)
     assert resumed.result["answer"]["mean"] == whole.mean
     assert "report.html" in names(folder)
 

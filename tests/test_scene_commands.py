@@ -16,8 +16,11 @@ import pytest
 
 from fem_check import Friction, Gravity, Inertia, Material, Membrane, cycle_speed, predict, simulate
 from fem_check.answer.block import block
-from fem_check.choice import ways
-from fem_check.choice.ways import answer, expected_seconds, way_of
+from fem_check.choice import solving, ways
+from fem_check.choice.expected import expected_seconds
+from fem_check.choice.settings import RunSettings
+from fem_check.choice.solving import solve, solved
+from fem_check.choice.ways import way_of
 from fem_check.command import BAD_ARGUMENTS, MET, MISSED, main, screens
 from fem_check.files import gallery, read
 from fem_check.files.schema import schema
@@ -259,7 +262,9 @@ def test_growth_that_no_sheet_has_is_no_scene(capsys: Any, growth: str, named: s
 
 def test_a_smaller_tolerance_is_expected_to_cost_more(capsys: Any) -> None:
     scene = read(gallery.FOLDER / "paper.toml").scene
-    costs = [expected_seconds(scene, "predict", rtol) for rtol in (1e-1, 1e-2, 1e-4, 1e-6)]
+    costs = [
+        expected_seconds(scene, "predict", RunSettings(rtol=rtol)) for rtol in (1e-1, 1e-2, 1e-4, 1e-6)
+    ]
     assert costs[0] == costs[1]
     assert costs[3] / costs[1] == pytest.approx(20, rel=0.5)  # measured: 12 s and 0.6 s
 
@@ -351,7 +356,7 @@ def _written(name: str) -> str:
 def test_ways_answer_as_they_do_alone() -> None:
     seen: list[Progress] = []
     trapezoid = read(_written("trapezoid")).scene.but(mesh=None, cells=(2, 4))
-    found = answer(trapezoid, "cycle", rtol=0.1, progress=seen.append)
+    found = solve(trapezoid, "cycle", rtol=0.1, progress=seen.append)
     alone = cycle_speed(trapezoid, rtol=0.1)
     assert (found.mean, found.speed.error, found.converged) == (
         alone.mean,
@@ -362,7 +367,7 @@ def test_ways_answer_as_they_do_alone() -> None:
     seen.clear()
     bumpy = read(_written("bumpy")).scene.but(cells=(1, 2))
     motion = simulate(bumpy, periods=1, steps=8)
-    stepped = answer(bumpy, rtol=None, periods=1, steps=8, progress=seen.append)
+    stepped = solve(bumpy, rtol=None, periods=1, steps=8, progress=seen.append)
     assert stepped.mean == motion.speed.mean
     assert stepped.level == "stepped"
     assert stepped.left_out == ("inertia",)
@@ -391,7 +396,7 @@ def test_what_is_wrong_with_a_motion_is_a_caution(crossed, snaps, error, said) -
         scene=Scene(Sheet(), SineWave(), 0.1),
         speed=SimpleNamespace(mean=1.0),
     )
-    found = ways._caution(motion)  # type: ignore[arg-type]
+    found = solving._caution(motion)  # type: ignore[arg-type]
     assert said in found
     assert bool(found) == bool(said)
     assert ("lower bound" in found) == (snaps and crossed is None)
@@ -404,9 +409,9 @@ def test_the_expected_cost_is_of_the_right_size(name: str) -> None:
     scene, run_as = file.scene, file.run
     way = way_of(scene)
     start = time.process_time()
-    answer(scene, way, run_as.rtol, run_as.periods)
+    solved(scene, run_as)
     spent = time.process_time() - start
-    expected = expected_seconds(scene, way, run_as.rtol, run_as.periods)
+    expected = expected_seconds(scene, way, run_as)
     assert spent < 15 * expected
     assert way == "predict" or spent > expected / 15
     assert set(ways.WAYS) == {"predict", "cycle", "stepped"}

@@ -28,8 +28,8 @@ from fem_check import (
     bilayer,
 )
 from fem_check.answer.growth import alpha_of
+from fem_check.choice.settings import RunSettings
 from fem_check.files import SceneFileError, gallery, read, write
-from fem_check.files.parts.scene_file import RunSettings
 from fem_check.files.reading import parsed
 from fem_check.files.schema import schema
 from fem_check.files.tables import TABLES
@@ -283,7 +283,7 @@ def test_units_are_those_of_pint() -> None:
 @pytest.mark.filterwarnings("ignore::linear_theory.ViscousRegimeWarning")
 def test_another_system_of_units_gives_the_same_speed() -> None:
     """The same sheet in mm and s, and in inches and minutes, to the roundoff of the solution."""
-    from fem_check.choice.ways import answer
+    from fem_check import solve
 
     other = (
         SHELL.replace('"4 cm"', f'"{40 / 25.4!r} inch"').replace('"2 min"', '"120 s"')
@@ -292,7 +292,7 @@ def test_another_system_of_units_gives_the_same_speed() -> None:
     for text in (SHELL, other):
         flat = text[: text.index("[growth]")] + '[growth]\nswelling = "5 %"\n'
         file = parsed(flat, HERE)
-        found = answer(file.scene, "predict", rtol=0.1)
+        found = solve(file.scene, "predict", rtol=0.1)
         assert file.units is not None
         speeds.append(UNITS.Quantity(found.mean, file.units.speed).to("mm/s").magnitude)
     assert speeds[0] == pytest.approx(speeds[1], rel=1e-9)

@@ -163,3 +163,21 @@ def test_no_module_hides_a_public_name(package: ModuleType) -> None:
     """As `fem_check.predict` would be the folder, not the function, once a module of it is imported."""
     modules = {name.split(".")[1] for name in MODULES if name.startswith(f"{package.__name__}.")}
     assert not modules & set(package.__all__)
+
+
+def test_what_a_package_with_a_marker_brings_has_that_marker() -> None:
+    """Else the lock asks for a package where neither it nor the one that needs it can be installed."""
+    pinned = re.split(r"\n(?=[a-z])", (ROOT / "requirements.lock").read_text())
+    markers, brought = {}, {}
+    for entry in pinned:
+        first, *rest = entry.splitlines()
+        if match := re.match(r"([\w.-]+)(\[.*\])?==[^;]+(?:; (.*))?$", first):
+            markers[match[1]] = (match[3] or "").strip()
+            said = re.findall(r"#\s+(?:via )?([\w.-]+)", "\n".join(rest))
+            brought[match[1]] = {name for name in said if name != "via"}
+    assert markers["netgen-mesher"]
+    for name, by in brought.items():
+        needed = {markers[other] for other in by if other in markers}
+        if "sheetcrawl" not in by and needed and "" not in needed:
+            assert markers[name] in needed, name
+    assert markers["netgen-occt"] == markers["netgen-mesher"]

@@ -74,7 +74,7 @@ class Latest(Generic[Q, A]):
             while (part := self._next(parts)) is not None:
                 self._check()
                 self._told(question, part)
-        except Exception as problem:
+        except Exception as problem:  # told to the page: its thread must live on for the next
             self._check()
             self._told(question, problem)
 

@@ -4,8 +4,8 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
+from fem_check.choice.settings import RunSettings
 from fem_check.files.parts.effects import LAWS
-from fem_check.files.parts.scene_file import RunSettings
 from fem_check.files.reading import parsed
 from fem_check.files.toml import text_of
 from fem_check.output.files import replacing

@@ -8,8 +8,8 @@ from typing import Any
 from fem_check.answer.block import block
 from fem_check.answer.record import record
 from fem_check.answer.units import Units
-from fem_check.choice.ways import Solved
-from fem_check.files.parts.scene_file import RunSettings
+from fem_check.choice.settings import RunSettings
+from fem_check.choice.solving import Solved
 from linear_theory.common.shown import plain
 from linear_theory.common.version import current_version
 

@@ -8,8 +8,9 @@ from pathlib import Path
 from typing import Any
 
 from fem_check.answer.units import Units
-from fem_check.choice.ways import solved, way_of
-from fem_check.files.parts.scene_file import RunSettings
+from fem_check.choice.settings import RunSettings
+from fem_check.choice.solving import solved
+from fem_check.choice.ways import way_of
 from fem_check.files.writing import write as write_scene
 from fem_check.output.files import replacing
 from fem_check.runs import netcdf
@@ -64,7 +65,7 @@ def run(
 
     Raises, before any work, ValueError for a scene that no level represents and for a folder that is in
     use, not empty, not writable or of another scene, and ModuleNotFoundError without xarray; then what
-    `answer` raises; OSError where a file cannot be written, NotWrittenError, with the block, once the
+    `solve` raises; OSError where a file cannot be written, NotWrittenError, with the block, once the
     answer is known; KeyboardInterrupt, saying what is kept. Warns of films that cannot be written, and
     of a motion whose file was missing or damaged and is written again.
 
@@ -142,10 +143,7 @@ def _solve(
 ) -> None:
     """Write the scene, its motion, and at last its result, by which the run is known to be finished."""
     _write_scene(scene, folder, settings, units)
-    found = solved(
-        *(scene, way, settings.rtol, settings.periods, settings.steps, progress),
-        **_snapshots(scene, folder, way),
-    )
+    found = solved(scene, settings, progress, **_snapshots(scene, folder, way))
     result = found.motion or found.answer.speed
     recording = recorded(result, scene, found.answer.speed)
     told = result_of(found, settings, units, {})

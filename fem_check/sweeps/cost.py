@@ -5,14 +5,12 @@ from dataclasses import dataclass
 from itertools import islice
 from pathlib import Path
 
-from fem_check.choice.ways import expected_seconds, way_of
-from fem_check.sweeps.plan import THEORIES, Plan, Question
+from fem_check.choice.expected import expected_seconds
+from fem_check.choice.ways import way_of
+from fem_check.sweeps.plan import Plan, Question
 from fem_check.sweeps.records.opening import reading
 from fem_check.sweeps.running import workers_of
 from linear_theory.common.shown import Shown
-
-PRICES = {"strip": 0.006, "first order": 0.09, "second order": 0.13}
-"""Processor seconds of a level of `predict` for the paper's sheet to 2 %, to a factor of 5."""
 
 OVERHEAD = 4e-3
 """Processor seconds of this process to a record that a worker finds: checks, messages, the file."""
@@ -84,7 +82,4 @@ def _sample(plan: Plan) -> list[Question]:
 
 def _price(question: Question) -> float:
     scene, settings = question
-    if settings.level in THEORIES:
-        return PRICES[settings.level]
-    way = way_of(scene, settings.level)
-    return expected_seconds(scene, way, settings.rtol, settings.periods, settings.steps)
+    return expected_seconds(scene, way_of(scene, settings.level), settings)

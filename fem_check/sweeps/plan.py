@@ -9,17 +9,15 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from fem_check.answer.units import Units
-from fem_check.choice.levels import LEVELS
-from fem_check.choice.ways import WAYS, way_of
+from fem_check.choice.settings import RunSettings
+from fem_check.choice.ways import ANSWERS, THEORIES, way_of
 from fem_check.files.mistakes import Place
-from fem_check.files.parts.scene_file import RunSettings
 from fem_check.sweeps.points.axes import Axis, axes_of
 from fem_check.sweeps.points.designs import Design
 from fem_check.sweeps.variation import Variation
 from linear_theory.common import validation
 from linear_theory.common.errors import SheetcrawlError
 from linear_theory.common.shown import Shown, plain
-from linear_theory.scene.level import THEORY
 from linear_theory.scene.scene import Scene
 
 LIMIT = 600.0
@@ -27,11 +25,6 @@ LIMIT = 600.0
 
 DESIGNS: Any = Design
 """What a design must be, checked where a call may have given anything."""
-
-THEORIES = tuple(level for level in LEVELS if level not in WAYS)
-"""Levels of `predict` that may be asked for by name, beside the ways to answer any scene."""
-
-ANSWERS = ("auto", *WAYS, *THEORIES)
 
 
 class Question(NamedTuple):
@@ -47,10 +40,7 @@ class Question(NamedTuple):
 
     def check(self) -> None:
         """Raise ValueError where the level that is asked for cannot represent the scene."""
-        if self.settings.level in THEORIES:
-            THEORY.require(self.scene)
-        else:
-            way_of(self.scene, self.settings.level)
+        way_of(self.scene, self.settings.level)
 
 
 class Refused(SheetcrawlError, ValueError):

@@ -8,7 +8,7 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from fem_check.files.parts.scene_file import RunSettings
+from fem_check.choice.settings import RunSettings
 from fem_check.sweeps.plan import LIMIT, Plan, Refused, plan_of
 from fem_check.sweeps.points.designs import Design, Grid
 from fem_check.sweeps.records.opening import writing
@@ -16,7 +16,7 @@ from fem_check.sweeps.records.record import Record, program
 from fem_check.sweeps.records.result import Sweep, kept
 from fem_check.sweeps.records.store import Store, StoreError
 from fem_check.sweeps.tally import Tally, Telling
-from fem_check.sweeps.work import cluster, here
+from fem_check.sweeps.work import cluster, flight, here
 from fem_check.sweeps.work.answering import Answering, Task, record_of
 from linear_theory.common import validation
 from linear_theory.common.errors import SheetcrawlError
@@ -88,12 +88,7 @@ def sweep(
     >>> print(found.size, found.counts)
     4 {'answered': 4}
     """
-    settings = RunSettings(
-        level=level,
-        rtol=None if steps is not None else validation.tolerance(rtol),
-        periods=validation.integer("periods", periods, 1),
-        steps=None if steps is None else validation.integer("steps", steps, 1),
-    )
+    settings = RunSettings(level, rtol, periods, steps)
     plan = plan_of(scene, over, design or Grid(), settings, seconds)
     return run(plan, file, workers=workers, scheduler=scheduler, retry=retry, progress=progress)
 
@@ -196,7 +191,7 @@ def _answer(store: Store, number: int, plan: Plan, tally: Tally, means: Means) -
                 cluster.connected(min(means.workers, tally.open), means.scheduler)
             )
             found = held.enter_context(
-                contextlib.closing(cluster.records(client, tasks, means.answering))
+                contextlib.closing(flight.records(client, tasks, means.answering))
             )
         tally.tell()
         for record in found:

@@ -7,10 +7,11 @@ from typing import Any
 from pydantic import ValidationError
 
 from fem_check.answer.units import Units
+from fem_check.choice.settings import RunSettings
 from fem_check.files.fields import Table
 from fem_check.files.mistakes import Mistakes, Place, line_of
 from fem_check.files.parts.made import Made
-from fem_check.files.parts.scene_file import RunSettings, SceneFile, built
+from fem_check.files.parts.scene_file import SceneFile, built
 from fem_check.files.quantities import read, registry
 from fem_check.files.reading import tables_of as tables_in
 from fem_check.files.system import BASES, system_of
@@ -65,7 +66,7 @@ class Variation:
             data = tables_of(told, settings)
         except ValueError as problem:
             raise ValueError(f"{problem}; sweep over a list of scenes instead of over fields") from None
-        if settings.rtol is not None and settings.steps is None:
+        if settings.rtol is not None:
             data.setdefault("run", {})["rtol"] = settings.rtol
         made = cls(data, Path("scene"), wave=scene.wave if not known else None)
         if made.file.scene.key() != scene.key():

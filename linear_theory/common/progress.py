@@ -54,6 +54,20 @@ class _Watch(NamedTuple):
 _WATCH: ContextVar[_Watch | None] = ContextVar("watch", default=None)
 
 
+def reporting(progress: bool | Report | None) -> Report | None:
+    """What is called with a `Progress`: True prints on stderr. Raises ValueError for anything else."""
+    if progress is None or progress is False:
+        return None
+    if progress is True:
+        return _printed
+    if not callable(progress):
+        raise ValueError(
+            f"progress = {validation.shown(progress)}: must be True, which prints, or a function that "
+            "is called with a Progress"
+        )
+    return progress
+
+
 @contextmanager
 def watched(progress: bool | Report | None, call: str) -> Iterator[None]:
     """Report everything tracked inside to `progress`; `call` names the function for Ctrl-C.
@@ -69,13 +83,8 @@ def watched(progress: bool | Report | None, call: str) -> Iterator[None]:
     squares 50%
     squares 100%
     """
-    report = _printed if progress is True else progress
-    if report is not None and report is not False and not callable(report):
-        raise ValueError(
-            f"progress = {validation.shown(progress)}: must be True, which prints, or a function that "
-            "is called with a Progress"
-        )
-    token = _WATCH.set(_Watch(report, time.perf_counter())) if callable(report) else None
+    report = reporting(progress)
+    token = _WATCH.set(_Watch(report, time.perf_counter())) if report else None
     try:
         yield
     except KeyboardInterrupt:

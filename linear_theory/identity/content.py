@@ -144,7 +144,7 @@ def _add_instance(writer: Writer, value: Any, where: str) -> None:
         return
     try:
         reduced = value.__reduce_ex__(2)
-    except Exception as error:
+    except Exception as error:  # classes of the user say in many ways that they have no state
         raise _refusal(value, where, str(error)) from None
     if isinstance(reduced, str):
         raise _refusal(value, where, "it is only a name")

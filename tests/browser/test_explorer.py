@@ -135,7 +135,7 @@ def test_friction_load_and_pulse_are_asked(page):
     choose(page, "load", "grown")
     asked = {"load": "grown", "friction": "tanh", "slip_speed": 0.01, "rtol": 0.02}
     expected = crawl_speed(Sheet(), pulse_wave(0.3), 0.11, **asked).mean
-    until(lambda: mean(page, "first order") == expected)
+    assert until(lambda: mean(page, "first order") == expected)
 
 
 def test_growth_beyond_reach_is_a_sentence(page):
@@ -173,5 +173,5 @@ def test_a_move_is_drawn_at_once(page, name):
 @pytest.mark.parametrize(("width", "height"), [(390, 844), (1280, 900)])
 def test_fits_the_window(page, width, height):
     page.size(width, height)
-    until(lambda: page.run("return document.documentElement.scrollWidth") <= width)
+    assert until(lambda: page.run("return document.documentElement.scrollWidth") <= width)
     page.size(1280, 900)

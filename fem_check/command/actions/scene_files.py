@@ -57,7 +57,7 @@ def _write_all(texts: dict[Path, str], name: str) -> None:
         for path, text in texts.items():
             _write_new(text, path)
             written.append(path)
-    except BaseException as problem:
+    except BaseException as problem:  # Ctrl-C, too, leaves no half of them
         for done in written:
             done.unlink()
         if isinstance(problem, FileExistsError):
@@ -80,7 +80,7 @@ def _write_new(text: str, path: Path) -> None:
         try:
             file.write(text)
             file.flush()
-        except BaseException:
+        except BaseException:  # Ctrl-C, too, leaves no half of it
             path.unlink()
             raise
 
@@ -99,7 +99,8 @@ def check(path: Path) -> int:
 
 def _said(found: "SceneFile") -> dict[str, str]:
     """The scene, the level that answers it, and its cost."""
-    from fem_check.choice.ways import expected_seconds, way_of
+    from fem_check.choice.expected import expected_seconds
+    from fem_check.choice.ways import way_of
     from fem_check.files.mistakes import SceneFileError
 
     run = found.run
@@ -107,7 +108,7 @@ def _said(found: "SceneFile") -> dict[str, str]:
         rows, way = _scene_rows(found), way_of(found.scene, run.level)
     except ValueError as problem:
         raise SceneFileError(f"{found.path}: {problem}") from None
-    seconds = expected_seconds(found.scene, way, run.rtol, run.periods, run.steps)
+    seconds = expected_seconds(found.scene, way, run)
     accuracy = f"{run.steps} steps a period" if run.steps else f"to {100 * (run.rtol or 0):g} %"
     periods = f", {_counted(run.periods, 'period')} after a ramp" if way == "stepped" else ""
     most = "at most " if way == "predict" else ""

@@ -4,7 +4,8 @@ from dataclasses import fields, replace
 from pathlib import Path
 
 from fem_check.choice.prediction import Prediction
-from fem_check.choice.ways import answer, way_of
+from fem_check.choice.solving import solved
+from fem_check.choice.ways import way_of
 from fem_check.command.options import Options
 from fem_check.command.quantities import share
 from fem_check.files.mistakes import SceneFileError
@@ -59,5 +60,4 @@ def _check(found: SceneFile, options: Options) -> None:
 
 def answered(found: SceneFile, report: Report) -> Prediction:
     """The answer, as the table [run] wants it."""
-    run = found.run
-    return answer(found.scene, run.level, run.rtol, run.periods, run.steps, report)
+    return solved(found.scene, found.run, report).answer

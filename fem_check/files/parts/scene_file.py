@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from fem_check.answer.units import Units
+from fem_check.choice.settings import RunSettings as RunSettings  # offered here, too
 from fem_check.files.fields import Table
 from fem_check.files.mistakes import Mistakes
 from fem_check.files.parts.effects import effects_of, with_contact
@@ -16,18 +17,8 @@ from fem_check.files.system import System, system_of
 from fem_check.files.tables import RunTable
 from fem_check.mesh.elements import from_data
 from linear_theory.common import validation
-from linear_theory.common.shown import Shown, Value
+from linear_theory.common.shown import Shown
 from linear_theory.scene.scene import Scene
-
-
-@dataclass(frozen=True)
-class RunSettings(Value):
-    """How a scene is to be answered: see the table [run]; rtol is None beside steps."""
-
-    level: str = "auto"
-    rtol: float | None = 1e-2
-    periods: int = 2
-    steps: int | None = None
 
 
 @dataclass(frozen=True)

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from fem_check.sweeps.points.axes import Axis
 from linear_theory.common import validation
@@ -70,14 +71,23 @@ class Paired(Design):
 
 
 @dataclass(frozen=True)
-class Random(Design):
-    """Independent points, uniform in each range (in its logarithm for "log") or list."""
+class Drawn(Design):
+    """So many points from the unit cube, each field at its share of its range or list.
+
+    count: of points; seed: of the numbers, the same points for the same seed.
+    """
 
     count: int
     seed: int = 0
 
     def __post_init__(self) -> None:
-        _check(self.count, self.seed)
+        validation.integer("count", self.count, 1)
+        _bounded(self.count)
+        validation.integer("seed", self.seed, 0)
+
+    @abstractmethod
+    def shares(self, axes: int) -> NDArray[np.float64]:
+        """Points of the unit cube, shape (count, axes)."""
 
     def size(self, axes: Sequence[Axis]) -> int:
         """As it is given."""
@@ -85,12 +95,21 @@ class Random(Design):
 
     def points(self, axes: Sequence[Axis]) -> Iterator[tuple[Any, ...]]:
         """From the seed."""
-        shares = np.random.default_rng(self.seed).random((self.count, len(axes)))
-        return _at(axes, shares)
+        shares = self.shares(len(axes))
+        return zip(*(axis.at(shares[:, i]) for i, axis in enumerate(axes)), strict=True)
 
 
 @dataclass(frozen=True)
-class LatinHypercube(Design):
+class Random(Drawn):
+    """Independent points, uniform in each range (in its logarithm for "log") or list."""
+
+    def shares(self, axes: int) -> NDArray[np.float64]:
+        """Independent of each other."""
+        return np.random.default_rng(self.seed).random((self.count, axes))
+
+
+@dataclass(frozen=True)
+class LatinHypercube(Drawn):
     """Points of which each field, cut into `count` equal parts, has one in every part.
 
     >>> from fem_check.sweeps import Between, LatinHypercube
@@ -101,34 +120,15 @@ class LatinHypercube(Design):
     [0, 1, 2, 3, 4, 5, 6, 7, 8, 9]
     """
 
-    count: int
-    seed: int = 0
-
-    def __post_init__(self) -> None:
-        _check(self.count, self.seed)
-
-    def size(self, axes: Sequence[Axis]) -> int:
-        """As it is given."""
-        return self.count
-
-    def points(self, axes: Sequence[Axis]) -> Iterator[tuple[Any, ...]]:
-        """From the seed."""
+    def shares(self, axes: int) -> NDArray[np.float64]:
+        """One in every part of each field."""
         from scipy.stats import qmc  # half a second, for those who need it
 
-        return _at(axes, qmc.LatinHypercube(len(axes), seed=self.seed).random(self.count))
-
-
-def _check(count: Any, seed: Any) -> None:
-    validation.integer("count", count, 1)
-    _bounded(count)
-    validation.integer("seed", seed, 0)
+        drawn: NDArray[np.float64] = qmc.LatinHypercube(axes, seed=self.seed).random(self.count)
+        return drawn
 
 
 def _bounded(count: int) -> int:
     if not 1 <= count <= MOST:
         raise ValueError(f"over: {count} scenes: must be from 1 to {MOST}")
     return count
-
-
-def _at(axes: Sequence[Axis], shares: Any) -> Iterator[tuple[Any, ...]]:
-    return zip(*(axis.at(shares[:, i]) for i, axis in enumerate(axes)), strict=True)

@@ -1,13 +1,13 @@
 """The record of one scene: its answer with the errors and the cost, or why there is none."""
 
 import json
-import math
 from dataclasses import dataclass, fields
 from datetime import UTC, datetime
 from enum import StrEnum
 from functools import cache
 from typing import Any
 
+from fem_check.answer.record import numbers_of
 from fem_check.choice.prediction import Prediction
 from fem_check.sweeps.plan import Question
 from linear_theory.common.shown import Shown, plain
@@ -72,22 +72,13 @@ def program() -> str:
 
 def answer_of(found: Prediction) -> dict[str, Any]:
     """The fields of a record that an answer has."""
-    speed = found.speed
-    numbers = {
-        "mean": found.mean,
-        "error": found.error,
-        "numerical_error": speed.error - speed.wave_error,
-        "wave_error": speed.wave_error,
-        "model_error": speed.model_error,
-        "slip_ratio": speed.slip_ratio,
-    }
     return {
-        **{name: _known(value) for name, value in numbers.items()},
+        **numbers_of(found),
         "level": found.level,
         "reason": found.reason,
         "converged": bool(found.converged),
-        "regime": str(speed.regime),
-        "beyond_reach": speed.beyond_reach or None,
+        "regime": str(found.regime),
+        "beyond_reach": found.speed.beyond_reach or None,
     }
 
 
@@ -100,7 +91,3 @@ def circumstances(question: Question, worker: str) -> dict[str, Any]:
         "settings": json.dumps(plain(question.settings)),
         "scene": json.dumps(plain(question.scene)),
     }
-
-
-def _known(value: float) -> float | None:
-    return float(value) if math.isfinite(value) else None

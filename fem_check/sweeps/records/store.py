@@ -58,7 +58,7 @@ class Store:
             self._db.execute("BEGIN IMMEDIATE")
             yield self._db
             self._db.execute("COMMIT")
-        except BaseException as problem:
+        except BaseException as problem:  # Ctrl-C, too, leaves nothing half written
             if self._db.in_transaction:
                 self._db.execute("ROLLBACK")
             if isinstance(problem, sqlite3.Error):

@@ -7,9 +7,9 @@ import warnings
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
-from fem_check.choice.prediction import Prediction, predict
-from fem_check.choice.ways import answer
-from fem_check.sweeps.plan import THEORIES, Question
+from fem_check.choice import solving
+from fem_check.choice.prediction import Prediction
+from fem_check.sweeps.plan import Question
 from fem_check.sweeps.records.record import Record, State, answer_of, circumstances
 from fem_check.sweeps.work.bound import OutOfTime, bounded
 from linear_theory.common.threads import one_blas_thread
@@ -55,10 +55,7 @@ def _outcome(task: Task) -> tuple[State, dict[str, Any]]:
 @one_blas_thread
 def solved(question: Question) -> Prediction:
     """The answer. Raises what the level that gives it raises."""
-    scene, settings = question
-    if settings.level in THEORIES:
-        return predict(scene, rtol=settings.rtol or 1e-2, method=settings.level)
-    return answer(scene, settings.level, settings.rtol, settings.periods, settings.steps)
+    return solving.solved(question.scene, question.settings).answer
 
 
 def _line(text: str) -> str:

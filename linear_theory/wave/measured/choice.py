@@ -13,6 +13,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from linear_theory.common.progress import track
 from linear_theory.wave.measured.bounds import MOST, Numbers, most
 from linear_theory.wave.measured.samples import Samples
 from linear_theory.wave.measured.scores import Merged
@@ -62,7 +63,8 @@ def chosen(samples: Samples, period: float, asked: tuple[int | None, ...]) -> Nu
     if not free:
         return fixed[0], fixed[1], fixed[2]
     search = _Search(Merged.of(samples, period), period, largest, free)
-    found = search.least([search.swept(start, search.few) for start in search.starts(fixed)])
+    starts = track("measured wave: sweeping them", search.starts(fixed))
+    found = search.least([search.swept(start, search.few) for start in starts])
     return search.swept(found, search.many).numbers
 
 
@@ -85,7 +87,7 @@ class _Search:
         line, *others = self.free
         ladders = [[n for n in LADDER if n <= self.largest[axis]] for axis in others]
         best: dict[int, list[Scored]] = {}
-        for rungs in itertools.product(*ladders):
+        for rungs in track("measured wave: looking for its numbers", [*itertools.product(*ladders)]):
             numbers = list(fixed)
             for axis, rung in zip(others, rungs, strict=True):
                 numbers[axis] = rung

@@ -20,6 +20,9 @@ DELIMITERS = {";": "semicolons", "\t": "tabs", ",": "commas"}
 UNIT = re.compile(r"\s*[\[(][^\[\]()]*[\])]\s*$")
 """A unit in brackets after a name."""
 
+FACTORS = {"%": 0.01, "percent": 0.01, "per cent": 0.01, "‰": 0.001}
+"""Units of a number without a dimension, as of c."""
+
 
 class _Line(NamedTuple):
     where: str
@@ -41,8 +44,9 @@ def csv_columns(path: str | Path, names: Names, delimiter: str | None = None) ->
 
     delimiter: None for the one of ; , and tab that makes columns of the first line. Names are found in
     capitals and with a unit in brackets, too; numbers may have decimal commas where the delimiter is
-    another. Raises ValueError, naming file and line, for columns that are missing, for lines with too
-    many values and for what is no number.
+    another. c in per cent or per mille, by such a unit, is converted to a number; lengths and times
+    stay in their units. Raises ValueError, naming file and line, for columns that are missing, for
+    lines with too many values and for what is no number.
     """
     if delimiter is not None and len(validation.instance("delimiter", delimiter, str)) != 1:
         raise ValueError(f"delimiter = {delimiter!r}: must be one character")
@@ -55,7 +59,9 @@ def csv_columns(path: str | Path, names: Names, delimiter: str | None = None) ->
     table = _Table(delimiter, header, {key: at[0] for key, at in places.items() if at})
     rows = [table.numbers(line) for line in lines]
     columns = np.array(rows).reshape(len(rows), len(table.places)).T
-    return dict(zip(table.places, columns, strict=True))
+    found = dict(zip(table.places, columns, strict=True))
+    found["c"] = found["c"] * _factor(header[table.places["c"]])
+    return found
 
 
 def _lines(path: str | Path) -> Iterator[_Line]:
@@ -88,6 +94,12 @@ def _places(header: list[str], names: Names) -> dict[str, list[int]]:
 
 def _plain(name: str) -> str:
     return UNIT.sub("", name).strip().casefold()
+
+
+def _factor(name: str) -> float:
+    """By which the values of a column with that name become plain numbers."""
+    unit = UNIT.search(name)
+    return FACTORS.get(unit[0].strip(" \t[]()"), 1.0) if unit else 1.0
 
 
 def _check_header(path: str, header: list[str], names: Names, places: dict[str, list[int]]) -> None:

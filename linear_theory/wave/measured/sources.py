@@ -35,18 +35,9 @@ class Sources:
         return cls(*coordinates.values(), values, **options)
 
     @classmethod
-    def from_netcdf(
-        cls,
-        path: str | Path,
-        *,
-        x: str = "x",
-        y: str = "y",
-        t: str = "t",
-        c: str = "c",
-        **options: Any,
-    ) -> Self:
-        """From the variable `c` of a netCDF file; the rest as `from_xarray`. Needs xarray."""
-        return cls.from_xarray(reading.netcdf_array(path, c), x=x, y=y, t=t, **options)
+    def from_netcdf(cls, path: str | Path, *, c: str = "c", **named: Any) -> Self:
+        """From the variable `c` of a netCDF file. Needs xarray. named: as for `from_xarray`."""
+        return cls.from_xarray(reading.netcdf_array(path, c), **named)
 
     @classmethod
     def from_csv(
@@ -62,10 +53,10 @@ class Sources:
     ) -> Self:
         """From a text file, a sample in each line, whose first line names the columns.
 
-        x, y, t, c: names of the columns, which may stand there in capitals and with units in brackets;
-        x counts where there is one. delimiter: None for the one of commas, semicolons and tabs that is
-        there; unless it is a comma, numbers may have decimal commas. options: period,
-        harmonics, degree.
+        x, y, t, c: names of the columns, which may stand there in capitals and with units in brackets,
+        as c [%], which is converted; x counts where there is one. delimiter: None for the one of
+        commas, semicolons and tabs that is there; unless it is a comma, numbers may have decimal
+        commas. options: period, harmonics, degree, progress.
 
         >>> import numpy as np, tempfile, pathlib
         >>> from linear_theory import SampledWave

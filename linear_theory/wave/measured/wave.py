@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from linear_theory.common import validation
+from linear_theory.common.progress import Report, watched
 from linear_theory.common.shown import Shown
 from linear_theory.identity import content_key
 from linear_theory.sheet.rectangle import Sheet
@@ -45,6 +46,8 @@ class SampledWave(Sources, Shown):
     period: units of time; None to find it (see `measured.period`). harmonics, degree (along, or
     (across, along)): numbers of the functions that c is fitted by, harmonics in time times polynomials
     in space; None to choose what the noise leaves by cross-validation (see `measured.choice`).
+    progress: True prints on stderr, a function is called with a `Progress`; samples of c(x, y, t) take
+    seconds.
 
     The wave is that fit by least squares: analytic, of exactly that period. What is dropped says
     `dropped`. noise: standard deviation of a sample; residual: root mean square of what the fit leaves.
@@ -73,9 +76,14 @@ class SampledWave(Sources, Shown):
         period: float | None = None,
         harmonics: int | None = None,
         degree: int | tuple[int, int] | None = None,
+        progress: bool | Report | None = None,
     ) -> None:
         if len(samples) not in (3, 4):
             raise ValueError(f"{len(samples)} arrays: must be y, t, c or x, y, t, c")
+        with watched(progress, type(self).__name__):
+            self._fit_to(samples, period, harmonics, degree)
+
+    def _fit_to(self, samples: tuple[Any, ...], period: Any, harmonics: Any, degree: Any) -> None:
         names = NAMES[4 - len(samples) :]
         self._given = {n: np.array(a) for n, a in zip((*names, "c"), samples, strict=True)}
         self._asked = {"period": period, "harmonics": harmonics, "degree": degree}

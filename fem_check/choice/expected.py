@@ -1,0 +1,56 @@
+"""What the answer to a scene will cost, before it is sought."""
+
+import math
+
+from fem_check.choice.settings import RTOL, RunSettings
+from fem_check.choice.ways import THEORIES
+from fem_check.shell.model import ShellModel
+from linear_theory.scene.scene import Scene
+
+RAMP = 0.5
+"""Periods in which growth rises before those that are counted, of `simulate`."""
+
+PRICES = {"strip": 0.006, "first order": 0.09, "second order": 0.13}
+"""Processor seconds of a level of `predict` for the paper's sheet to 2 %, to a factor of 5."""
+
+RECTANGLES, TRIANGLES, IN_SPACE, STEP = 1.2e-3, 4e-3, 3e-3, 75e-6
+"""Seconds of a cycle of shapes to a quadrature point, of planar rectangles, of planar triangles and of
+sheets that bend; and of a step in time. Measured on the scenes of the gallery, to a factor of 3."""
+
+TIGHTER = 0.35
+"""Power of 1 % over the tolerance with which a cycle grows: 0.6, 2, 12 s of the paper's sheet at 1e-2,
+1e-4 and 1e-6."""
+
+STEPS = 20
+"""In time, to a period, at a tolerance of 10 %; they grow with its square root."""
+
+
+def expected_seconds(scene: Scene, way: str, settings: RunSettings) -> float:
+    """What the answer will cost on one core, to a factor of about 5; of `predict` at the most.
+
+    way: as `way_of` names it for these settings.
+
+    >>> from fem_check.choice.expected import expected_seconds
+    >>> from fem_check.choice.settings import RunSettings
+    >>> from linear_theory import Scene, Sheet, SineWave
+    >>> scene = Scene(Sheet(), SineWave(), alpha=0.25)
+    >>> quick, slow = (expected_seconds(scene, way, RunSettings()) for way in ("strip", "cycle"))
+    >>> print(quick < slow)
+    True
+    """
+    if way in THEORIES:
+        return PRICES[way]
+    points = ShellModel(scene).discretisation.interior.measure.size
+    rtol = settings.rtol or RTOL
+    if way != "stepped":
+        triangles = scene.mesh is not None and scene.mesh.t.shape[0] == 3
+        price = IN_SPACE if not scene.planar else TRIANGLES if triangles else RECTANGLES
+        return float(price * points * max(1.0, 1e-2 / rtol) ** TIGHTER)
+    count = settings.steps or STEPS * math.sqrt(0.1 / rtol) * _highest(scene)
+    return float(STEP * points * count * (settings.periods + RAMP))
+
+
+def _highest(scene: Scene) -> float:
+    """Harmonics in time to which steps in time are fine, 1 for a sine."""
+    highest = scene.drive.rates.highest(0.1)
+    return min(max(float(highest), 1.0), 32.0)
