@@ -6,6 +6,7 @@ Read by `lazy_loader` as it runs, and by type checkers.
 from .choice.prediction import Prediction, predict
 from .excitable.equation import FitzHughNagumo
 from .excitable.excitation import Excitation
+from .excitable.feedback import StrainFeedback
 from .excitable.presets import excitable_preset
 from .excitable.speeds import speeds
 from .mesh.outline import Outline
@@ -46,6 +47,7 @@ __all__ = [
     "PlaneStressField",
     "Prediction",
     "Scene",
+    "StrainFeedback",
     "Terrain",
     "Trajectory",
     "__version__",

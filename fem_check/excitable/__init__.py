@@ -2,6 +2,7 @@
 
 from fem_check.excitable.equation import FitzHughNagumo
 from fem_check.excitable.excitation import Excitation
+from fem_check.excitable.feedback import StrainFeedback
 from fem_check.excitable.methods import Adaptive, Euler
 from fem_check.excitable.periodic.wave import PeriodicExcitation
 from fem_check.excitable.presets import PRESETS, excitable_preset
@@ -22,6 +23,7 @@ __all__ = [
     "Pacing",
     "PeriodicExcitation",
     "RationalStart",
+    "StrainFeedback",
     "UniformStart",
     "excitable_preset",
     "speeds",

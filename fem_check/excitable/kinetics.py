@@ -6,6 +6,7 @@ from typing import Any, Self
 import numpy as np
 from numpy.typing import NDArray
 
+from fem_check.excitable.feedback import StrainFeedback
 from fem_check.excitable.starts import Pacing, RationalStart, Start
 from linear_theory.common import validation
 from linear_theory.common.shown import Value
@@ -23,6 +24,7 @@ class Equation(Value):
     diffusion_length: float
     start: Start = field(default_factory=RationalStart)
     pacing: Pacing | None = None
+    feedback: StrainFeedback | None = None
 
     def __post_init__(self) -> None:
         validation.real("threshold", self.threshold)
@@ -33,6 +35,14 @@ class Equation(Value):
         validation.instance("start", self.start, Start)  # type: ignore[type-abstract]
         if self.pacing is not None:
             validation.instance("pacing", self.pacing, Pacing)
+        if self.feedback is not None:
+            hint = "write StrainFeedback(coefficient)"
+            validation.instance("feedback", self.feedback, StrainFeedback, hint)
+
+    @property
+    def acts_back(self) -> bool:
+        """Whether c depends on the motion of the sheet."""
+        return self.feedback is not None and self.feedback.coefficient != 0
 
     def but(self, **changes: Any) -> Self:
         """A copy with the given arguments replaced."""

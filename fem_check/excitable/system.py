@@ -1,5 +1,6 @@
 """The equation on the nodes of a mesh: rates, Jacobian and their time derivatives."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -16,11 +17,16 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, eq=False)
 class System:
-    """States are c and w at all nodes, one after the other, (2 n,)."""
+    """States are c and w at all nodes, one after the other, (2 n,).
+
+    strain: tr ε at the nodes (n,) at a time, for a wave that it acts on; given, it is a source as the
+    pacing is.
+    """
 
     equation: Equation
     body: Body
     space: Space
+    strain: Callable[[float], Array] | None = None
 
     @cached_property
     def diffusion(self) -> Any:
@@ -51,6 +57,8 @@ class System:
         dc = dc - self.diffusion @ c
         if self.equation.pacing is not None:
             dc += self.stimulus * self.equation.pacing.course(t)
+        if self.strain is not None and self.equation.feedback is not None:
+            dc += self.equation.feedback.coefficient * self.strain(t)
         return np.concatenate([dc, dw])
 
     def jacobian(self, t: float, state: Array) -> Any:

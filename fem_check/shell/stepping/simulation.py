@@ -30,6 +30,11 @@ SNAP_MARGIN = 2
 """Error of a speed with snap-throughs relative to the difference to a run with steps twice as long,
 whose snaps start elsewhere and take another way."""
 
+FEEDBACK_MARGIN = 2
+"""Error of the speeds by a wave that the strain acts back on, relative to the difference to a run with
+half the tolerance or half as many steps. Of second order, errors there are twice to four times as
+large."""
+
 
 def simulate(
     scene: Scene,
@@ -60,7 +65,8 @@ def simulate(
     progress: True prints, a function is called after each step.
 
     Steps are short enough to resolve the significant harmonics in time of the wave. A sheet that snaps
-    through is simulated a second time with longer steps, for the error of V.
+    through is simulated a second time with longer steps, for the error of V, and so is one whose strain
+    acts back on its wave (`StrainFeedback`): the two are then stepped together, at second order.
 
     A scene without Friction and Inertia is not time dependent; use `cycle_speed.cycle_speed`.
     Raises ValueError for such scenes, for values out of range, for too few `steps` to resolve the wave
@@ -96,7 +102,7 @@ def simulate(
             resumed = run.resume(target)
         run.finish(target, (_printed if progress is True else progress) or None)
         difference = _mesh_error(run) if mesh_error else np.nan
-        jumps = _snap_error(run)
+        jumps, feedback = _snap_error(run), _feedback_error(run)
     except KeyboardInterrupt:
         if progress is True:
             print(file=sys.stderr)
@@ -109,6 +115,7 @@ def simulate(
         resumed_at=resumed,
         mesh_error=difference,
         snap_error=jumps,
+        feedback_error=feedback,
     )
     warn_if_viscous(scene.contact.friction, found.slip_ratio)
     return found
@@ -128,6 +135,23 @@ def _mesh_error(run: Run) -> float:
     coarse.finish(None, None)
     difference = coarse.trajectory().period_speeds[-1] - run.trajectory().period_speeds[-1]
     return float(MESH_MARGIN * abs(difference))
+
+
+def _feedback_error(run: Run) -> float:
+    """Error of the speeds by the feedback on the wave: that of c, and of the steps that it makes.
+
+    From a run with longer steps and larger elements of the wave: the largest difference over the
+    periods, since one may be small by chance. NaN without feedback, infinite if that run fails.
+    """
+    if not run.scene.drive.has_state:
+        return np.nan
+    try:
+        rough = Run(run.scene, run.settings.rougher(), coarse=True)
+        rough.finish(None, None)
+    except (ConvergenceError, ValueError):
+        return np.inf
+    apart = rough.trajectory().period_speeds - run.trajectory().period_speeds
+    return float(FEEDBACK_MARGIN * abs(apart).max())
 
 
 def _snap_error(run: Run) -> float:

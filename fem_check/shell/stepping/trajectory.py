@@ -51,6 +51,7 @@ class _Errors(NamedTuple):
     mesh: float
     slip_speed: float
     snaps: float
+    feedback: float = np.nan
 
 
 class SpeedErrors(Shown, _Errors):
@@ -61,7 +62,8 @@ class SpeedErrors(Shown, _Errors):
     friction, twice the change on halving the slip speed (it decreases at least proportionally), NaN if
     the slip ratio is above 0.3 and friction far from dry; not part of the error of the speed at the
     given slip speed. snaps: of the path through snap-throughs in the last period, from a run with
-    longer steps; NaN if there are none.
+    longer steps; NaN if there are none. feedback: of a wave that the strain acts back on, by its own
+    error and the steps, from a run with longer steps and larger elements of the wave; NaN without.
     """
 
 
@@ -78,7 +80,7 @@ class Trajectory(Drawable, Tabular):
     ramp of growth. table: columns of `record.COLUMNS`. stored_times (n,), states (n, size): kept
     states. probes (steps + 1, points, components): positions of a few points at all `times`. rejected:
     repeated steps. resumed_at: time of the snapshot from which the run resumed, NaN if none.
-    mesh_error, snap_error: see `SpeedErrors`. seconds: computing time, that before the snapshot
+    mesh_error, snap_error, feedback_error: see `SpeedErrors`. seconds: computing time, that before the snapshot
     included.
 
     >>> from fem_check import Friction, Gravity, Material, Membrane, Scene, simulate
@@ -102,6 +104,7 @@ class Trajectory(Drawable, Tabular):
     rtol: float | None = None
     mesh_error: float = np.nan
     snap_error: float = np.nan
+    feedback_error: float = np.nan
 
     @property
     def scene(self) -> Scene:
@@ -296,14 +299,14 @@ class Trajectory(Drawable, Tabular):
         step = MARGIN * abs(self._mean("step_y")) + share * self._mean("step_y", size=True)
         dry = self.slip_ratio <= DRY
         slip = abs(self._mean("slip_y")) / (1 - COMPARED) if dry else np.nan
-        return SpeedErrors(step, float(spread), self.mesh_error, slip, self.snap_error)
+        return SpeedErrors(step, float(spread), self.mesh_error, slip, self.snap_error, self.feedback_error)
 
     @cached_property
     def speed(self) -> CrawlSpeed:
         """Mean velocity of the last period.
 
-        error: sum of the errors of step, mesh (if requested), spread between periods and path through
-        snap-throughs; model_error: distance to dry friction, see `SpeedErrors`. The speed of a sheet
+        error: sum of the errors of step, mesh (if requested), spread between periods, path through
+        snap-throughs and feedback on the wave; model_error: distance to dry friction, see `SpeedErrors`. The speed of a sheet
         that has passed through itself (`crossed`), which no real sheet does, is never converged.
         """
         last, errors = self._last(1), self.errors
@@ -316,7 +319,7 @@ class Trajectory(Drawable, Tabular):
         contact = scene.contact if rubs else None
         model = model_words(shape, scene.growth, contact, unknown, snapped, crossing)
         mean = float(self.period_speeds[-1])
-        error = float(np.nansum([errors.step, errors.spread, errors.mesh, errors.snaps]))
+        error = float(np.nansum([e for name, e in errors._asdict().items() if name != "slip_speed"]))
         times = self.times[last]
         velocity = self.velocity[last]
         return CrawlSpeed(
