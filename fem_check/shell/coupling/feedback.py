@@ -12,6 +12,9 @@ from fem_check.shell.model import ShellModel
 
 Array = NDArray[np.float64]
 
+COMPARED = 65
+"""Times at which two runs are compared."""
+
 
 class Feedback:
     """Nothing, for a wave that is a function of time.
@@ -31,6 +34,10 @@ class Feedback:
 
     def accept(self, t: float, state: Array, kept: bool, jumped: bool) -> None:
         """Take them at the end of a step; kept: for good; jumped: in a snap-through."""
+
+    def apart(self, other: "Feedback") -> Array:
+        """Differences of c to another run."""
+        return np.zeros(1)
 
     def arrays(self) -> dict[str, Array]:
         """The past of the wave, for a snapshot."""
@@ -62,6 +69,15 @@ class _OnStrain(Feedback):
     def accept(self, t: float, state: Array, kept: bool, jumped: bool) -> None:
         """See Feedback."""
         self.wave.accept(t, self.dilation.at(state), kept, jumped)
+
+    def apart(self, other: Feedback) -> Array:
+        """See Feedback: at the nodes and COMPARED times, (COMPARED, n)."""
+        assert isinstance(other, _OnStrain)
+        times = np.linspace(0.0, self.wave.time, COMPARED)
+        pair = [
+            np.stack([w.value(*self.wave.places, t) for t in times]) for w in (self.wave, other.wave)
+        ]
+        return np.asarray(pair[0] - pair[1])
 
     def arrays(self) -> dict[str, Array]:
         """See Feedback."""

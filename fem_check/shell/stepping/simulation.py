@@ -5,6 +5,7 @@ import sys
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -102,7 +103,7 @@ def simulate(
             resumed = run.resume(target)
         run.finish(target, (_printed if progress is True else progress) or None)
         difference = _mesh_error(run) if mesh_error else np.nan
-        jumps, feedback = _snap_error(run), _feedback_error(run)
+        jumps, feedback = _snap_error(run), _feedback_errors(run)
     except KeyboardInterrupt:
         if progress is True:
             print(file=sys.stderr)
@@ -115,7 +116,8 @@ def simulate(
         resumed_at=resumed,
         mesh_error=difference,
         snap_error=jumps,
-        feedback_error=feedback,
+        feedback_error=feedback.speed,
+        growth_error=feedback.growth,
     )
     warn_if_viscous(scene.contact.friction, found.slip_ratio)
     return found
@@ -137,21 +139,31 @@ def _mesh_error(run: Run) -> float:
     return float(MESH_MARGIN * abs(difference))
 
 
-def _feedback_error(run: Run) -> float:
-    """Error of the speeds by the feedback on the wave: that of c, and of the steps that it makes.
+class _FeedbackErrors(NamedTuple):
+    """Of the speeds, length per time, and of c."""
 
-    From a run with longer steps and larger elements of the wave: the largest difference over the
+    speed: float = np.nan
+    growth: float = np.nan
+
+
+def _feedback_errors(run: Run) -> _FeedbackErrors:
+    """Errors by the feedback on the wave: that of the wave itself, and of the steps that both make.
+
+    From a run with longer steps and larger elements of the wave: the largest differences over the
     periods, since one may be small by chance. NaN without feedback, infinite if that run fails.
     """
     if not run.scene.drive.has_state:
-        return np.nan
+        return _FeedbackErrors()
     try:
         rough = Run(run.scene, run.settings.rougher(), coarse=True)
         rough.finish(None, None)
     except (ConvergenceError, ValueError):
-        return np.inf
-    apart = rough.trajectory().period_speeds - run.trajectory().period_speeds
-    return float(FEEDBACK_MARGIN * abs(apart).max())
+        return _FeedbackErrors(np.inf, np.inf)
+    speeds = rough.trajectory().period_speeds - run.trajectory().period_speeds
+    found = (
+        FEEDBACK_MARGIN * abs(apart).max() for apart in (speeds, run.feedback.apart(rough.feedback))
+    )
+    return _FeedbackErrors(*map(float, found))
 
 
 def _snap_error(run: Run) -> float:

@@ -80,8 +80,9 @@ class Trajectory(Drawable, Tabular):
     ramp of growth. table: columns of `record.COLUMNS`. stored_times (n,), states (n, size): kept
     states. probes (steps + 1, points, components): positions of a few points at all `times`. rejected:
     repeated steps. resumed_at: time of the snapshot from which the run resumed, NaN if none.
-    mesh_error, snap_error, feedback_error: see `SpeedErrors`. seconds: computing time, that before the snapshot
-    included.
+    mesh_error, snap_error, feedback_error: see `SpeedErrors`. growth_error: estimated error of c
+    where the strain acts back on it (`model.growth` is then c as it was in this motion), else NaN.
+    seconds: computing time, that before the snapshot included.
 
     >>> from fem_check import Friction, Gravity, Material, Membrane, Scene, simulate
     >>> from linear_theory import Sheet, SineWave
@@ -105,6 +106,7 @@ class Trajectory(Drawable, Tabular):
     mesh_error: float = np.nan
     snap_error: float = np.nan
     feedback_error: float = np.nan
+    growth_error: float = np.nan
 
     @property
     def scene(self) -> Scene:
@@ -299,7 +301,9 @@ class Trajectory(Drawable, Tabular):
         step = MARGIN * abs(self._mean("step_y")) + share * self._mean("step_y", size=True)
         dry = self.slip_ratio <= DRY
         slip = abs(self._mean("slip_y")) / (1 - COMPARED) if dry else np.nan
-        return SpeedErrors(step, float(spread), self.mesh_error, slip, self.snap_error, self.feedback_error)
+        return SpeedErrors(
+            step, float(spread), self.mesh_error, slip, self.snap_error, self.feedback_error
+        )
 
     @cached_property
     def speed(self) -> CrawlSpeed:
