@@ -48,6 +48,19 @@ class Equation(Value):
         """A copy with the given arguments replaced."""
         return replace(self, **changes)
 
+    def scaled(self, factor: float) -> Self:
+        """The same with all lengths times a factor: what is said of a sheet of length 1 on a longer one.
+
+        >>> from fem_check import excitable_preset
+        >>> print(excitable_preset("nu = -0.1").scaled(50.0).diffusion_length)
+        1.0
+        """
+        return self.but(
+            diffusion_length=factor * self.diffusion_length,
+            start=self.start.scaled(factor),
+            pacing=None if self.pacing is None else self.pacing.scaled(factor),
+        )
+
     def reaction(self, c: Array, w: Array) -> tuple[Array, Array]:
         """dc/dt without diffusion, and dw/dt."""
         cubic = c * (1 - c) * (c - self.threshold)

@@ -101,8 +101,8 @@ class StepSize:
         """No steps longer than that. Raises ValueError for given ones that are."""
         if self.rtol is None and self.largest > longest * (1 + 1e-9):
             raise ValueError(
-                f"steps = {round(period / self.largest)}: must be >= {math.ceil(period / longest)}, else "
-                "the feedback of the strain on the wave is unstable"
+                f"steps = {round(period / self.largest)}: must be >= {math.ceil(period / longest)}, "
+                "else the feedback of the strain on the wave is unstable"
             )
         self.largest, self.natural = min(self.largest, longest), min(self.natural, longest)
         self.dt = min(self.dt, longest)

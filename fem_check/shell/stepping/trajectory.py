@@ -310,8 +310,9 @@ class Trajectory(Drawable, Tabular):
         """Mean velocity of the last period.
 
         error: sum of the errors of step, mesh (if requested), spread between periods, path through
-        snap-throughs and feedback on the wave; model_error: distance to dry friction, see `SpeedErrors`. The speed of a sheet
-        that has passed through itself (`crossed`), which no real sheet does, is never converged.
+        snap-throughs and feedback on the wave; model_error: distance to dry friction, see
+        `SpeedErrors`. The speed of a sheet that has passed through itself (`crossed`), which no real
+        sheet does, is never converged.
         """
         last, errors = self._last(1), self.errors
         unknown = "mesh error not estimated" if np.isnan(errors.mesh) else ""
