@@ -12,8 +12,8 @@ class StartTable(Table):
     """c and w at time 0."""
 
     kind: Literal["rational", "uniform", "bump", "crossed"] = "rational"
-    """That of the paper, c = s²/(1 + s²) with s = (y - origin)/scale; the same everywhere; at rest but
-    for a bump; c rising across and w along, from which a spiral winds."""
+    """That of the paper, c = s^2/(1 + s^2) with s = (y - origin)/scale; the same everywhere; at rest
+    but for a bump; c rising across and w along, from which a spiral winds."""
     origin: float | None = None
     """Of "rational": in lengths of the sheet from its centre, -0.5 unless given."""
     scale: Size | None = None
@@ -54,21 +54,21 @@ class PacingTable(Table):
 
 
 class EquationTable(Table):
-    """c_t = γ² ∇²c + c (1 - c)(c - ν) - w, w_t = ε (c - κ w), in the file's unit of time."""
+    """Eq. 12, in the file's unit of time, by a preset or by its numbers."""
 
     preset: PRESET | None = None
     """Numbers, start and pacing by name, lengths in lengths of the sheet; what else is said replaces
     those of the preset."""
     threshold: float | None = None
-    """ν."""
+    """nu of eq. 12."""
     recovery_decay: float | None = None
-    """κ."""
+    """kappa of eq. 12."""
     recovery_rate: float | None = None
-    """ε."""
+    """epsilon of eq. 12."""
     diffusion_length: Size | None = None
-    """γ."""
+    """gamma of eq. 12."""
     feedback: float | None = None
-    """Of the strain: times tr ε, added to c_t; the scene must then be stepped."""
+    """Of the strain: times tr eps, added to c_t; the scene must then be stepped."""
     start: StartTable | None = None
     """State at time 0."""
     pacing: PacingTable | None = None
