@@ -4,6 +4,7 @@ from fem_check.excitable.equation import FitzHughNagumo
 from fem_check.excitable.excitation import Excitation
 from fem_check.excitable.feedback import StrainFeedback
 from fem_check.excitable.methods import Adaptive, Euler
+from fem_check.excitable.periodic.train import WaveTrain, wave_train
 from fem_check.excitable.periodic.wave import PeriodicExcitation
 from fem_check.excitable.presets import PRESETS, excitable_preset
 from fem_check.excitable.speeds import CycleSpeeds, speeds
@@ -25,6 +26,8 @@ __all__ = [
     "RationalStart",
     "StrainFeedback",
     "UniformStart",
+    "WaveTrain",
     "excitable_preset",
     "speeds",
+    "wave_train",
 ]

@@ -49,7 +49,7 @@ class Equation(Value):
         return replace(self, **changes)
 
     def scaled(self, factor: float) -> Self:
-        """The same with all lengths times a factor: what is said of a sheet of length 1 on a longer one.
+        """The same with all lengths times a factor: what is said of a sheet of length 1 elsewhere.
 
         >>> from fem_check import excitable_preset
         >>> print(excitable_preset("nu = -0.1").scaled(50.0).diffusion_length)
