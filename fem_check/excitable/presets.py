@@ -62,9 +62,9 @@ PRESETS = {
         ),
         Preset(
             "spiral",
-            "the numbers of nu = -0.1 from a crossed start, for a sheet as wide as long: the phase winds "
-            "once around a core near the centre, so that a single spiral turns about it, once in 42 and "
-            "for eight turns at least; the core wanders, and the pattern does not repeat.",
+            "the numbers of nu = -0.1 from a crossed start, for a sheet as wide as long: the phase "
+            "winds once around a core near the centre, so that a single spiral turns about it, once in "
+            "42 and for seven turns at least; the core wanders, and the pattern does not repeat.",
             _oscillating(-0.1, CrossedStart()),
             8 * 42.0,
         ),

@@ -2,10 +2,7 @@
 
 from typing import Literal
 
-from fem_check.excitable.presets import PRESETS
 from fem_check.files.fields import Size, Table, Time
-
-PRESET = Literal[tuple(PRESETS)]  # type: ignore[valid-type]
 
 
 class StartTable(Table):
@@ -56,7 +53,7 @@ class PacingTable(Table):
 class EquationTable(Table):
     """Eq. 12, in the file's unit of time, by a preset or by its numbers."""
 
-    preset: PRESET | None = None
+    preset: Literal["printed", "nu = -0.1", "nu = -0.05", "pulse train", "spiral"] | None = None
     """Numbers, start and pacing by name, lengths in lengths of the sheet; what else is said replaces
     those of the preset."""
     threshold: float | None = None

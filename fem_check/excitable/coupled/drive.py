@@ -31,7 +31,7 @@ class FeedbackDrive(Drive):
 
     def __init__(self, wave: "Solution", sheet: "Sheet", places: Places | None = None) -> None:
         super().__init__(wave, sheet)
-        self._alone = wave.alone.on(sheet, places)
+        self._alone: Drive = wave.alone.on(sheet, places)
 
     @property
     def alone(self) -> Drive:

@@ -131,7 +131,7 @@ def _oscillation(equation: Equation, points: int) -> Profile:
 
     trough.direction = 1.0  # type: ignore[attr-defined]
     options: dict[str, Any] = {"rtol": 1e-9, "atol": 1e-11, "method": "LSODA"}
-    slow = max(1.0, 0.1 / max(abs(equation.threshold), 1e-3))
+    slow = max(1.0, 0.01 / max(abs(equation.threshold), 1e-3))  # to settle near a Hopf point
     found = solve_ivp(rates, (0, slow * LONGEST), [0.3, 0.0], events=trough, **options)
     late = found.t_events[0] > slow * SETTLING
     if late.sum() < 2 or np.ptp(found.y[0, found.t > slow * LONGEST / 2]) < 1e-3:

@@ -55,6 +55,7 @@ def excitable_of(table: WaveTable, system: System, sheet: Sheet) -> Wave:
         )
     if table.until is None:
         raise ValueError("until: must be given for kind = 'excitable': the time to solve it for")
+    assert table.equation is not None
     equation = _equation(table.equation, system, sheet.length)
     rtol = system.number(table.rtol, RTOL)
     solution = Excitation(equation, sheet, system.number(table.until), rtol)

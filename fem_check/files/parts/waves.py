@@ -34,7 +34,7 @@ WAYS = ("alpha", "swelling", "bilayer")
 def wave_of(table: WaveTable, system: System, folder: Path, sheet: Sheet, cut: bool = False) -> Wave:
     """The wave on a sheet. Raises ValueError for keys that do not go together.
 
-    cut: whether the body is an outline within that rectangle.
+    sheet: needed by an equation only. cut: whether the body is an outline within that rectangle.
     """
     if table.csv is not None or table.samples is not None:
         return _measured(table, system, folder)
@@ -60,7 +60,9 @@ def wave_of(table: WaveTable, system: System, folder: Path, sheet: Sheet, cut: b
     return TravellingWave(even, odd, table.count, period, table.mean)
 
 
-def _excitable(table: WaveTable, system: System, sheet: Sheet, cut: bool) -> Wave:
+def _excitable(table: WaveTable, system: System, sheet: Sheet | None, cut: bool) -> Wave:
+    if table.equation is None or sheet is None:
+        raise ValueError("equation: must be given for kind = 'excitable', as { preset = 'printed' }")
     for name in ("period", "count"):
         if name in table.model_fields_set:
             raise ValueError(f"{name}: must be left out, the equation makes its own waves")

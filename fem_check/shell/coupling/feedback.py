@@ -54,7 +54,7 @@ class _OnStrain(Feedback):
         self.wave, self.dilation = wave, Dilation(model.discretisation, wave.places)
 
     @property
-    def past(self) -> Any:  # type: ignore[override]
+    def past(self) -> Any:
         """The course of the wave, which is replaced, never changed."""
         return self.wave.course
 
@@ -74,9 +74,8 @@ class _OnStrain(Feedback):
         """See Feedback: at the nodes and COMPARED times, (COMPARED, n)."""
         assert isinstance(other, _OnStrain)
         times = np.linspace(0.0, self.wave.time, COMPARED)
-        pair = [
-            np.stack([w.value(*self.wave.places, t) for t in times]) for w in (self.wave, other.wave)
-        ]
+        x, y = self.wave.places
+        pair = [np.stack([w.value(x, y, t) for t in times]) for w in (self.wave, other.wave)]
         return np.asarray(pair[0] - pair[1])
 
     def arrays(self) -> dict[str, Array]:
