@@ -23,8 +23,8 @@ from fem_check.excitable import (
     excitable_preset,
 )
 from fem_check.files import SceneFileError, gallery, read
-from fem_check.files.reading import parsed
 from fem_check.files.parts.excitable import entries_of, excitable_of
+from fem_check.files.reading import parsed
 from fem_check.files.system import System
 from fem_check.files.tables import WaveTable
 from fem_check.files.toml import text_of
@@ -122,7 +122,7 @@ def test_mistakes_are_named(name: str) -> None:
     with pytest.raises(SceneFileError) as found:
         wave_of(table)
     assert words in str(found.value)
-    assert "[wave]" in str(found.value)
+    assert "[wave" in str(found.value)
 
 
 def test_what_a_file_cannot_say() -> None:

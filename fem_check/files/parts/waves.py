@@ -31,7 +31,9 @@ WAYS = ("alpha", "swelling", "bilayer")
 """To say how much c grows the sheet."""
 
 
-def wave_of(table: WaveTable, system: System, folder: Path, sheet: Sheet, cut: bool = False) -> Wave:
+def wave_of(
+    table: WaveTable, system: System, folder: Path, sheet: Sheet | None, cut: bool = False
+) -> Wave:
     """The wave on a sheet. Raises ValueError for keys that do not go together.
 
     sheet: needed by an equation only. cut: whether the body is an outline within that rectangle.
