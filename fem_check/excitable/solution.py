@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Self
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -93,7 +93,7 @@ class Solution(Shown):
         return found
 
     @cached_property
-    def alone(self) -> "Solution":
+    def alone(self) -> Self:
         """The solution without the feedback of a strain, from which one with it starts."""
         if not self.equation.acts_back:
             return self
