@@ -177,7 +177,6 @@ MADE = {
     "FieldDrive": lambda: linear_theory.FieldWave(lopsided, period=1.0).on(SHEET),
     "FeedbackDrive": lambda: fed_back().on(SHEET),
     "FollowedDrive": lambda: fed_back().on(SHEET).followed(),
-    "Excitation with feedback": lambda: fed_back(),
     "StrainFeedback": lambda: fem_check.StrainFeedback(0.1),
     "FitzHughNagumo": lambda: fem_check.excitable_preset("pulse train"),
     "FitUncertainty": lambda: measured().uncertainty,

@@ -6,9 +6,10 @@ that c. As for the scheme of Adams and Bashforth, whose error is 5/12 dt³ per s
 that of the steps of the sheet; the wave in itself is integrated far more accurately than that.
 """
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -17,6 +18,7 @@ from fem_check.excitable.methods import Method
 from fem_check.excitable.space import Space
 from fem_check.excitable.system import System
 from linear_theory.common import validation
+from linear_theory.common.shown import Shown
 
 if TYPE_CHECKING:
     from fem_check.excitable.solution import Solution
@@ -61,7 +63,7 @@ class Course:
         )
 
 
-class FollowedWave:
+class FollowedWave(Shown):
     """The wave of a run: the past, and c one step ahead of it.
 
     course: the past; it is replaced, never changed, so that a run can return to an earlier one.
@@ -73,6 +75,9 @@ class FollowedWave:
         self.course = Course((0.0,), (system.first,), (nothing,), (True,))
         self._ahead: tuple[Course, float, Array] | None = None
         self._weights: tuple[Array, Array, tuple[NDArray[np.int64], Array]] | None = None
+
+    def _contents(self) -> Mapping[str, Any]:
+        return {"equation": self.system.equation, "nodes": self.system.space.size, "time": self.time}
 
     @classmethod
     def of(cls, wave: "Solution", coarse: bool) -> "FollowedWave":
