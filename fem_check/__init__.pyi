@@ -8,6 +8,7 @@ from .choice.settings import RunSettings
 from .choice.solving import solve
 from .excitable.equation import FitzHughNagumo
 from .excitable.excitation import Excitation
+from .excitable.feedback import StrainFeedback
 from .excitable.presets import excitable_preset
 from .excitable.speeds import speeds
 from .mesh.outline import Outline
@@ -51,6 +52,7 @@ __all__ = [
     "RigidGround",
     "RunSettings",
     "Scene",
+    "StrainFeedback",
     "Terrain",
     "Trajectory",
     "__version__",

@@ -19,13 +19,15 @@ from fem_check.excitable import (
     RationalStart,
     UniformStart,
     excitable_preset,
+    speeds,
+    wave_train,
 )
 from fem_check.excitable.methods import is_stiff
 from fem_check.excitable.record import Record
 from fem_check.excitable.solution import difference
 from fem_check.excitable.space import Space
 from fem_check.excitable.system import System
-from linear_theory import NotConvergedError, Scene, Sheet, crawl_speed
+from linear_theory import NotConvergedError, Scene, Sheet, crawl_speed, line_balance
 from linear_theory.wave.sampled import drive
 from tests import reference_excitable as reference
 
@@ -83,11 +85,40 @@ def test_single_pulses_have_the_published_speed(
 
 
 def test_published_wave_train() -> None:
+    """Against an independent Newton solution, too, from another start."""
     y = np.arange(128) / 128
     numbers = (-0.1, 1e-4, 0.05, 0.02)
-    _, speed = reference.train(numbers, 1.0, 0.15 + 0.6 * np.cos(2 * np.pi * y), 0.025)
+    c, speed = reference.train(numbers, 1.0, 0.15 + 0.6 * np.cos(2 * np.pi * y), 0.025)
     assert speed == pytest.approx(0.02517, abs=5e-6)
     assert 1 / speed == pytest.approx(39.73, abs=5e-3)
+    found = wave_train(excitable_preset("nu = -0.1"))
+    assert found.speed == pytest.approx(speed, rel=1e-8)
+    assert abs(found.speed - speed) <= found.speed_error + 1e-9 * speed
+    assert found.period == pytest.approx(39.73, rel=1e-4)
+    crest = np.fft.rfft(c)[1]  # the same phase: harmonic 1 of both has its crest at y = 0
+    own = found.wave.cosine[0] - 1j * found.wave.sine[0]
+    shift = (np.angle(own) - np.angle(crest)) / (2 * np.pi)
+    assert found.wave.value(0.0, y - shift, 0.0) == pytest.approx(c, abs=1e-6)
+
+
+def test_a_train_is_a_wave_that_every_level_takes() -> None:
+    """Two wavelengths on a length of two are that of one; viscous speed from the stretch alone."""
+    train = wave_train(excitable_preset("nu = -0.1"), length=2.0, count=2)
+    one = wave_train(excitable_preset("nu = -0.1"))
+    assert train.speed == pytest.approx(one.speed, rel=1e-8)
+    found = line_balance(one.wave, 0.1, length=1.0, friction="viscous", growth_law="exp", rtol=1e-6)
+    stretch = np.exp(0.1 * one.wave.value(0.0, np.arange(512) / 512, 0.0))
+    assert found.mean == pytest.approx(np.var(stretch) / np.mean(stretch) / one.period, rel=1e-5)
+
+
+def test_trains_have_a_shortest_wavelength() -> None:
+    """2 pi gamma/(-nu)^(1/2), the weakly nonlinear limit: 1.26 for the printed numbers."""
+    with pytest.raises(NotConvergedError, match=r"beyond a wavelength of 1\.2[5-8] times"):
+        wave_train(excitable_preset("printed"))
+    with pytest.raises(NotConvergedError, match="come to rest"):
+        wave_train(excitable_preset("pulse train").but(pacing=None))
+    with pytest.raises(ValueError, match="must have pacing = None"):
+        wave_train(excitable_preset("pulse train"))
 
 
 def test_the_printed_numbers_end_in_a_uniform_limit_cycle() -> None:
@@ -334,12 +365,17 @@ def test_a_scene_with_an_excitable_wave_is_data() -> None:
     assert again.key() == scene.key()
 
 
-def test_crossed_start_winds_into_a_spiral() -> None:
-    """The phase of (c, dc/dt) turns once around the centre of a square sheet, four cycles on."""
+def test_the_spiral_winds_and_drives_a_wide_sheet() -> None:
+    """The phase of (c, dc/dt) turns once around the centre of a square sheet; seven turns on, too."""
     square = Sheet(length=1.0, width=1.0)
-    wave = excitable_preset("nu = -0.1").but(start=CrossedStart()).on(square, 165.0, 5e-2)
-    for radius in (0.1, 0.3):
-        angle = np.linspace(0, 2 * np.pi, 200)
-        place = radius * np.cos(angle), radius * np.sin(angle), 165.0
-        phase = np.unwrap(np.arctan2(5 * wave.rate(*place), wave.value(*place) - 0.1))
-        assert abs(phase[-1] - phase[0]) == pytest.approx(2 * np.pi, abs=1e-6)
+    wave = excitable_preset("spiral").on(square, 300.0, 5e-2)
+    angle = np.linspace(0, 2 * np.pi, 200)
+    for t, radii in ((165.0, (0.1, 0.3)), (299.0, (0.2, 0.45))):
+        for radius in radii:
+            place = radius * np.cos(angle), radius * np.sin(angle), t
+            phase = np.unwrap(np.arctan2(5 * wave.rate(*place), wave.value(*place) - 0.1))
+            assert abs(phase[-1] - phase[0]) == pytest.approx(2 * np.pi, abs=1e-6)
+    assert wave.cycles.period == pytest.approx(42, abs=1.5)
+    assert not wave.repeats
+    found = speeds(Scene(square, wave, alpha=0.1), [-1], rtol=0.1)
+    assert 0 < abs(found.mean[0]) < 0.1 * 0.1 / wave.period

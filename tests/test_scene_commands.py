@@ -113,7 +113,7 @@ def test_a_scene_that_reads_a_table_comes_with_it(capsys: Any) -> None:
 WAYS = {
     **dict.fromkeys(("paper", "hydrogel", "pulse", "viscous", "measured"), "predict"),
     **dict.fromkeys(("trapezoid", "hole", "turning", "inchworm", "piezo"), "cycle"),
-    "bumpy": "stepped",
+    **dict.fromkeys(("bumpy", "excitable"), "stepped"),
 }
 
 

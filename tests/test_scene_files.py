@@ -76,7 +76,7 @@ def test_a_scene_of_the_gallery_is_written_and_read(name: str, tmp_path: Path) -
 def test_the_gallery_has_what_was_promised() -> None:
     assert set(gallery.names()) == {
         *("paper", "hydrogel", "inchworm", "trapezoid", "hole"),
-        *("turning", "bumpy", "pulse", "piezo", "viscous", "measured"),
+        *("turning", "bumpy", "pulse", "piezo", "viscous", "measured", "excitable"),
     }
     with pytest.raises(ValueError, match="'gel': is not a scene of the gallery; there are paper"):
         gallery.text("gel")

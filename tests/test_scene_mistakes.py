@@ -56,7 +56,7 @@ REFUSED = {
     "no table": ("sheet = 3\n", "1", "[sheet] is 3: must be a table"),
     "count": ("[wave]\ncount = 0", "2", "[wave] count = 0: must be a non-zero integer"),
     "count not whole": ("[wave]\ncount = 1.5", "2", "[wave] count = 1.5: must be an integer"),
-    "kind": ('[wave]\nkind = "puls"', "2", "[wave] kind = 'puls': must be 'sine', 'pulse' or"),
+    "kind": ('[wave]\nkind = "puls"', "2", "[wave] kind = 'puls': must be 'sine', 'pulse', 'harm"),
     "width of a sine": ("[wave]\nwidth = 0.2", "2", "[wave] width: must be left out, only"),
     "no width": ('[wave]\nkind = "pulse"', "1", "[wave] width: must be given for a pulse"),
     "narrow": ('[wave]\nkind = "pulse"\nwidth = "1 %"', "3", "width = 0.01: must be in [0.02, 1)"),

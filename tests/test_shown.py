@@ -143,6 +143,12 @@ def excited_orbit():
     return orbit
 
 
+def fed_back():
+    """A wave that the strain acts back on."""
+    equation = fem_check.excitable_preset("printed").but(feedback=fem_check.StrainFeedback(0.1))
+    return equation.on(SHEET, 40.0, 0.1)
+
+
 MADE = {
     "AiryAmplitudes": lambda: field("AirySeries").amplitudes([0.1, 0.3]),
     "AirySeries": lambda: field("AirySeries"),
@@ -179,6 +185,9 @@ MADE = {
     "Exp": linear_theory.Exp,
     "FieldWave": lambda: linear_theory.FieldWave(lambda x, y, t: np.sin(y - t), 1.0, name="a & <b>"),
     "FieldDrive": lambda: linear_theory.FieldWave(lopsided, period=1.0).on(SHEET),
+    "FeedbackDrive": lambda: fed_back().on(SHEET),
+    "FollowedDrive": lambda: fed_back().on(SHEET).followed(),
+    "StrainFeedback": lambda: fem_check.StrainFeedback(0.1),
     "FitzHughNagumo": lambda: fem_check.excitable_preset("pulse train"),
     "FitUncertainty": lambda: measured().uncertainty,
     "Flat": Flat,

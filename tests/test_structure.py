@@ -24,7 +24,10 @@ LAYERS = (
     "linear_theory",
     *(f"fem_check.{part}" for part in ("version", "scene", "mesh", "plane_stress", "excitable")),
     *(f"fem_check.shell.{part}" for part in ("material", "kinematics", "effects", "statics")),
-    *(f"fem_check.shell.{part}" for part in ("model", "depth", "abilities", "cycle", "stepping")),
+    *(
+        f"fem_check.shell.{part}"
+        for part in ("model", "depth", "abilities", "coupling", "cycle", "stepping")
+    ),
     *(
         f"fem_check.{part}"
         for part in ("answer", "choice", "output", "files", "runs", "sweeps", "explorer", "command")

@@ -34,8 +34,18 @@ def way_of(scene: Scene, asked: str = "auto") -> str:
     if asked != "auto":
         WAYS.get(asked, THEORY).require(scene)
         return asked
+    steps = not STEPPED.objections(scene)
     for name, level in WAYS.items():
-        if not level.objections(scene):
+        if not level.objections(scene) and (not steps or level is STEPPED or _repeats(scene)):
             return name
     objections = (f"{name}: {'; '.join(level.objections(scene))}" for name, level in WAYS.items())
     raise ValueError(f"effects: no level represents this scene ({', '.join(objections)})")
+
+
+def _repeats(scene: Scene) -> bool:
+    """Whether a mean over one period of the wave has a meaning."""
+    try:
+        scene.drive.check_period()
+    except ValueError:
+        return False
+    return True

@@ -2,7 +2,9 @@
 
 from fem_check.excitable.equation import FitzHughNagumo
 from fem_check.excitable.excitation import Excitation
+from fem_check.excitable.feedback import StrainFeedback
 from fem_check.excitable.methods import Adaptive, Euler
+from fem_check.excitable.periodic.train import WaveTrain, wave_train
 from fem_check.excitable.periodic.wave import PeriodicExcitation
 from fem_check.excitable.presets import PRESETS, excitable_preset
 from fem_check.excitable.speeds import CycleSpeeds, speeds
@@ -22,7 +24,10 @@ __all__ = [
     "Pacing",
     "PeriodicExcitation",
     "RationalStart",
+    "StrainFeedback",
     "UniformStart",
+    "WaveTrain",
     "excitable_preset",
     "speeds",
+    "wave_train",
 ]

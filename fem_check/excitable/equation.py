@@ -14,7 +14,8 @@ class FitzHughNagumo(Equation):
 
     threshold: ν, > 0 excitable, < -εκ about oscillatory; recovery_decay: κ; recovery_rate: ε, both
     1/time; diffusion_length: γ, units of length (time has the unit of the reaction, 1). start: c and w
-    at time 0, by default the paper's from the rear end. pacing: a periodic stimulus, none by default.
+    at time 0, by default the paper's from the rear end. pacing: a periodic stimulus; feedback: of the
+    strain of the sheet, added to c_t, see `StrainFeedback`; neither by default.
 
     Raises ValueError for numbers that are not finite, rates below 0 and a length that is not positive.
 

@@ -6,6 +6,7 @@ from typing import Any, Self
 import numpy as np
 from numpy.typing import NDArray
 
+from fem_check.excitable.feedback import StrainFeedback
 from fem_check.excitable.starts import Pacing, RationalStart, Start
 from linear_theory.common import validation
 from linear_theory.common.shown import Value
@@ -23,6 +24,7 @@ class Equation(Value):
     diffusion_length: float
     start: Start = field(default_factory=RationalStart)
     pacing: Pacing | None = None
+    feedback: StrainFeedback | None = None
 
     def __post_init__(self) -> None:
         validation.real("threshold", self.threshold)
@@ -33,10 +35,31 @@ class Equation(Value):
         validation.instance("start", self.start, Start)  # type: ignore[type-abstract]
         if self.pacing is not None:
             validation.instance("pacing", self.pacing, Pacing)
+        if self.feedback is not None:
+            hint = "write StrainFeedback(coefficient)"
+            validation.instance("feedback", self.feedback, StrainFeedback, hint)
+
+    @property
+    def acts_back(self) -> bool:
+        """Whether c depends on the motion of the sheet."""
+        return self.feedback is not None and self.feedback.coefficient != 0
 
     def but(self, **changes: Any) -> Self:
         """A copy with the given arguments replaced."""
         return replace(self, **changes)
+
+    def scaled(self, factor: float) -> Self:
+        """The same with all lengths times a factor: what is said of a sheet of length 1 elsewhere.
+
+        >>> from fem_check import excitable_preset
+        >>> print(excitable_preset("nu = -0.1").scaled(50.0).diffusion_length)
+        1.0
+        """
+        return self.but(
+            diffusion_length=factor * self.diffusion_length,
+            start=self.start.scaled(factor),
+            pacing=None if self.pacing is None else self.pacing.scaled(factor),
+        )
 
     def reaction(self, c: Array, w: Array) -> tuple[Array, Array]:
         """dc/dt without diffusion, and dw/dt."""

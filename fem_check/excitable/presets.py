@@ -1,10 +1,10 @@
-"""Equations by name: the paper's numbers, two readings of them that give waves, and a paced pulse
-train."""
+"""Equations by name: the paper's numbers, two readings of them that give waves, a paced pulse
+train and a spiral."""
 
 from dataclasses import dataclass
 
 from fem_check.excitable.equation import FitzHughNagumo
-from fem_check.excitable.starts import Pacing, RationalStart, UniformStart
+from fem_check.excitable.starts import CrossedStart, Pacing, RationalStart, Start, UniformStart
 from linear_theory.common.shown import Value
 from linear_theory.common.validation import choice
 
@@ -22,8 +22,8 @@ class Preset(Value):
         return f"{self.name}: {self.words}"
 
 
-def _oscillating(threshold: float) -> FitzHughNagumo:
-    return FitzHughNagumo(threshold, 1e-4, 0.05, 0.02, RationalStart())
+def _oscillating(threshold: float, start: Start | None = None) -> FitzHughNagumo:
+    return FitzHughNagumo(threshold, 1e-4, 0.05, 0.02, RationalStart() if start is None else start)
 
 
 PRESETS = {
@@ -60,13 +60,27 @@ PRESETS = {
             FitzHughNagumo(0.1, 1.0, 0.01, 0.02, UniformStart(), Pacing(150.0)),
             6 * 150.0,
         ),
+        Preset(
+            "spiral",
+            "the numbers of nu = -0.1 from a crossed start, for a sheet as wide as long: the phase "
+            "winds once around a core near the centre, so that a single spiral turns about it, once in "
+            "42 and for seven turns at least; the core wanders, and the pattern does not repeat.",
+            _oscillating(-0.1, CrossedStart()),
+            8 * 42.0,
+        ),
     )
 }
 """By name."""
 
 
 def excitable_preset(name: str) -> FitzHughNagumo:
-    """The equation "printed", "nu = -0.1", "nu = -0.05" or "pulse train", see `PRESETS`.
+    """The equation "printed", "nu = -0.1", "nu = -0.05", "pulse train" or "spiral".
+
+    printed: an oscillation of amplitude 0.12 and period 29 that ends in phase. nu = -0.1, nu = -0.05:
+    phase waves towards +y of amplitude about one. pulse train: one pulse per stimulus at the rear end.
+    spiral: one spiral on a square sheet. `PRESETS` says more of each in a sentence, and how long to
+    look.
+
 
     Raises ValueError for other names.
 

@@ -1,13 +1,14 @@
 """The solution of the equation on a body, from its start on: a wave that need not repeat."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Self
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from fem_check.excitable.coupled.drive import REFUSAL, FeedbackDrive
 from fem_check.excitable.cycles import Cycles, cycles_of
 from fem_check.excitable.drives import CycleWave, ExcitationDrive
 from fem_check.excitable.kinetics import Equation
@@ -44,11 +45,15 @@ CHECKS = 64
 
 
 class Pair(NamedTuple):
-    """A solution and a coarser one; difference (T,): largest one at each kept time, of c."""
+    """A solution and a coarser one; difference (T,): largest one at each kept time, of c.
+
+    size: of the elements of the fine one.
+    """
 
     fine: Record
     coarse: Record
     difference: Array
+    size: float
 
 
 @dataclass(frozen=True, eq=False)
@@ -76,6 +81,8 @@ class Solution(Shown):
     @one_blas_thread
     def _pair(self) -> Pair:
         """The solution and a coarser one, refined until their difference meets rtol."""
+        if self.equation.acts_back:
+            raise ValueError(REFUSAL)
         size = FIRST_SIZE * self.equation.diffusion_length
         found = self._solved_pair(size)
         for _ in range(FINER):
@@ -84,6 +91,13 @@ class Solution(Shown):
             size /= 2
             found = self._solved_pair(size)
         return found
+
+    @cached_property
+    def alone(self) -> Self:
+        """The solution without the feedback of a strain, from which one with it starts."""
+        if not self.equation.acts_back:
+            return self
+        return replace(self, equation=self.equation.but(feedback=None))
 
     @property
     def _fine(self) -> Record:
@@ -133,8 +147,9 @@ class Solution(Shown):
 
     @property
     def period(self) -> float:
-        """Duration of the last cycle; `until` where there is none."""
-        return float(self.cycles.period[-1]) if self.cycles.count else self.until
+        """Duration of the last cycle, without feedback; `until` where there is none."""
+        cycles = self.alone.cycles
+        return float(cycles.period[-1]) if cycles.count else self.until
 
     @property
     def known(self) -> float:
@@ -149,8 +164,10 @@ class Solution(Shown):
         """dc/dt likewise."""
         return self._fine.rate(x, y, t)
 
-    def on(self, sheet: Sheet, places: Places | None = None) -> ExcitationDrive:
+    def on(self, sheet: Sheet, places: Places | None = None) -> ExcitationDrive | FeedbackDrive:
         """The wave on a body within that rectangle, which must be the one that it was solved on."""
+        if self.equation.acts_back:
+            return FeedbackDrive(self, sheet, places)
         return ExcitationDrive(self, sheet, places)
 
     def check_repeats(self) -> None:
@@ -197,6 +214,8 @@ class Solution(Shown):
         return {name: getattr(self, name) for name in names}
 
     def _title(self) -> str:
+        if self.equation.acts_back:
+            return f"{type(self).__name__}: solved together with a sheet, which acts back on it"
         if "_pair" not in self.__dict__:
             return f"{type(self).__name__}: not solved yet"
         return f"{type(self).__name__}: {self.cycles.in_words(self.repeats, self.body.length)}"
@@ -213,7 +232,7 @@ class Solution(Shown):
         assert self.method is not None
         fine = self._solved(size, self.method)
         coarse = self._solved(2 * size, self.method.coarser())
-        return Pair(fine, coarse, difference(fine, coarse))
+        return Pair(fine, coarse, difference(fine, coarse), size)
 
     def _solved(self, size: float, method: Method) -> Record:
         system = System(self.equation, self.body, self._space(size))

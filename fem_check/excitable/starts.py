@@ -2,7 +2,8 @@
 
 import math
 from abc import ABC, abstractmethod
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import ClassVar, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,6 +22,11 @@ class Start(Value, ABC):
     """
 
     depends_on_x: bool = False
+    sizes: ClassVar[tuple[str, ...]] = ()
+
+    def scaled(self, factor: float) -> Self:
+        """The same with all its lengths, the fields `sizes`, times a factor."""
+        return replace(self, **{n: factor * getattr(self, n) for n in self.sizes})  # type: ignore
 
     @abstractmethod
     def values(self, x: Array, y: Array, length: float, width: float) -> tuple[Array, Array]:
@@ -44,6 +50,7 @@ class RationalStart(Start):
 
     origin: float = -0.5
     scale: float = 1.0
+    sizes = ("scale",)
 
     def __post_init__(self) -> None:
         validation.real("origin", self.origin)
@@ -82,6 +89,7 @@ class BumpStart(Start):
     height: float = 1.0
     radius: float = 0.1
     position: tuple[float | None, float] = (None, -0.5)
+    sizes = ("radius",)
 
     def __post_init__(self) -> None:
         validation.real("height", self.height)
@@ -115,6 +123,7 @@ class CrossedStart(Start):
     w_size: float = 0.1
     step: float = 0.1
     depends_on_x = True
+    sizes = ("step",)
 
     def __post_init__(self) -> None:
         for name in ("c_size", "w_size"):
@@ -140,6 +149,10 @@ class Pacing(Value):
     duration: float = 8.0
     reach: float = 0.1
     front: bool = False
+
+    def scaled(self, factor: float) -> "Pacing":
+        """The same with its reach times a factor."""
+        return replace(self, reach=factor * self.reach)
 
     def __post_init__(self) -> None:
         for name in ("period", "duration", "reach"):

@@ -1,5 +1,6 @@
 """The equation on the nodes of a mesh: rates, Jacobian and their time derivatives."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -21,11 +22,16 @@ with a sparse matrix."""
 
 @dataclass(frozen=True, eq=False)
 class System:
-    """States are c and w at all nodes, one after the other, (2 n,)."""
+    """States are c and w at all nodes, one after the other, (2 n,).
+
+    strain: tr ε at the nodes (n,) at a time, for a wave that it acts on; given, it is a source as the
+    pacing is.
+    """
 
     equation: Equation
     body: Body
     space: Space
+    strain: Callable[[float], Array] | None = None
 
     @cached_property
     def diffusion(self) -> Any:
@@ -62,6 +68,8 @@ class System:
         out[:n] -= self._spreading @ c
         if self.equation.pacing is not None:
             out[:n] += self.stimulus * self.equation.pacing.course(t)
+        if self.strain is not None and self.equation.feedback is not None:
+            out[:n] += self.equation.feedback.coefficient * self.strain(t)
         return out
 
     def jacobian(self, t: float, state: Array) -> Any:

@@ -14,7 +14,7 @@ def names() -> tuple[str, ...]:
 
     >>> from fem_check.files.gallery import names
     >>> print(len(names()), *names()[:3])
-    11 paper bumpy hole
+    12 paper bumpy excitable
     """
     found = sorted(Path(file.name).stem for file in FOLDER.iterdir() if file.name.endswith(".toml"))
     return FIRST, *(name for name in found if name != FIRST)

@@ -11,6 +11,9 @@ from fem_check.files.quantities import KINDS, Quantity, length_unit, registry
 BASES: dict[str, Place] = {"length": ("sheet", "length"), "time": ("wave", "period")}
 """Whose units are those of the file."""
 
+SOLVED: Place = ("wave", "until")
+"""Instead of the period, of a wave that has none of its own."""
+
 
 class System(NamedTuple):
     """Units of length and time, and Young's modulus, which is the unit of stress; None if plain."""
@@ -73,7 +76,8 @@ def system_of(tables: Mapping[str, Table], mistakes: Mistakes) -> System | None:
             words = f"{place[-1]} = {q.text}: needs a unit, as in '{example}', beside {first}"
             mistakes.add(place, words)
             fine = False
-    for kind, place in BASES.items():
+    bases = BASES if SOLVED not in dimensional else {**BASES, "time": SOLVED}
+    for kind, place in bases.items():
         if place not in dimensional and place[0] in tables:
             words = f"{place[-1]}: must be given, such as '{KINDS[kind].example}', beside {first}"
             mistakes.add(place, words)
@@ -84,9 +88,9 @@ def system_of(tables: Mapping[str, Table], mistakes: Mistakes) -> System | None:
         beside = f"{_words(stress)} = {dimensional[stress].text!r}"
         mistakes.add(("sheet", "young"), f"young: must be given, such as '1 MPa', beside {beside}")
         fine = False
-    if not fine or not all(place in dimensional for place in BASES.values()):
+    if not fine or not all(place in dimensional for place in bases.values()):
         return None
-    length, time = (dimensional[place].unit for place in BASES.values())
+    length, time = (dimensional[place].unit for place in bases.values())
     return System(length, time, young)
 
 

@@ -9,6 +9,7 @@ from typing import Annotated, Any, Literal
 from pydantic import Field
 
 from fem_check.files.bodies import OutlineTable, TerrainTable
+from fem_check.files.equations import EquationTable
 from fem_check.files.fields import (
     Angle,
     Count,
@@ -64,8 +65,9 @@ class SamplesTable(Table):
 class WaveTable(Table):
     """The wave of growth c(y, t) that runs along the sheet."""
 
-    kind: Literal["sine", "pulse", "harmonics"] | None = None
-    """A sine unless given; "pulse" is smooth and has a width, "harmonics" any periodic wave."""
+    kind: Literal["sine", "pulse", "harmonics", "excitable"] | None = None
+    """A sine unless given; "pulse" is smooth and has a width, "harmonics" any periodic wave;
+    "excitable" solves an equation, whose unit of time is that of the file."""
     period: Time | None = None
     """E.g. "8 s"; its unit is the file's unit of time. 1 unless given; of a measured wave, found."""
     count: Count = 1
@@ -87,6 +89,14 @@ class WaveTable(Table):
     """Of a measured wave, in time; chosen by what its noise leaves unless given."""
     degree: int | list[int] | None = None
     """Of a measured wave: of the polynomial along, or of those across and along; likewise."""
+    equation: EquationTable | None = None
+    """Of an excitable wave."""
+    until: Time | None = None
+    """Of an excitable wave: how long it is solved for, its ramp of half a period included."""
+    rtol: PositiveShare | None = None
+    """Of an excitable wave: largest error of c over the largest |c|, 0.1 % unless given."""
+    orbit: bool = False
+    """Of an excitable wave: the periodic one that it approaches, instead of the wave from its start."""
 
 
 class BilayerTable(Table):

@@ -5,7 +5,10 @@ from pathlib import Path
 from typing import Any
 
 from fem_check.choice.settings import RunSettings
+from fem_check.excitable.excitation import Excitation
+from fem_check.excitable.periodic.wave import PeriodicExcitation
 from fem_check.files.parts.effects import LAWS
+from fem_check.files.parts.excitable import entries_of
 from fem_check.files.reading import parsed
 from fem_check.files.toml import text_of
 from fem_check.output.files import replacing
@@ -89,6 +92,8 @@ def _wave(wave: Any) -> Entries:
         return {"period": wave.period, "count": wave.count}
     if type(wave) is SampledWave:
         return _measured(wave)
+    if isinstance(wave, Excitation | PeriodicExcitation):
+        return entries_of(wave)
     if type(wave) is not TravellingWave:
         kind = type(wave).__name__
         raise ValueError(f"wave: a {kind} cannot be written to a scene file, which holds no functions")

@@ -9,6 +9,7 @@ from fem_check.output.moving import Moving, turned
 from fem_check.output.panels import arrow_places
 from fem_check.output.pictures import moving_of
 from fem_check.runs.recording import PHASES, Recording
+from fem_check.shell.stepping.trajectory import Trajectory
 from linear_theory.scene.scene import Scene
 from linear_theory.speed.result import CrawlSpeed
 
@@ -53,7 +54,7 @@ def recorded(result: Any, scene: Scene, speed: CrawlSpeed | None = None) -> Reco
         triangles=triangles,
         times=times,
         place=place,
-        wave=_wave(scene, points, times),
+        wave=_wave(result, scene, points, times),
         growth=np.stack([frame.growth for frame in frames]),
         centre=centre,
         heading=heading,
@@ -86,7 +87,9 @@ def _floor(moving: Moving, place: Array) -> dict[str, Array]:
     return {"floor_x": x, "floor_y": y, "floor": np.array(heights)}
 
 
-def _wave(scene: Scene, points: Array, times: Array) -> Array:
-    """c at the points, (n, p)."""
+def _wave(result: Any, scene: Scene, points: Array, times: Array) -> Array:
+    """c at the points, (n, p); as it was in the motion where that acts back on it."""
     x, y = points
+    if isinstance(result, Trajectory):
+        return np.stack([np.broadcast_to(result.model.growth(float(t), x, y), x.shape) for t in times])
     return np.stack([np.broadcast_to(scene.drive.value(x, y, float(t)), x.shape) for t in times])

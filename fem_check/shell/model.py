@@ -23,12 +23,15 @@ from fem_check.shell.material import Material
 from fem_check.shell.statics.potential import Potential
 from linear_theory.common.shown import Shown
 from linear_theory.scene.scene import Scene
+from linear_theory.wave.protocol import Drive
 
 Array = NDArray[np.float64]
 
 
 class ShellModel(Shown):
     """The finite-element model of a scene; its parts are built on first use and kept.
+
+    drive: the wave on the sheet, by default that of the scene; of a run, the one that follows it.
 
     >>> from fem_check.shell.model import ShellModel
     >>> from linear_theory import Scene, Sheet, SineWave
@@ -37,8 +40,9 @@ class ShellModel(Shown):
     8 (3, 288)
     """
 
-    def __init__(self, scene: Scene) -> None:
+    def __init__(self, scene: Scene, drive: Drive | None = None) -> None:
         self.scene, self.planar, self.components = scene, scene.planar, scene.components
+        self.drive = scene.drive if drive is None else drive
         sheet = scene.sheet
         alone = (Membrane(Material(sheet.thickness, sheet.poisson)),)
         self.effects: tuple[Effect, ...] = scene.effects or alone
@@ -76,8 +80,7 @@ class ShellModel(Shown):
 
     def growth(self, t: float, x: ArrayLike, y: ArrayLike) -> Array:
         """c at points of the undeformed sheet."""
-        scene = self.scene
-        return np.asarray(scene.drive.value(x, y, t))
+        return np.asarray(self.drive.value(x, y, t))
 
     def rest(self, t: float, amplitude: float = 1.0, region: Region | None = None) -> RestState:
         """Rest state at time t for `amplitude` times the wave, by default at interior points."""

@@ -54,5 +54,12 @@ def _cut(scene: Scene) -> str:
     return "" if scene.mesh is None else "a mesh of its own outline"
 
 
-THEORY = Level("linear_theory", lambda effect, scene: effect.beyond_theory(scene), (_sloping, _cut))
+def acted_on(scene: Scene) -> str:
+    """The part beyond levels that take the wave as given."""
+    return "a wave that the strain acts back on (StrainFeedback)" if scene.drive.has_state else ""
+
+
+THEORY = Level(
+    "linear_theory", lambda effect, scene: effect.beyond_theory(scene), (_sloping, _cut, acted_on)
+)
 """The theories of a flat rectangle that is not deformed by friction."""

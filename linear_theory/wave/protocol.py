@@ -61,8 +61,8 @@ class Drive(Shown, ABC):
     wave: the wave; sheet: the rectangle around the body. Points x, y (units of length) and times t
     broadcast. series: c as a travelling wave, whose harmonics in time are the load cases of an elastic
     problem; None if c is not such a series. mirrored: whether c(-x, y, t) = c(x, y, t) is known, so
-    that half of a symmetric body suffices. has_state: whether c is the solution of an evolution
-    equation and must be advanced in time by `advance`; no wave so far.
+    that half of a symmetric body suffices. has_state: whether c depends on the motion of the sheet,
+    so that only a level that steps both together (`followed`) knows it.
 
     The defaults given here are those of a wave without further information.
 
@@ -95,8 +95,16 @@ class Drive(Shown, ABC):
         """dc/dt at points of the body."""
         return self.wave.rate(x, y, t, self.sheet.length)
 
-    def advance(self, t: float) -> "Drive":
-        """The drive with its state advanced to time t; the same object if c is a function of time."""
+    @property
+    def alone(self) -> "Drive":
+        """The drive of the wave on which nothing acts back, with which one that has a state starts."""
+        return self
+
+    def followed(self, coarse: bool = False) -> "Drive":
+        """The drive of one run, which moves on with it; the same object if c is a function of time.
+
+        coarse: with about twice the error, to estimate it.
+        """
         return self
 
     @property

@@ -57,10 +57,12 @@ def _scene(
     if "sheet" in tables:
         with mistakes.under("sheet"):
             sheet = sheet_of(tables["sheet"], tables.get("outline"), system)
-    if "wave" in tables:
+    if "wave" in tables and (sheet is not None or tables["wave"].equation is None):
         with mistakes.under("wave"):
-            table = tables["wave"]
-            wave = made.part("wave", (table, system), lambda: wave_of(table, system, folder))
+            table, cut = tables["wave"], tables.get("outline") is not None
+            body = sheet if table.equation is not None else None
+            of = (table, system, body, cut)
+            wave = made.part("wave", of, lambda: wave_of(table, system, folder, sheet, cut))
     if "growth" in tables and sheet is not None and wave is not None:
         with mistakes.under("growth"):
             growth = growth_of(tables["growth"], system, sheet, wave)

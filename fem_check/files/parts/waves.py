@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 
 from fem_check.answer.growth import alpha_of
+from fem_check.files.parts.excitable import excitable_of
 from fem_check.files.system import System
 from fem_check.files.tables import GrowthTable, WaveTable
 from linear_theory.growth.bilayer import bilayer
@@ -20,15 +21,23 @@ from linear_theory.wave.travelling import SineWave, TravellingWave
 MEASURED = ("period", "harmonics", "degree")
 """Keys of a measured wave beside its samples."""
 
-ONLY = {"width": "pulse", "cosine": "harmonics", "sine": "harmonics", "mean": "harmonics"}
+ONLY = {
+    **{"width": "pulse", "cosine": "harmonics", "sine": "harmonics", "mean": "harmonics"},
+    **dict.fromkeys(("equation", "until", "rtol", "orbit"), "excitable"),
+}
 """Keys of a wave that only one kind has."""
 
 WAYS = ("alpha", "swelling", "bilayer")
 """To say how much c grows the sheet."""
 
 
-def wave_of(table: WaveTable, system: System, folder: Path) -> Wave:
-    """The wave. Raises ValueError for keys that do not go together."""
+def wave_of(
+    table: WaveTable, system: System, folder: Path, sheet: Sheet | None, cut: bool = False
+) -> Wave:
+    """The wave on a sheet. Raises ValueError for keys that do not go together.
+
+    sheet: needed by an equation only. cut: whether the body is an outline within that rectangle.
+    """
     if table.csv is not None or table.samples is not None:
         return _measured(table, system, folder)
     for name in MEASURED[1:]:
@@ -38,6 +47,8 @@ def wave_of(table: WaveTable, system: System, folder: Path) -> Wave:
     for name, owner in ONLY.items():
         if name in table.model_fields_set and kind != owner:
             raise ValueError(f"{name}: must be left out, only a wave of kind = {owner!r} has it")
+    if kind == "excitable":
+        return _excitable(table, system, sheet, cut)
     period = system.number(table.period, 1.0)
     if kind == "sine":
         return SineWave(table.count, period)
@@ -49,6 +60,19 @@ def wave_of(table: WaveTable, system: System, folder: Path) -> Wave:
     size = max(len(cosine), len(sine))
     even, odd = (np.pad(np.array(part, float), (0, size - len(part))) for part in (cosine, sine))
     return TravellingWave(even, odd, table.count, period, table.mean)
+
+
+def _excitable(table: WaveTable, system: System, sheet: Sheet | None, cut: bool) -> Wave:
+    if table.equation is None or sheet is None:
+        raise ValueError("equation: must be given for kind = 'excitable', as { preset = 'printed' }")
+    for name in ("period", "count"):
+        if name in table.model_fields_set:
+            raise ValueError(f"{name}: must be left out, the equation makes its own waves")
+    if cut:
+        raise ValueError(
+            "kind = 'excitable': must be another beside [outline]; in Python, equation.on(Outline(...))"
+        )
+    return excitable_of(table, system, sheet)
 
 
 def _measured(table: WaveTable, system: System, folder: Path) -> Wave:

@@ -8,6 +8,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from fem_check.shell.coupling.dilation import longest_step
+from fem_check.shell.coupling.feedback import Feedback
 from fem_check.shell.effects.friction import Friction
 from fem_check.shell.kinematics.point_state import PointState
 from fem_check.shell.kinematics.rates import Affine, Step
@@ -62,7 +64,7 @@ class Landing(NamedTuple):
     """State of the run after an accepted step, and the length of the record.
 
     control: step size and restraint of the next step. counts: rejected steps, rows and kept states of
-    the record. factor: kept by the minimiser.
+    the record. factor: kept by the minimiser. past: of a wave that follows the motion, see `Feedback`.
     """
 
     history: History
@@ -70,20 +72,22 @@ class Landing(NamedTuple):
     control: Array
     counts: tuple[int, int, int]
     factor: Factorised | None
+    past: Any
 
 
 class Run:
     """The time integration of a scene."""
 
     @one_blas_thread
-    def __init__(self, scene: Scene, settings: Settings) -> None:
+    def __init__(self, scene: Scene, settings: Settings, coarse: bool = False) -> None:
         self._begun, self._before = time.perf_counter(), 0.0
         self.scene, self.settings, period = scene, settings, scene.period
-        self.model = ShellModel(scene)
+        self.model = ShellModel(scene, scene.drive.followed(coarse))
         scene.drive.check_until(period * (settings.ramp + settings.periods))
         steps = settings.steps_of(period)
         self.size = step_size(period, settings.rtol, steps, scene.drive.rates, self.model.heavy)
         self.size.scale = abs(scene.alpha) * scene.sheet.length / period
+        self.size.limit(longest_step(scene), period)
         self.snap = Snap(first_stiffness(scene.sheet))
         self.start = settings.ramp * period
         self.stepper = Stepper(self.model, self.start, self.size.dt)
@@ -91,6 +95,8 @@ class Run:
         self.ledger, self.record = Ledger(self.model), Record()
         self.region, self.probes = self.stepper.region, probe_region(self.model.discretisation)
         self.history = first_history(self.stepper, self.size.dt, settings.velocity, settings.scheme)
+        self.feedback = Feedback.of(self.model)
+        self.feedback.begin(self.history.state)
         self.free = self.history  # the last one that no restraint has led to
         self.moment = self._first_moment()
         self.landing = self._land()
@@ -206,7 +212,9 @@ class Run:
             self.size.dt = min(self.size.dt, dt)
         counts = Counts(result.iterations, result.repeats, result.buckled, snapped)
         self._note(result.state, works, slide, counts)
-        if self.steps % self.settings.keep_every == 0 or self._remaining() <= 0:
+        kept = self.steps % self.settings.keep_every == 0 or self._remaining() <= 0
+        self.feedback.accept(result.time, result.state, kept, snapped)
+        if kept:
             self.record.keep(result.time, result.state)
 
     def _note(self, state: Array, works: Works, slide: Sliding, counts: Counts = NO_COUNTS) -> None:
@@ -249,7 +257,8 @@ class Run:
         record = self.record
         counts = record.rejected, len(record.rows), len(record.times)
         factor = self.stepper.minimiser.kept
-        return Landing(self.history, self.moment, self._control(), counts, factor)
+        past = self.feedback.past
+        return Landing(self.history, self.moment, self._control(), counts, factor, past)
 
     def _control(self) -> Array:
         """What the next step starts from, besides the history."""
@@ -268,6 +277,7 @@ class Run:
         self.record.rejected, rows, kept = landing.counts
         self.record.cut(rows, kept)
         self.stepper.minimiser.kept = landing.factor
+        self.feedback.past = landing.past
 
     def save(self, target: Target) -> None:
         """Write a snapshot at the end of a step."""
@@ -290,6 +300,7 @@ class Run:
             "states": np.array(record.states),
             "moment_position": self.moment.position,
             **{f"moment_{name}": getattr(self.moment, name) for name in MOMENT},
+            **self.feedback.arrays(),
         }
         kept = self.stepper.minimiser.kept
         if kept is not None:
@@ -309,6 +320,7 @@ class Run:
         past = found["past_times"], found["past_states"], get("velocities"), get("acceleration")
         self.history = self.free = History(*past, self.history.scheme)
         self._set_control(found["control"])
+        self.feedback.restore(found)
         self.record = Record(
             list(found["rows"]),
             list(found["probes"]),

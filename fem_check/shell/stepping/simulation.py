@@ -52,7 +52,8 @@ def simulate(
 
     Steps are short enough to resolve the significant harmonics in time of the wave. A sheet that
     snaps through in the last period, or buckles and has inertia, is simulated a second time with longer
-    steps, for the error of V: it may take another way.
+    steps, for the error of V: it may take another way. So is one whose strain acts back on its wave
+    (`StrainFeedback`): the two are then stepped together, at second order.
 
     A scene without Friction and Inertia is not time dependent; use `cycle_speed.cycle_speed`.
     Raises ValueError for such scenes, for values out of range, for too few `steps` to resolve the wave
@@ -86,10 +87,11 @@ def simulate(
         run, resumed = Run(scene, settings), np.nan
         if target is not None:
             resumed = run.resume(target)
-        whole = _whole(progress, mesh_error)
+        whole = _whole(progress, mesh_error, scene.drive.has_state)
         run.finish(target, None if whole is None else _watching(run, whole))
         difference = second_runs.mesh_error(run, whole) if mesh_error else np.nan
         jumps = second_runs.snap_error(run, whole)
+        feedback = second_runs.feedback_errors(run, whole)
     except KeyboardInterrupt:
         # Not a subclass, for which Python would not exit with the status of an interrupted process;
         # from None, since the traceback into a step does not help the user.
@@ -103,16 +105,20 @@ def simulate(
         resumed_at=resumed,
         mesh_error=difference,
         snap_error=jumps,
+        feedback_error=feedback.speed,
+        growth_error=feedback.growth,
     )
     warn_if_viscous(scene.contact.friction, found.slip_ratio)
     return found
 
 
-def _whole(progress: bool | Listener | None, mesh_error: bool) -> Whole | None:
+def _whole(progress: bool | Listener | None, mesh_error: bool, feedback: bool) -> Whole | None:
     """What tells of the progress of all runs; None if no one listens."""
     if not progress:
         return None
     planned = {second_runs.COARSER: second_runs.COARSER_WORK} if mesh_error else {}
+    if feedback:
+        planned[second_runs.ROUGHER] = second_runs.LONGER_WORK
     return Whole(printed if progress is True else progress, planned)
 
 

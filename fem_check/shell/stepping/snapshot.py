@@ -142,7 +142,7 @@ def fingerprint(scene: Scene, settings: Settings) -> str:
     discretisation = model.discretisation
     mesh = discretisation.mesh
     x, y = discretisation.interior.parameters.reshape(2, -1)
-    values = [model.growth(phase * scene.period, x, y) for phase in _PHASES]
+    values = [np.asarray(scene.drive.alone.value(x, y, phase * scene.period)) for phase in _PHASES]
     ground: Ground | None = scene.find(Ground)
     hill = None if ground is None else ground.height
     parts = {

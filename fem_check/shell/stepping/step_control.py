@@ -1,5 +1,6 @@
 """The size of the next step: given, or controlled by the error of the velocity."""
 
+import math
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -95,6 +96,16 @@ class StepSize:
         if error > JUMP * speed:
             return self.scale
         return self.scale + max(speed - self.scale, 0.0) * min(1.0, dt / (self.natural or dt))
+
+    def limit(self, longest: float, period: float) -> None:
+        """No steps longer than that. Raises ValueError for given ones that are."""
+        if self.rtol is None and self.largest > longest * (1 + 1e-9):
+            raise ValueError(
+                f"steps = {round(period / self.largest)}: must be >= {math.ceil(period / longest)}, "
+                "else the feedback of the strain on the wave is unstable"
+            )
+        self.largest, self.natural = min(self.largest, longest), min(self.natural, longest)
+        self.dt = min(self.dt, longest)
 
     def halve(self, dt: float) -> bool:
         """Halve the step after a failure; False if it cannot be shorter."""

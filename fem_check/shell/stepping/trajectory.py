@@ -57,6 +57,7 @@ class _Errors(NamedTuple):
     mesh: float
     slip_speed: float
     snaps: float
+    feedback: float = np.nan
 
 
 class SpeedErrors(Shown, _Errors):
@@ -68,7 +69,8 @@ class SpeedErrors(Shown, _Errors):
     halving the slip speed (it decreases at least proportionally), NaN if the slip ratio is above 0.3
     and friction far from dry; not part of the error of the speed at the given slip speed. snaps: of the
     path through snap-throughs in the last period (and buckling, of a sheet with inertia), from a run
-    with longer steps; NaN if there are none.
+    with longer steps; NaN if there are none. feedback: of a wave that the strain acts back on, by its
+    own error and the steps, from a run with longer steps and larger elements of the wave; NaN without.
     """
 
 
@@ -85,9 +87,10 @@ class Trajectory(Drawable, Tabular):
     ramp of growth. table: columns of `record.COLUMNS`. stored_times (n,), states (n, size): kept
     states. probes (steps + 1, points, components): positions of a few points at all `times`. rejected:
     repeated steps. resumed_at: time of the snapshot from which the run resumed, NaN if none.
-    mesh_error, snap_error: see `SpeedErrors`. corrects: whether the estimated step error is removed
-    from the speed. seconds: computing time, that before the snapshot
-    included.
+    mesh_error, snap_error, feedback_error: see `SpeedErrors`. corrects: whether the estimated step
+    error is removed from the speed. growth_error: estimated error of c where the strain acts back on it
+    (`model.growth` is then c as it was in this motion), else NaN. seconds: computing time, that before
+    the snapshot included.
 
     >>> from fem_check import Friction, Gravity, Material, Membrane, Scene, simulate
     >>> from linear_theory import Sheet, SineWave
@@ -111,6 +114,8 @@ class Trajectory(Drawable, Tabular):
     mesh_error: float = np.nan
     snap_error: float = np.nan
     corrects: bool = False
+    feedback_error: float = np.nan
+    growth_error: float = np.nan
 
     @property
     def scene(self) -> Scene:
@@ -313,15 +318,18 @@ class Trajectory(Drawable, Tabular):
             step = (LEFT + LEFT_COARSE * math.sqrt(self.rtol or 0.0)) * each
         dry = self.slip_ratio <= DRY
         slip = abs(self._mean("slip_y")) / (1 - COMPARED) if dry else np.nan
-        return SpeedErrors(step, float(spread), self.mesh_error, slip, self.snap_error)
+        return SpeedErrors(
+            step, float(spread), self.mesh_error, slip, self.snap_error, self.feedback_error
+        )
 
     @cached_property
     def speed(self) -> CrawlSpeed:
         """Mean velocity of the last period, see `mean_speed`.
 
-        error: sum of the errors of step, mesh (if requested), spread between periods and path through
-        snap-throughs; model_error: distance to dry friction, see `SpeedErrors`. The speed of a sheet
-        that has passed through itself (`crossed`), which no real sheet does, is never converged.
+        error: sum of the errors of step, mesh (if requested), spread between periods, path through
+        snap-throughs and feedback on the wave; model_error: distance to dry friction, see
+        `SpeedErrors`. The speed of a sheet that has passed through itself (`crossed`), which no real
+        sheet does, is never converged.
         """
         last, errors = self._last(1), self.errors
         unknown = "mesh error not estimated" if np.isnan(errors.mesh) else ""
@@ -333,7 +341,7 @@ class Trajectory(Drawable, Tabular):
         contact = scene.contact if rubs else None
         model = model_words(shape, scene.growth, contact, unknown, snapped, crossing)
         mean = self.mean_speed
-        error = float(np.nansum([errors.step, errors.spread, errors.mesh, errors.snaps]))
+        error = float(np.nansum([e for name, e in errors._asdict().items() if name != "slip_speed"]))
         times = self.times[last]
         velocity = self.velocity[last]
         return CrawlSpeed(

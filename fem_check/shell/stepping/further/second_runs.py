@@ -1,5 +1,7 @@
 """Errors of the mean speed from further runs: on a coarser mesh, and with longer steps."""
 
+from typing import NamedTuple
+
 import numpy as np
 
 from fem_check.mesh.elements import default_cells
@@ -17,8 +19,14 @@ SNAP_MARGIN = 2
 """Error of a speed with buckling or snap-throughs relative to the difference to a run with longer
 steps, whose snaps start elsewhere and take another way."""
 
+FEEDBACK_MARGIN = 2
+"""Error of the speeds by a wave that the strain acts back on, relative to the difference to a run with
+half the tolerance or half as many steps. Of second order, errors there are twice to four times as
+large."""
+
 COARSER = "on a coarser mesh"
 LONGER = "with longer steps"
+ROUGHER = "with a rougher wave"
 """Tasks of the further runs, in words."""
 
 COARSER_WORK, LONGER_WORK = 0.5, 0.7
@@ -54,6 +62,33 @@ def snap_error(run: Run, whole: Whole | None) -> float:
         return np.inf
     difference = rough.trajectory().mean_speed - found.mean_speed
     return float(SNAP_MARGIN * abs(difference))
+
+
+class FeedbackErrors(NamedTuple):
+    """Of the speeds, length per time, and of c."""
+
+    speed: float = np.nan
+    growth: float = np.nan
+
+
+def feedback_errors(run: Run, whole: Whole | None) -> FeedbackErrors:
+    """Errors by the feedback on the wave: that of the wave itself, and of the steps that both make.
+
+    From a run with longer steps and larger elements of the wave: the largest differences over the
+    periods, since one may be small by chance. NaN without feedback, infinite if that run fails.
+    """
+    if not run.scene.drive.has_state:
+        return FeedbackErrors()
+    try:
+        rough = Run(run.scene, run.settings.rougher(), coarse=True)
+        rough.finish(None, None if whole is None else whole.of(ROUGHER))
+    except (ConvergenceError, ValueError):
+        return FeedbackErrors(np.inf, np.inf)
+    speeds = rough.trajectory().period_speeds - run.trajectory().period_speeds
+    found = (
+        FEEDBACK_MARGIN * abs(apart).max() for apart in (speeds, run.feedback.apart(rough.feedback))
+    )
+    return FeedbackErrors(*map(float, found))
 
 
 def coarser(scene: Scene) -> Scene:

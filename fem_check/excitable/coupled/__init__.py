@@ -1,0 +1,1 @@
+"""Waves that the strain of the sheet acts back on, advanced together with it."""

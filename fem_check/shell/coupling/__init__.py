@@ -1,0 +1,1 @@
+"""Strains of the sheet that act back on its wave."""
