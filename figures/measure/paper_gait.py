@@ -107,13 +107,17 @@ def measured(scene: Scene, steps: int, coarse: Scene | None = None) -> Measured:
     except SheetcrawlError as problem:
         said = " ".join(str(problem).split())
         return Measured(nan, nan, nan, 0, 0, time.process_time() - begin, said)
+    mesh = found.errors.mesh if rough is None else MESH_MARGIN * abs(rough - found.period_speeds[-1])
+    return told(found, float(mesh), time.process_time() - begin)
+
+
+def told(found: Trajectory, mesh: float, seconds: float) -> Measured:
+    """The speeds of a motion. mesh: its error of that kind, length per time."""
     second, third = found.period_speeds[-2:]
-    mesh = found.errors.mesh if rough is None else MESH_MARGIN * abs(rough - third)
     error = float(np.nansum([found.errors.step, mesh, found.errors.snaps]))
     crossed = 0 if found.crossed is None else int(found.crossed.sum())
-    snapped, period = int(found.snapped.sum()), found.scene.period
-    speeds = [float(v) * period for v in (second, third, error)]
-    return Measured(*speeds, snapped, crossed, time.process_time() - begin, "")
+    speeds = [float(v) * found.scene.period for v in (second, third, error)]
+    return Measured(*speeds, int(found.snapped.sum()), crossed, seconds, "")
 
 
 def moved(scene: Scene, steps: int, mesh_error: bool = False, periods: int = PERIODS) -> Trajectory:
