@@ -4,8 +4,7 @@
 
 Writes figures/data/decisive.csv, one row for each change, 8 to 25 s of the processor; it goes on where
 the file ends. The gaits are those of figure 4, kappa = beta/h. Changes: none; a finer mesh, 6 x 12
-elements for 4 x 8; a ground a hundred times stiffer; a tenth of the weight; other waves by the names of their
-presets.
+elements for 4 x 8; a ground a hundred times stiffer; a tenth of the weight; other waves by name.
 """
 
 import time
