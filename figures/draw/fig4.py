@@ -12,20 +12,18 @@ through itself. Last panel: the path of the centre of mass for kappa = beta/h.
 """
 
 from collections.abc import Sequence
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
-from numpy.typing import NDArray
 
 from figures.common import style
+from figures.draw.speed_map import HATCH, draw_speeds, grid
 from figures.measure import gait_paths
 from figures.measure.gait_map import LARGEST, TABLE, Row
 from figures.measure.paper_gait import BACKWARD, FORWARD, FRICTIONS, READINGS
-
-Array = NDArray[np.float64]
 
 FEWEST = 60
 """Gaits of a law of friction that are worth a panel."""
@@ -33,42 +31,6 @@ FEWEST = 60
 READING_COLOURS = {"printed": "black", "thickness": "#009E73", "hundred": "#CC79A7"}
 MARKERS = {"backward": "<", "forward": ">"}
 DASHES = {"viscous": "-", "dry": "--"}
-
-BACKGROUND = "0.8"
-
-
-class Grid(NamedTuple):
-    """The map as arrays (kappas, alphas), NaN for gaits that the table lacks."""
-
-    alphas: Array
-    kappas: Array
-    speed: Array
-    error: Array
-    crossed: Array
-
-
-def grid(rows: Sequence[Row]) -> Grid:
-    """V of the third cycle, its error, and the number of states in which the sheet crosses itself.
-
-    The axes have the values of alpha and kappa that stand in at least half a line of the table: gaits
-    beside the grid, such as the paper's, belong to none.
-    """
-    alphas, kappas = (_common([getattr(r, name) for r in rows]) for name in ("alpha", "kappa"))
-    shape = (kappas.size, alphas.size)
-    speed, error, crossed = (np.full(shape, np.nan) for _ in range(3))
-    known = {(r.alpha, r.kappa): r for r in rows}
-    for i, kappa in enumerate(kappas.tolist()):
-        for j, alpha in enumerate(alphas.tolist()):
-            found = known.get((alpha, kappa))
-            if found is not None:
-                speed[i, j], error[i, j], crossed[i, j] = found.third, found.error, found.crossed
-    return Grid(alphas, kappas, speed, error, crossed)
-
-
-def _common(values: Sequence[float]) -> Array:
-    """Values that occur at least half as often as the most frequent one."""
-    found, times = np.unique(values, return_counts=True)
-    return np.asarray(found[times >= times.max() / 2])
 
 
 def best(rows: Sequence[Row], way: int) -> Row:
@@ -82,14 +44,8 @@ def best(rows: Sequence[Row], way: int) -> Row:
 
 def draw_map(ax: Axes, rows: Sequence[Row], most: float) -> Any:
     """One panel; its image."""
-    found = grid(rows)
-    where = found.alphas, found.kappas
-    ax.set_facecolor(BACKGROUND)
-    image = ax.pcolormesh(*where, found.speed, cmap="RdBu_r", vmin=-most, vmax=most, shading="nearest")
-    ax.contour(*where, found.speed, [0.0], colors="black", linewidths=0.8)
-    _hatch(ax, found)
-    y, x = np.nonzero(found.crossed > 0)
-    ax.plot(found.alphas[x], found.kappas[y], ".", color="0.25", markersize=2)
+    found = grid(rows, "alpha", "kappa")
+    image = draw_speeds(ax, found, most)
     line = np.array([-1.0, 1.0]) * LARGEST[1] / 100
     for sign in (-1, 1):
         ax.plot(line, sign * 100 * line, "--", color="black", linewidth=0.8)
@@ -101,18 +57,10 @@ def draw_map(ax: Axes, rows: Sequence[Row], most: float) -> Any:
     for way in (-1, 1):
         gait = best(rows, way)
         ax.plot(gait.alpha, gait.kappa, "*", color="gold", mec="black", mew=0.6, markersize=8)
-    edge = 1 + 1 / max(found.alphas.size - 1, 1)
+    edge = 1 + 1 / max(found.x.size - 1, 1)
     ax.set(xlim=(-LARGEST[0] * edge, LARGEST[0] * edge), ylim=(-LARGEST[1] * edge, LARGEST[1] * edge))
     ax.set(xlabel=r"growth coupling $\alpha$")
     return image
-
-
-def _hatch(ax: Axes, found: Grid) -> None:
-    """Cells in which |V| is below its error; of those without an error nothing is known."""
-    unsure = np.where(np.abs(found.speed) < found.error, 1.0, np.nan)
-    if np.isfinite(unsure).any():
-        cells = np.ma.masked_invalid(unsure)
-        ax.pcolor(found.alphas, found.kappas, cells, shading="nearest", hatch="/////", alpha=0)
 
 
 def draw_paths(ax: Axes) -> None:
@@ -133,7 +81,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     options = style.options("fig4", __doc__, arguments)
     rows = [r for r in TABLE.read() if abs(r.kappa) <= LARGEST[1]]
     laws = [law for law in FRICTIONS if sum(r.friction == law for r in rows) > FEWEST]
-    fig = style.figure(style.DOUBLE_CM, 7.5)
+    fig = style.figure(style.DOUBLE_CM, 8.0)
     maps, path = fig.subfigures(1, 2, width_ratios=[len(laws), 0.8])
     panels = maps.subplots(1, len(laws), sharey=True, squeeze=False)[0]
     most = float(np.nanpercentile([abs(r.third) for r in rows if r.friction in laws], 95))
@@ -156,9 +104,9 @@ def _key(fig: Any) -> None:
     ]
     labels = [rf"$\kappa L$ = {names[r]}" for r in READINGS]
     marks += [Line2D([], [], marker="*", ls="", mec="black", ms=8, color="gold")]
-    marks += [Patch(facecolor="white", edgecolor="0.2", hatch="/////", linewidth=0.4)]
-    labels += ["largest |V|", "|V| below its error"]
-    fig.legend(marks, labels, loc="outside lower center", ncols=5, handletextpad=0.1, columnspacing=0.8)
+    marks += [Patch(facecolor="white", edgecolor="0.2", hatch=HATCH, linewidth=0.4)]
+    labels += ["largest $|V|$", "$|V|$ below its error"]
+    fig.legend(marks, labels, loc="outside lower center", ncols=3, handletextpad=0.3, columnspacing=1.0)
 
 
 if __name__ == "__main__":
