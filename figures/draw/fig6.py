@@ -31,7 +31,14 @@ def draw_ground(ax: Axes, rows: Sequence[Row], most: float) -> Any:
     ax.set_facecolor(MISSING)
     image = draw_speeds(ax, grid(rows, "nx", "ny"), most) if len(rows) >= FEWEST else None
     for letter, place in SHOWN.items():
-        ax.annotate(letter, place, ha="center", va="center", size=7, weight="bold")
+        ax.annotate(
+            letter,
+            place,
+            ha="center",
+            va="center",
+            size=7,
+            bbox={"boxstyle": "circle,pad=0.2", "fc": "white", "lw": 0.4},
+        )
     if image is None:
         ax.text(MOST / 2, MOST / 2, "not computed", ha="center", va="center", color="0.3")
     ax.set(xlim=(-MOST / 12, MOST * 13 / 12), ylim=(-MOST / 12, MOST * 13 / 12), aspect="equal")

@@ -1,0 +1,140 @@
+"""The statements of sections 3.2 to 3.4 of the seed paper, each with its verdict, from the tables."""
+
+import math
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+from figures.draw.fig5 import OPTIMUM, WAY, of, optimum
+from figures.measure import decisive, gait_map, terrain, trapezoids
+
+ENOUGH = 9
+"""Grounds of a law of friction from which extremes can be told."""
+
+
+def statements() -> Iterator[str]:
+    """Rows of the table: statement, verdict, what decides it."""
+    yield "| statement | verdict | decided by |"
+    yield "| --- | --- | --- |"
+    changed = {(r.gait, r.friction, r.change): r for r in decisive.TABLE.read()}
+    for statement, verdict, figure in (
+        *_waves(changed),
+        *_map(),
+        *_lengths(),
+        *_grounds(),
+        *_assumptions(changed),
+    ):
+        yield f"| {statement} | {verdict} | {figure} |"
+
+
+def number(value: float, error: float = math.nan) -> str:
+    """A speed with its sign and its error."""
+    text = f"{value:+.3g}" if math.isnan(error) else f"{value:+.3g} ± {error:.1g}"
+    return text.replace("-", "\N{MINUS SIGN}")
+
+
+def _waves(changed: dict[Any, Any]) -> Iterator[tuple[str, str, str]]:
+    kept = [changed["forward", "viscous", name] for name in ("wave printed", "wave nu = -0.05", "none")]
+    speeds = ", ".join(number(r.third, r.error) for r in kept)
+    yield (
+        "the printed numbers of eq. 12 give travelling waves",
+        "no: an oscillation of amplitude 0.12, nearly in phase. V of the forward gait with the threshold "
+        f"−0.01 as printed, −0.05 and −0.1: {speeds}",
+        "[waves](../figures/gallery/excitable.png)",
+    )
+    yield (
+        "y²/(1 + y²) starts a wave that travels",
+        "only with y from the rear end; with y from the centre all is mirror symmetric",
+        "[waves](../figures/gallery/excitable.png)",
+    )
+
+
+def _map() -> Iterator[tuple[str, str, str]]:
+    rows = gait_map.TABLE.read()
+    small = [r for r in rows if abs(r.alpha) == 0.02 and r.friction == "viscous"]
+    saddle = len(small) == 4 and all(r.third * r.alpha * r.kappa < 0 for r in small)
+    yield (
+        "V is a saddle over alpha and beta",
+        f"{'yes' if saddle else 'no'} under viscous friction: V has the sign of −alpha kappa",
+        "[fig. 4](../figures/gallery/fig4.png)",
+    )
+    crossed = [r for r in rows if r.crossed]
+    least = min(abs(r.kappa) for r in crossed)
+    yield (
+        "(not mentioned) the sheet passes through itself",
+        f"in {len(crossed)} of {len(rows)} gaits, from \\|kappa\\| = {least:g}/L on",
+        "[fig. 4](../figures/gallery/fig4.png)",
+    )
+
+
+def _lengths() -> Iterator[tuple[str, str, str]]:
+    rows = trapezoids.TABLE.read()
+    for gait, printed in OPTIMUM.items():
+        found = of(rows, gait)
+        tops = optimum(found, WAY[gait])
+        best = tops[1.0]
+        yield (
+            f"trapezoids: the {gait} gait is fastest at L' ≈ {printed} L",
+            f"{'yes' if abs(best - printed) < 0.1 else 'no'}: the rectangle at {best:.2f} L",
+            "[fig. 5](../figures/gallery/fig5.png)",
+        )
+
+
+def _grounds() -> Iterator[tuple[str, str, str]]:
+    rows = [r for r in terrain.TABLE.read() if (r.gait, r.form) == ("forward", "cosine")]
+    for law in ("dry", "viscous"):
+        kept = {(r.nx, r.ny): r for r in rows if r.friction == law and not math.isnan(r.third)}
+        shown = {name: kept.get(place) for name, place in terrain.SHOWN.items()}
+        if len(kept) < ENOUGH or not all(shown.values()):
+            continue
+        a = shown["A"]
+        for letter, words, way in (("B", "least", -1), ("C", "largest", 1)):
+            yield _extreme(law, words, way, shown[letter], list(kept.values()))
+        d = shown["D"]
+        near = abs(d.third - a.third) <= d.error + a.error
+        yield (
+            f"on fine ground (D) V is that of flat ground, {law}",
+            f"{'yes, within the errors' if near else 'no'}: {number(d.third, d.error)}, "
+            f"flat {number(a.third, a.error)}",
+            "[fig. 6](../figures/gallery/fig6.png)",
+        )
+        forward = sum(r.third > 0 for r in kept.values())
+        yield (
+            f"V is forward on all grounds, {law}",
+            f"on {forward} of {len(kept)}",
+            "[fig. 6](../figures/gallery/fig6.png)",
+        )
+
+
+def _extreme(law: str, words: str, way: int, at: Any, rows: Sequence[Any]) -> tuple[str, str, str]:
+    """Whether a ground of the paper has the extreme V, or cannot be told from the one that has."""
+    best = max(rows, key=lambda r: way * r.third)
+    if best is at:
+        verdict = "yes"
+    elif way * (best.third - at.third) <= best.error + at.error:
+        verdict = "cannot be told within the errors"
+    else:
+        verdict = "no"
+    place = f"({at.nx:g}, {at.ny:g})"
+    found = f"{number(at.third, at.error)}; {words} at ({best.nx:g}, {best.ny:g})"
+    return (
+        f"V is {words} at (L/λx, L/λy) = {place}, {law}",
+        f"{verdict}: {found}, {number(best.third, best.error)}, of {len(rows)} grounds",
+        "[fig. 6](../figures/gallery/fig6.png)",
+    )
+
+
+def _assumptions(changed: dict[Any, Any]) -> Iterator[tuple[str, str, str]]:
+    for words, change in (
+        ("gravity does not matter for the deformation", "tenth of the weight"),
+        ("the ground is rigid", "stiff ground"),
+        ("(our mesh, 4 × 8, suffices)", "finer mesh"),
+    ):
+        told, same = [], True
+        for gait in decisive.GAITS:
+            old, new = (changed[gait, "viscous", name] for name in ("none", change))
+            same &= abs(old.third - new.third) <= old.error + new.error
+            told.append(f"{gait} {number(old.third, old.error)}, {number(new.third, new.error)}")
+        depth = max(changed[gait, "viscous", "none"].depth for gait in decisive.GAITS)
+        deep = f"; but points sink by up to {depth:.2f} L" if change == "stiff ground" else ""
+        verdict = "yes for V, within the errors" if same else "no"
+        yield words, f"{verdict}: with {change} {'; '.join(told)}{deep}", "figures/data/decisive.csv"
