@@ -65,11 +65,6 @@ def draw_snapshot(ax: Axes, moving: Simulated) -> None:
     ax.autoscale_view()
     ax.set_aspect("equal")
     ax.set_axis_off()
-    bar = ax.inset_axes((0.0, 0.02, 0.2, 0.04))
-    ends = (-most, most)
-    bar.imshow(np.linspace(*ends, 99)[None], cmap=GROWTH_MAP, aspect="auto", extent=(*ends, 0, 1))
-    bar.set(yticks=[], xticks=[-0.5, 0, 0.5])
-    bar.set_title("$c$", size=7, pad=2)
 
 
 def _draw_friction(ax: Axes, moving: Simulated) -> None:
@@ -118,7 +113,7 @@ def draw(moving: Simulated) -> Any:
     fig = style.figure(style.DOUBLE_CM, 11.5)
     panels = fig.subplot_mosaic([["A", "D"], ["B", "D"], ["C", "D"]], height_ratios=[1.3, 1, 1])
     draw_snapshot(panels["A"], moving)
-    panels["A"].set_title("(A) friction (arrows)", loc="left")
+    panels["A"].set_title("(A) $c$ as in (B), arrows: friction", loc="left")
     kinds = {"B": Quantity.WAVE, "C": Quantity.DISPLACEMENT}
     for letter, quantity in kinds.items():
         draw_kymograph(

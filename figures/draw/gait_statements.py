@@ -41,7 +41,7 @@ def _waves(changed: dict[Any, Any]) -> Iterator[tuple[str, str, str]]:
     speeds = ", ".join(number(r.third, r.error) for r in kept)
     yield (
         "the printed numbers of eq. 12 give travelling waves",
-        "for a while: an oscillation of amplitude 0.12, not of order one, whose lag along the sheet decays. "
+        "for a while: amplitude 0.12, not of order one, and the lag along the sheet decays. "
         f"V of the forward gait, threshold −0.01 as printed, −0.05 and −0.1: {speeds}",
         "[waves](../figures/gallery/excitable.png)",
     )
@@ -115,7 +115,7 @@ def _grounds() -> Iterator[tuple[str, str, str]]:
         near = abs(d.third - a.third) <= d.error + a.error
         yield (
             f"on fine ground (D) V is that of flat ground, {law}",
-            f"{'yes, within the errors' if near else 'no'}: {number(d.third, d.error)}, "
+            f"{'agrees within the errors' if near else 'no'}: {number(d.third, d.error)}, "
             f"flat {number(a.third, a.error)}",
             "[fig. 6](../figures/gallery/fig6.png)",
         )

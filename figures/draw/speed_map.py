@@ -29,7 +29,7 @@ class Grid(NamedTuple):
 def grid(rows: Sequence[Any], x: str, y: str) -> Grid:
     """V of the third cycle, its error, and the number of states in which the sheet crosses itself.
 
-    x, y: names of columns. The axes have the values that occur at least half as often as the most
+    x, y: names of columns. The axes have the values that occur more than half as often as the most
     frequent one: single places beside the grid, such as the paper's gaits, are on none.
     """
     across, along = (_common([getattr(r, name) for r in rows]) for name in (x, y))
@@ -45,7 +45,7 @@ def grid(rows: Sequence[Any], x: str, y: str) -> Grid:
 
 def _common(values: Sequence[float]) -> Array:
     found, times = np.unique(values, return_counts=True)
-    return np.asarray(found[times >= times.max() / 2])
+    return np.asarray(found[times > times.max() / 2])
 
 
 def draw_speeds(ax: Axes, found: Grid, most: float) -> Any:
