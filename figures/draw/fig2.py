@@ -74,7 +74,13 @@ def _draw_friction(ax: Axes, moving: Simulated) -> None:
     tails, force = moving.at(places, SHOWN).place, moving.friction(places, SHOWN)
     force *= FRICTION / float(np.hypot(*force).max())
     ways = CAMERA.page(np.concatenate([force, np.zeros_like(force[:1])]))
-    look = {"angles": "xy", "scale_units": "xy", "scale": 1, "width": 0.006, "zorder": 5}
+    look: dict[str, Any] = {
+        "angles": "xy",
+        "scale_units": "xy",
+        "scale": 1,
+        "width": 0.006,
+        "zorder": 5,
+    }
     ax.quiver(*CAMERA.page(tails), *ways, **look)
 
 

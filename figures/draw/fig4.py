@@ -52,7 +52,11 @@ def draw_map(ax: Axes, rows: Sequence[Row], most: float) -> Any:
     for (alpha, beta), marker in zip((BACKWARD, FORWARD), MARKERS.values(), strict=True):
         for reading, factor in READINGS.items():
             if abs(beta * factor) <= LARGEST[1]:
-                look = {"color": READING_COLOURS[reading], "mec": "white", "markersize": 6}
+                look: dict[str, Any] = {
+                    "color": READING_COLOURS[reading],
+                    "mec": "white",
+                    "markersize": 6,
+                }
                 ax.plot(alpha, beta * factor, marker, **look)
     for way in (-1, 1):
         gait = best(rows, way)
@@ -82,7 +86,8 @@ def main(arguments: Sequence[str] | None = None) -> None:
     rows = [r for r in TABLE.read() if abs(r.kappa) <= LARGEST[1]]
     laws = [law for law in FRICTIONS if sum(r.friction == law for r in rows) > FEWEST]
     fig = style.figure(style.DOUBLE_CM, 8.0)
-    maps, path = fig.subfigures(1, 2, width_ratios=[len(laws), 0.8])
+    parts: Any = fig.subfigures(1, 2, width_ratios=[len(laws), 0.8])
+    maps, path = parts
     panels = maps.subplots(1, len(laws), sharey=True, squeeze=False)[0]
     most = float(np.nanpercentile([abs(r.third) for r in rows if r.friction in laws], 95))
     for ax, law in zip(panels, laws, strict=True):

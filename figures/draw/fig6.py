@@ -64,7 +64,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
             panels[i, j].set_title(f"{TITLES[form]}, {law}", loc="left")
         image = next((found for found in images if found is not None), None)
         if image is not None:
-            bar = {"location": "bottom", "label": "$V$ ($L$ a cycle)", "shrink": 0.8}
+            bar: dict[str, Any] = {"location": "bottom", "label": "$V$ ($L$ a cycle)", "shrink": 0.8}
             fig.colorbar(image, ax=list(panels[:, j]), **bar)
     for ax in panels[-1]:
         ax.set_xlabel(r"$L/\lambda_x$ (across)")

@@ -102,10 +102,10 @@ def _grounds() -> Iterator[tuple[str, str, str]]:
     rows = [r for r in terrain.TABLE.read() if (r.gait, r.form) == ("forward", "cosine")]
     for law in ("dry", "viscous"):
         kept = {(r.nx, r.ny): r for r in rows if r.friction == law and not math.isnan(r.third)}
-        shown = {name: kept.get(place) for name, place in terrain.SHOWN.items()}
-        if len(kept) < ENOUGH or not all(shown.values()):
+        found = {name: kept.get(place) for name, place in terrain.SHOWN.items()}
+        if len(kept) < ENOUGH or not all(found.values()):
             continue
-        floor = _unseen(shown["A"])
+        floor = _unseen(kept[terrain.SHOWN["A"]])
         kept = {place: replace(r, error=max(r.error, floor)) for place, r in kept.items()}
         shown = {name: kept[place] for name, place in terrain.SHOWN.items()}
         a = shown["A"]

@@ -70,7 +70,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     options.out.mkdir(parents=True, exist_ok=True)
     for name in tracked("films", [name for name in FILMS if name[5] in options.which]):
         path = options.out / (name + options.suffix)
-        look = {"periods": FILMED, "frames": FRAMES, "fps": FPS, "width": options.width}
+        look: dict[str, Any] = {"periods": FILMED, "frames": FRAMES, "fps": FPS, "width": options.width}
         print(FILMS[name]().movie(path, **look, view=None if name == "movie1" else "space"))
 
 

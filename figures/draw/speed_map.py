@@ -51,7 +51,7 @@ def _common(values: Sequence[float]) -> Array:
 def draw_speeds(ax: Axes, found: Grid, most: float) -> Any:
     """The map on a scale of +-most; its image."""
     ax.set_facecolor(MISSING)
-    look = {"cmap": "RdBu_r", "vmin": -most, "vmax": most, "shading": "nearest"}
+    look: dict[str, Any] = {"cmap": "RdBu_r", "vmin": -most, "vmax": most, "shading": "nearest"}
     image = ax.pcolormesh(found.x, found.y, found.speed, **look)
     if np.nanmin(found.speed) < 0 < np.nanmax(found.speed) and min(found.speed.shape) > 1:
         ax.contour(found.x, found.y, found.speed, [0.0], colors="black", linewidths=0.8)

@@ -116,8 +116,8 @@ def told(found: Trajectory, mesh: float, seconds: float) -> Measured:
     second, third = found.period_speeds[-2:]
     error = float(np.nansum([found.errors.step, mesh, found.errors.snaps]))
     crossed = 0 if found.crossed is None else int(found.crossed.sum())
-    speeds = [float(v) * found.scene.period for v in (second, third, error)]
-    return Measured(*speeds, int(found.snapped.sum()), crossed, seconds, "")
+    second, third, error = (float(v) * found.scene.period for v in (second, third, error))
+    return Measured(second, third, error, int(found.snapped.sum()), crossed, seconds, "")
 
 
 def moved(scene: Scene, steps: int, mesh_error: bool = False, periods: int = PERIODS) -> Trajectory:
