@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from fem_check.mesh.location import covering
 from fem_check.runs.lock import claimed
 from figures.common.filling import Filling
 from figures.draw import fig5, gait_page, speed_map
@@ -98,6 +99,12 @@ def test_a_table_goes_on_where_it_ends_and_computes_rows_without_error_again(
     assert [place_of(r) for r in rows] == [*places, place_of(other)]
     assert [r.third for r in rows] == [0.03, 9.0, 0.03, 0.03, 0.03, 0.03, 0.03]
     assert not any(np.isnan(r.error) for r in rows)
+
+
+def test_drawn_triangles_of_an_outline_are_anticlockwise() -> None:
+    points, triangles = covering(trapezoids.outline(0.5, 1.0).mesh(trapezoids.SIZE))
+    a, b, c = points[:, triangles.T].swapaxes(0, 1)
+    assert np.all((b - a)[0] * (c - a)[1] > (b - a)[1] * (c - a)[0])
 
 
 def test_trapezoids_have_one_area_and_the_optimum_is_that_of_a_parabola() -> None:
