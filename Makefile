@@ -9,7 +9,9 @@
 #   make bench-threads  times beside a busy core against one BLAS thread
 #   make bench-shell  time and memory of the sheet that bends
 #   make tables    every table that the figures, the paper and predict() read: half an hour
-#   make gaits     bending gaits: the map of figure 4, an hour, and 300 at random, hours
+#   make gaits     bending gaits: the map of figure 4, an hour and a half; trapezoids and terrain, an
+#                  hour; 300 at random, hours
+#   make movies    movies 1 to 4 of the paper into figures/out: five minutes
 #   make lock      rewrite requirements.lock after a change of dependencies
 #   make clean     remove figures and caches; `make distclean` also the environment
 #
@@ -37,7 +39,7 @@ export MKL_NUM_THREADS := 1
 FIGURE_OUT = $(if $(OUT),--out "$(OUT)")
 FIGURE_RTOL = $(if $(RTOL),--rtol $(RTOL))
 
-.PHONY: figures test test-browser paper docs cost bench-shell bench-threads gaits tables lock clean distclean
+.PHONY: figures test test-browser paper docs cost bench-shell bench-threads gaits movies tables lock clean distclean
 .DEFAULT_GOAL := figures
 .DELETE_ON_ERROR:
 
@@ -49,7 +51,10 @@ figures: $(STAMP)
 	$(RUN) -m figures.draw.cost $(FIGURE_OUT)
 	$(RUN) -m figures.draw.regimes $(FIGURE_OUT)
 	$(RUN) -m figures.draw.excitable $(FIGURE_OUT)
+	$(RUN) -m figures.draw.fig2 $(FIGURE_OUT)
 	$(RUN) -m figures.draw.fig4 $(FIGURE_OUT)
+	$(RUN) -m figures.draw.fig5 $(FIGURE_OUT)
+	$(RUN) -m figures.draw.fig6 $(FIGURE_OUT)
 	$(RUN) -m figures.draw.readme_movie $(FIGURE_OUT)
 
 test: $(STAMP)
@@ -71,10 +76,17 @@ cost: $(STAMP)
 bench-shell: $(STAMP)
 	$(RUN) -m figures.measure.bench.shell
 
-# Hours; goes on where its table ends.
+movies: $(STAMP)
+	$(RUN) -m figures.draw.movies $(FIGURE_OUT)
+
+# Hours; goes on where its tables end.
 gaits: $(STAMP)
-	$(RUN) -m figures.measure.gait_map --friction viscous
-	$(RUN) -m figures.measure.gait_map --friction dry
+	$(RUN) -m figures.measure.gait_paths
+	$(RUN) -m figures.measure.decisive --workers 2
+	$(RUN) -m figures.measure.trapezoids --workers 2
+	for form in cosine printed; do for friction in dry viscous; do \
+	$(RUN) -m figures.measure.terrain --workers 2 --form $$form --friction $$friction || exit 1; done; done
+	$(RUN) -m figures.measure.gait_map --workers 2
 	$(RUN) -m figures.draw.gait_page
 	$(RUN) -m figures.measure.gaits
 	$(RUN) -m figures.measure.gaits_checked

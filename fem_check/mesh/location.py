@@ -102,11 +102,14 @@ def covering(mesh: Any) -> tuple[Array, Indices]:
     """Points (2, n) and triangles (m, 3) of a mesh, refined until its shape can be drawn.
 
     The corners of a few elements of high degree do not show their shape. Quadrilaterals become two
-    triangles each.
+    triangles each. All are anticlockwise: normals at points are means of those of the triangles around.
     """
     while mesh.nelements < DRAWN:
         mesh = mesh.refined()
     corners = np.asarray(mesh.t, np.int64)
     if len(corners) == 4:
         corners = np.concatenate([corners[:3], corners[[0, 2, 3]]], axis=1)
-    return np.asarray(mesh.p), corners[:3].T
+    points, (a, b, c) = np.asarray(mesh.p), corners[:3]
+    first, second = points[:, b] - points[:, a], points[:, c] - points[:, a]
+    clockwise = first[0] * second[1] - first[1] * second[0] < 0
+    return points, np.stack([a, np.where(clockwise, c, b), np.where(clockwise, b, c)], axis=1)

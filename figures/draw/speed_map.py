@@ -1,0 +1,63 @@
+"""Speeds over two parameters as a picture: colours, V = 0, where |V| is below its error, crossings."""
+
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+from matplotlib.axes import Axes
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+MISSING = "0.8"
+"""Of places without a speed."""
+
+HATCH = "/////"
+"""Of places at which |V| is below its error."""
+
+
+class Grid(NamedTuple):
+    """Values x (n,) and y (m,); speed, error and crossings (m, n), NaN where the table has no row."""
+
+    x: Array
+    y: Array
+    speed: Array
+    error: Array
+    crossed: Array
+
+
+def grid(rows: Sequence[Any], x: str, y: str) -> Grid:
+    """V of the third cycle, its error, and the number of states in which the sheet crosses itself.
+
+    x, y: names of columns. The axes have the values that occur more than half as often as the most
+    frequent one: single places beside the grid, such as the paper's gaits, are on none.
+    """
+    across, along = (_common([getattr(r, name) for r in rows]) for name in (x, y))
+    speed, error, crossed = (np.full((along.size, across.size), np.nan) for _ in range(3))
+    known = {(getattr(r, x), getattr(r, y)): r for r in rows}
+    for i, v in enumerate(along.tolist()):
+        for j, u in enumerate(across.tolist()):
+            found = known.get((u, v))
+            if found is not None:
+                speed[i, j], error[i, j], crossed[i, j] = found.third, found.error, found.crossed
+    return Grid(across, along, speed, error, crossed)
+
+
+def _common(values: Sequence[float]) -> Array:
+    found, times = np.unique(values, return_counts=True)
+    return np.asarray(found[times > times.max() / 2])
+
+
+def draw_speeds(ax: Axes, found: Grid, most: float) -> Any:
+    """The map on a scale of +-most; its image."""
+    ax.set_facecolor(MISSING)
+    look: dict[str, Any] = {"cmap": "RdBu_r", "vmin": -most, "vmax": most, "shading": "nearest"}
+    image = ax.pcolormesh(found.x, found.y, found.speed, **look)
+    if np.nanmin(found.speed) < 0 < np.nanmax(found.speed) and min(found.speed.shape) > 1:
+        ax.contour(found.x, found.y, found.speed, [0.0], colors="black", linewidths=0.8)
+    unsure = np.ma.masked_where(~(np.abs(found.speed) < found.error), np.ones_like(found.speed))
+    if unsure.count():
+        ax.pcolor(found.x, found.y, unsure, shading="nearest", hatch=HATCH, alpha=0)
+    y, x = np.nonzero(found.crossed > 0)
+    ax.plot(found.x[x], found.y[y], ".", color="0.25", markersize=2)
+    return image
