@@ -17,7 +17,7 @@ import numpy as np
 from fem_check import Bending, Friction, Gravity, Ground, Material, Membrane, Outline, simulate
 from fem_check.excitable import Excitation
 from fem_check.excitable.presets import excitable_preset
-from fem_check.shell.stepping.simulation import MESH_MARGIN
+from fem_check.shell.stepping.further.second_runs import MESH_MARGIN
 from fem_check.shell.stepping.trajectory import Trajectory
 from linear_theory import Sheet
 from linear_theory.common.errors import SheetcrawlError
