@@ -219,6 +219,7 @@ MADE = {
     "Poses": lambda: trajectory().path,
     "Potential": potential,
     "Prediction": lambda: fem_check.predict(SHEET, SINE, alpha=0.05, rtol=0.1),
+    "RunSettings": lambda: fem_check.RunSettings(steps=64),
     "Progress": lambda: Progress(0.1, 2.0, 7, 0, 1.0, 20.0),
     "Region": lambda: ShellModel(full_scene()).discretisation.interior,
     "Record": lambda: next(swept().rows())[1],
