@@ -45,6 +45,9 @@ _LINEAR = 1e-8  # alpha below which q_1 is the zero of a linear function
 _NEAR = 0.3  # after a Newton step s the error is some s^2 over the speed of the sheet: 10 would do
 _REST = 1e-6  # speeds below this share of the mean speed count as rest
 _VISCOUS = 1e150  # a width as good as infinite, whose square is a number
+_WORK_HALVINGS = 4
+"""Of cells for works, whose integrand has a kink and no more at points at rest."""
+
 _VELOCITY, _AREA, _RATE, _ARMS = slice(0, 2), 2, 3, slice(4, 6)
 """Channels of the values at a point: v_x, v_y, area, e; x, y from the centre if the sheet may turn;
 then v_2 and u if there are any."""
@@ -53,17 +56,22 @@ _ALONG = (1,)  # rigid velocities of a mirror-symmetric motion; 0, 1 translation
 _ALL = (0, 1, 2)
 
 
+NO_WORKS = np.zeros((0, 3))
+
+
 class RigidMotion(NamedTuple):
     """q = leading + alpha remainder per unit alpha, (times, 3) each: V_x, V_y, Omega.
 
     rest: (times,), the share of the points that move slower than 1e-6 of the mean speed;
-    fastest: the largest speed against the ground, per unit alpha.
+    fastest: the largest speed against the ground, per unit alpha; works: (times, 3), rates of work per
+    unit |alpha|, see `Balance.works`.
     """
 
     leading: Array
     remainder: Array
     rest: Array
     fastest: float
+    works: Array = NO_WORKS
 
     def joined(self, more: "RigidMotion", added: NDArray[np.bool_]) -> "RigidMotion":
         """Motions merged in time order: `more` at the times `added`; times are the last axis of
@@ -72,11 +80,11 @@ class RigidMotion(NamedTuple):
         order = np.empty(added.size, int)
         order[~added] = np.arange(known)
         order[added] = known + np.arange(more.rest.shape[-1])
-        leading, remainder, rest = (
+        leading, remainder, rest, works = (
             np.take(np.concatenate([a, b], axis), order, axis)
-            for a, b in zip(self[:3], more[:3], strict=True)
+            for a, b in zip((*self[:3], self.works), (*more[:3], more.works), strict=True)
         )
-        return RigidMotion(leading, remainder, rest, max(self.fastest, more.fastest))
+        return RigidMotion(leading, remainder, rest, max(self.fastest, more.fastest), works)
 
 
 class Units(NamedTuple):
@@ -147,9 +155,7 @@ class Balance:
         first, second = starts
         leading = self._zero(self._leading, np.zeros((1, 1)), 1.0, first)
         remainder = np.zeros_like(leading)
-        if any(
-            np.any(self._values[i]) for i in (_RATE, self._second, self._shift)
-        ):  # else nothing remains
+        if self._has_second:  # else nothing remains
             remainder = self._remaining(leading, second)
         change = self._change(self._values, leading, remainder)
         speed = norm(self._moved(self._values, leading) + self._alpha * change)
@@ -157,13 +163,48 @@ class Balance:
         still = ~np.any(self._values[_VELOCITY], axis=(0, 2, 3, 4))
         rest[still] = 0.0  # all is at rest, no part of it sticks
         fastest = 0.0 if still.all() and not self._slope else self._units.speed * float(speed.max())
-        return RigidMotion(self._full(leading), self._full(remainder), rest, fastest)
+        works = self.works(leading, remainder)
+        return RigidMotion(self._full(leading), self._full(remainder), rest, fastest, works)
 
     def correction(self, leading: Array, remainder: Array) -> RigidMotion:
-        """One Newton step from a motion (times, 3) that was found with other cells."""
+        """One Newton step from a motion (times, 3) that was found with other cells, and its works."""
         first, second = self._unknowns(leading), self._unknowns(remainder)
         steps = self._step(self._leading, first), self._step(partial(self._remainder, first), second)
-        return RigidMotion(self._full(steps[0]), self._full(steps[1]), np.zeros(len(leading)), 0.0)
+        still, works = np.zeros(len(leading)), self.works(first, second)
+        return RigidMotion(self._full(steps[0]), self._full(steps[1]), still, 0.0, works)
+
+    def works(self, leading: Array, remainder: Array) -> Array:
+        """Rates of work of unknowns (times, J) per unit |alpha|, (times, 3), load times speed.
+
+        Of friction p_0, p_1 in p_0 + alpha p_1 = int (1 + alpha e) f(w) . w dA, p_0 that of the motion
+        of first order under the load 1; and the rate at which the load rises, int w_y dA.
+        """
+        law, alpha, second = self._law, self._alpha, self._has_second
+
+        def later(values: Array, owners: Integers, w: Array) -> Array:
+            return w + alpha * self._change(values, leading[owners], remainder[owners])
+
+        def integrand(values: Array, owners: Integers) -> Array:
+            w = self._moved(values, leading[owners])
+            first = law.dissipation(w)
+            more = np.zeros_like(first)
+            if second:
+                after = law.dissipation(later(values, owners, w))
+                more = ((1 + alpha * values[_RATE]) * after - first) / alpha
+            return values[_AREA] * np.stack([first, more, w[1]])
+
+        def motion(values: Array, owners: Integers) -> list[Array]:
+            w = self._moved(values, leading[owners])
+            return [w, later(values, owners, w)] if second and abs(alpha) > _LINEAR else [w]
+
+        halvings = min(_WORK_HALVINGS, self._stages[-1][0])
+        sums = self._sums(np.arange(len(leading)), integrand, motion, halvings)
+        return sums.T * (self._units.area * self._units.speed)
+
+    @property
+    def _has_second(self) -> bool:
+        """Whether anything is of second order: loads, velocities, displacements."""
+        return any(np.any(self._values[i]) for i in (_RATE, self._second, self._shift))
 
     def _remaining(self, leading: Array, start: Array | None) -> Array:
         """q_1, (times, unknowns)."""
@@ -251,6 +292,13 @@ class Balance:
         self, times: Integers, integrand: Integrand, motion: Velocities, halvings: int
     ) -> tuple[Array, Array]:
         """Gradients (times, J) and Hessians (times, J, J); motion: the velocities that matter."""
+        sums, unknowns = self._sums(times, integrand, motion, halvings), len(self._modes)
+        return sums[:unknowns].T, sums[unknowns:].T.reshape(times.size, unknowns, unknowns)
+
+    def _sums(
+        self, times: Integers, integrand: Integrand, motion: Velocities, halvings: int
+    ) -> Array:
+        """Integrals of the functions of an integrand, (functions, times)."""
         values = self._values[:, times]
         channels, count, cells, n, _ = values.shape
         owners = np.repeat(np.arange(count), cells)
@@ -262,9 +310,7 @@ class Balance:
 
         flat = values.reshape(channels, count * cells, n, n)
         cells_now = graded(flat, owners, roughness, halvings)
-        sums = cells_now.integrals(integrand(cells_now.values, cells_now.owners))
-        unknowns = len(self._modes)
-        return sums[:unknowns].T, sums[unknowns:].T.reshape(count, unknowns, unknowns)
+        return cells_now.integrals(integrand(cells_now.values, cells_now.owners))
 
     def _moved(self, values: Array, q: Array, at: Array | None = None) -> Array:
         """Velocity against the ground, (2, ...), of points that move with values[:2]; q (..., J)."""

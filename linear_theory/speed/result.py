@@ -2,12 +2,13 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from linear_theory.common.drawable import Drawable
+from linear_theory.common.estimate import Estimate as Estimate
 from linear_theory.common.shown import Shown, flat, plain, with_error
 from linear_theory.common.tables import SPEED, SPIN, TIME, Column, Tabular
 from linear_theory.friction.regime import Regime, regime_of
@@ -16,21 +17,6 @@ if TYPE_CHECKING:
     from linear_theory.speed.drawn import Deformation
 
 Array = NDArray[np.float64]
-
-
-class _Estimate(NamedTuple):
-    value: float
-    error: float
-
-
-class Estimate(Shown, _Estimate):
-    """A number and its estimated numerical error, absolute.
-
-    >>> from linear_theory import Sheet, SineWave, crawl_speed
-    >>> found = crawl_speed(Sheet(), SineWave(), alpha=0.25, rtol=1e-2).estimate
-    >>> print(f"{found.value:.2f}", found.error < 1e-2 * found.value)
-    0.11 True
-    """
 
 
 @dataclass(frozen=True, eq=False)
