@@ -45,7 +45,7 @@ _LINEAR = 1e-8  # alpha below which q_1 is the zero of a linear function
 _NEAR = 0.3  # after a Newton step s the error is some s^2 over the speed of the sheet: 10 would do
 _REST = 1e-6  # speeds below this share of the mean speed count as rest
 _VISCOUS = 1e150  # a width as good as infinite, whose square is a number
-_WORK_HALVINGS = 4
+_WORK_HALVINGS = 2
 """Of cells for works, whose integrand has a kink and no more at points at rest."""
 
 _VELOCITY, _AREA, _RATE, _ARMS = slice(0, 2), 2, 3, slice(4, 6)

@@ -17,6 +17,7 @@ from linear_theory.common.tolerance import Tolerance
 from linear_theory.deformation.airy import airy_series
 from linear_theory.deformation.field import LinearField, checked_field
 from linear_theory.deformation.ritz import ritz_field
+from linear_theory.energy.energy import Energy
 from linear_theory.friction.contact import Contact
 from linear_theory.friction.law import FrictionLaw
 from linear_theory.friction.load import Load
@@ -186,7 +187,7 @@ def _field_speed(
     deformation = LinearDeformation(lambda: field, alpha, contact)
     if alpha == 0:
         still = CrawlSpeed.steady(0.0, model, law.slip_ratio(0.0), field.seconds)
-        return replace(still, deformation=deformation)
+        return replace(still, deformation=deformation, energy=Energy.at_rest(law))
     crawl = Crawl(field, alpha, contact, first_resolution(tolerance.rtol))
     period = average(crawl, tolerance)
     turning = RigidSpeed(period.rigid, period.rigid_mean, period.rigid_error)
@@ -202,6 +203,7 @@ def _field_speed(
         first_order=period.first_order,
         sticks=period.sticks,
         turning=None if crawl.mirrored else turning,
+        energy=Energy(*period.works.at(alpha), law),
         deformation=deformation,
     )
     return judged(found, beyond_reach(field, alpha))

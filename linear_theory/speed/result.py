@@ -11,12 +11,16 @@ from linear_theory.common.drawable import Drawable
 from linear_theory.common.estimate import Estimate as Estimate
 from linear_theory.common.shown import Shown, flat, plain, with_error
 from linear_theory.common.tables import SPEED, SPIN, TIME, Column, Tabular
+from linear_theory.energy.energy import Energy
 from linear_theory.friction.regime import Regime, regime_of
 
 if TYPE_CHECKING:
     from linear_theory.speed.drawn import Deformation
 
 Array = NDArray[np.float64]
+
+
+UNKNOWN = Estimate(np.nan, np.nan)
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,6 +64,8 @@ class CrawlSpeed(Drawable, Tabular):
     beyond_reach: why a theory of small growth is not valid at this alpha (see `reach`), in words; empty
     if it is. Such results are never converged.
     wave_error: the part of error due to a measured wave (see `wave_error`), 0 for an exact one.
+    energy: power of growth and friction, None if not known; `power`, `cost_of_transport` and
+    `efficiency` are made of it.
     deformation: the deformation of the sheet, for pictures (see `drawn.Deformation`); None if there
     is no shape. It is not part of the value and is not copied or pickled.
 
@@ -85,6 +91,7 @@ class CrawlSpeed(Drawable, Tabular):
     turning: RigidSpeed | None = None
     beyond_reach: str = ""
     wave_error: float = 0.0
+    energy: Energy | None = field(default=None, compare=False)
     deformation: "Deformation | None" = field(default=None, repr=False, compare=False)
 
     def __getstate__(self) -> dict[str, Any]:
@@ -135,6 +142,45 @@ class CrawlSpeed(Drawable, Tabular):
     def regime(self) -> Regime:
         """Friction regime by `slip_ratio`: "dry", "mixed", "viscous", or "none" without friction."""
         return regime_of(self.slip_ratio)
+
+    @property
+    def power(self) -> Estimate:
+        """Mean net power of growth over mu times the weight, length/time, see `energy.energy`.
+
+        NaN where it is not known, as are `cost_of_transport` and `efficiency`.
+        """
+        return UNKNOWN if self.energy is None else self.energy.power
+
+    @property
+    def cost_of_transport(self) -> Estimate:
+        """Work of growth over weight times distance, over mu; infinite if the sheet stays in place.
+
+        Distances are along and, without mirror symmetry, across the sheet, in its own axes.
+
+        >>> from linear_theory import Sheet, SineWave, crawl_speed
+        >>> speed = crawl_speed(Sheet(), SineWave(), alpha=0.25)
+        >>> print(f"{speed.cost_of_transport.value:.3f} mu, efficiency {speed.efficiency.value:.3f}")
+        2.091 mu, efficiency 0.478
+        """
+        return UNKNOWN if self.energy is None else self.energy.cost(self._distance)
+
+    @property
+    def efficiency(self) -> Estimate:
+        """Power of dragging the rigid sheet at the same speed over that of growth (Lighthill's)."""
+        if self.energy is None:
+            return UNKNOWN
+        return self.energy.efficiency(self._velocity, self._distance.error)
+
+    @property
+    def _velocity(self) -> Array:
+        """Mean V_x, V_y."""
+        return np.array([0.0, self.mean]) if self.turning is None else self.turning.mean[:2]
+
+    @property
+    def _distance(self) -> Estimate:
+        """Speed in any direction."""
+        error = self.error if self.turning is None else float(np.hypot(*self.turning.error[:2]))
+        return Estimate(float(np.hypot(*self._velocity)), error)
 
     @property
     def reach(self) -> str:
