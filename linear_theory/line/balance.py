@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from linear_theory.common import validation
 from linear_theory.common.threads import one_blas_thread
 from linear_theory.common.tolerance import Tolerance
+from linear_theory.energy.energy import Energy
 from linear_theory.friction.contact import Contact
 from linear_theory.friction.law import FrictionLaw
 from linear_theory.friction.laws import FRICTION_LAWS
@@ -123,6 +124,7 @@ def line_crawl(scene: Scene, tolerance: Tolerance, body: str) -> CrawlSpeed:
         first_order=length * answer.first,
         second_order=length * answer.second,
         sticks=answer.sticks and answer.fastest > 0,
+        energy=Energy(Estimate(*(length * v for v in answer.power)), length * answer.friction, law),
         seconds=time.perf_counter() - start,
         model=_words(scene, body),
     )

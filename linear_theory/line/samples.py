@@ -24,6 +24,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linear_theory.common import validation
+from linear_theory.common.estimate import Estimate
 from linear_theory.common.tolerance import Tolerance
 from linear_theory.friction.law import FrictionLaw
 from linear_theory.friction.laws import Tanh
@@ -31,6 +32,7 @@ from linear_theory.line.piece import Piece
 from linear_theory.line.result import REST_PART, REST_SPEED, LineMotion
 from linear_theory.line.roots import EPS, bracketed_newton
 from linear_theory.line.tanh_level import NARROWEST, SATURATED
+from linear_theory.line.work import sampled_power
 from linear_theory.wave.protocol import Drive
 
 Array = NDArray[np.float64]
@@ -62,13 +64,15 @@ BLOCK = 1 << 19
 
 
 class Snapshot(NamedTuple):
-    """Speed, its coefficients of alpha and alpha^2, largest speed and part at rest, each (times,)."""
+    """Speed, its coefficients of alpha and alpha^2, largest speed, part at rest and power of friction
+    over mu times the weight, each (times,)."""
 
     velocity: Array
     first: Array
     second: Array
     fastest: Array
     rest: Array
+    power: Array
 
 
 def sampled_balance(
@@ -114,7 +118,16 @@ def sampled_balance(
         first=float(fine.first.mean()),
         second=float(fine.second.mean()),
         sticks=law.width == 0 and bool(fine.rest.max() >= REST_PART),
+        power=_mean_power(fine.power, coarse.power, drive.hidden(period / times) * abs(alpha)),
+        friction=fine.power,
     )
+
+
+def _mean_power(fine: Array, coarse: Array, hidden: float) -> Estimate:
+    """Mean of powers (times,), from its change on half as many cells and times."""
+    mean = float(fine.mean())
+    changes = abs(mean - float(coarse.mean())) + abs(mean - float(fine[::2].mean()))
+    return Estimate(mean, CHANCE * changes + hidden + 16 * EPS * mean)
 
 
 def coarse_mean(drive: Drive, alpha: float, law: FrictionLaw, growth: Piece, times: Array) -> float:
@@ -210,7 +223,8 @@ def _snapshot(
     slip = velocity[:, None] + alpha * g
     tolerance = REST_SPEED * np.ptp(slip, axis=1, keepdims=True)
     rest = np.mean(_part_below(slip, tolerance) - _part_below(slip, -tolerance), axis=1)
-    return Snapshot(velocity, first, second, abs(slip).max(axis=1), rest)
+    power = sampled_power(slip, weight, law)
+    return Snapshot(velocity, first, second, abs(slip).max(axis=1), rest, power)
 
 
 def _on_grid(values: Array, times: Array, y: Array) -> Array:
