@@ -25,7 +25,7 @@ efficiency is mu over the cost of transport. Efficiencies above 1 are possible w
 the area, since what slides may then be lighter than what rests.
 """
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -41,8 +41,8 @@ Array = NDArray[np.float64]
 class Energy(Shown):
     """Powers of a periodic motion over mu times the weight, length per time, see the module docstring.
 
-    power: mean net power of growth, lift and friction; friction: (T,), power of friction at the times
-    of the speed; law: of friction; slope: tan(incline)/mu of ground that rises towards +y.
+    power: mean net power of growth; spent (T,): what is not stored, friction and lift, at the times of
+    the speed; law: of friction; slope: tan(incline)/mu of ground that rises towards +y.
 
     >>> from linear_theory import SineWave, line_balance
     >>> energy = line_balance(SineWave(), alpha=0.1).energy
@@ -51,7 +51,7 @@ class Energy(Shown):
     """
 
     power: Estimate
-    friction: Array = field(repr=False)
+    spent: Array = field(repr=False)
     law: FrictionLaw
     slope: float = 0.0
 
@@ -59,6 +59,10 @@ class Energy(Shown):
     def at_rest(cls, law: FrictionLaw) -> "Energy":
         """Of a sheet that does not grow: growth does no work."""
         return cls(Estimate(0.0, 0.0), np.zeros(1), law)
+
+    def in_doubt(self, error: float) -> "Energy":
+        """The same with a further error of the power."""
+        return replace(self, power=Estimate(self.power.value, self.power.error + error))
 
     def cost(self, distance: Estimate) -> Estimate:
         """Cost of transport over mu, for a speed >= 0; infinite if nothing is known to move."""

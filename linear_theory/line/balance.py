@@ -17,7 +17,7 @@ from linear_theory.friction.regime import warn_if_viscous
 from linear_theory.growth.laws import GrowthLaw
 from linear_theory.line.piece import Piece
 from linear_theory.line.result import LineMotion
-from linear_theory.line.samples import coarse_mean, sampled_balance
+from linear_theory.line.samples import coarse_means, sampled_balance
 from linear_theory.line.travelling import travelling_balance
 from linear_theory.motion.rigid import RigidNorm
 from linear_theory.scene.scene import Scene
@@ -142,8 +142,8 @@ def _wave_error(scene: Scene, piece: Piece) -> WaveError | None:
 
     def mean(wave: Wave) -> NDArray[np.float64]:
         on_line = drive(wave, scene.sheet, on_axis(length))
-        found = coarse_mean(on_line, scene.alpha, law, piece, shares * on_line.period)
-        return np.array([0.0, length * found, 0.0])
+        speed, power = coarse_means(on_line, scene.alpha, law, piece, shares * on_line.period)
+        return length * np.array([0.0, speed, 0.0, power])
 
     return wave_error(uncertainty, scene.wave, mean)
 

@@ -57,7 +57,7 @@ CLOSE = 0.02
 """Slip speeds between the ends of a cell below which two Gauss points are exact to rounding."""
 
 COARSE_CELLS, COARSE_SHARE = 128, 0.1
-"""Cells of `coarse_mean` at least, and the share of c that they may miss."""
+"""Cells of `coarse_means` at least, and the share of c that they may miss."""
 
 BLOCK = 1 << 19
 """Cells times times held at once."""
@@ -130,13 +130,14 @@ def _mean_power(fine: Array, coarse: Array, hidden: float) -> Estimate:
     return Estimate(mean, CHANCE * changes + hidden + 16 * EPS * mean)
 
 
-def coarse_mean(drive: Drive, alpha: float, law: FrictionLaw, growth: Piece, times: Array) -> float:
-    """Mean speed from these times and a number of cells that the wave asks for, without an error.
+def coarse_means(drive: Drive, alpha: float, law: FrictionLaw, growth: Piece, times: Array) -> Array:
+    """Mean speed and power (2,) from these times and cells that the wave asks for, without errors.
 
     Differences of it between waves that are alike are much better than itself.
     """
     cells = min(max(COARSE_CELLS, _first_cells(drive, COARSE_SHARE)), MOST_CELLS)
-    return float(_snapshots(drive, alpha, law, growth, times, cells).velocity.mean())
+    found = _snapshots(drive, alpha, law, growth, times, cells)
+    return np.array([found.velocity.mean(), found.power.mean()])
 
 
 def speeds_at(

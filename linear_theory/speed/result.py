@@ -12,6 +12,7 @@ from linear_theory.common.estimate import Estimate as Estimate
 from linear_theory.common.shown import Shown, flat, plain, with_error
 from linear_theory.common.tables import SPEED, SPIN, TIME, Column, Tabular
 from linear_theory.energy.energy import Energy
+from linear_theory.energy.growth import GrowthPower, checked_strain, growth_times
 from linear_theory.friction.regime import Regime, regime_of
 
 if TYPE_CHECKING:
@@ -170,6 +171,29 @@ class CrawlSpeed(Drawable, Tabular):
         if self.energy is None:
             return UNKNOWN
         return self.energy.efficiency(self._velocity, self._distance.error)
+
+    def growth_power(self, friction_strain: float) -> GrowthPower:
+        """The power of growth over a period, with that of the elastic energy, and both ways to count it.
+
+        friction_strain: of the sheet by friction, mu (weight per area) L/(E h) > 0, by which friction
+        and elastic energy compare; see `energy.growth`. Raises ValueError for another one, and for a
+        speed without a shape: of a body on a line, or one that was copied.
+
+        >>> from linear_theory import Sheet, SineWave, crawl_speed
+        >>> power = crawl_speed(Sheet(), SineWave(), alpha=0.1).growth_power(friction_strain=1e-2)
+        >>> print(f"{power.positive.value / power.net.value:.2f} times as much if none is taken back")
+        1.07 times as much if none is taken back
+        """
+        strain = checked_strain(friction_strain)
+        if self.deformation is None or self.energy is None:
+            missing = "shape" if self.deformation is None else "known power of friction"
+            raise ValueError(f"speed: has no {missing}, must be of a sheet that was solved here")
+        drive = self.deformation.drive
+        times = growth_times(drive.period)
+        spent = np.interp(times, self.times, self.energy.spent, period=drive.period)
+        rate, error = self.deformation.storing(times)
+        unit = drive.sheet.length / strain
+        return GrowthPower.of(self.energy, times, spent, unit * rate, unit * error)
 
     @property
     def _velocity(self) -> Array:

@@ -187,11 +187,11 @@ class CycleBalance:
 
     def power(self, grid: TimeGrid, works: Array) -> Estimate:
         """Mean power of growth over mu times the weight, from works (2, times, 3) on the grid."""
-        return Estimate(*grid.mean(self._powers(works)))
+        return Estimate(*grid.mean(self._powers(works).mean(0)))
 
     def _powers(self, works: Array) -> Array:
-        """Of friction and of raising the load, means of both halves of the period, (times,)."""
-        return np.asarray((works[..., 0] + self.contact.slope * works[..., 2]).mean(0))
+        """Of friction and of raising the load, (2, times)."""
+        return np.asarray(works[..., 0] + self.contact.slope * works[..., 2])
 
     def _over_weight(self, works: Sequence[Array]) -> Array:
         return np.asarray(np.concatenate(works) / self._motion.weight)
@@ -201,9 +201,9 @@ class CycleBalance:
         return grid.means(_paired(leading))[0]
 
     def whole_period(self, period: PairedPeriod) -> tuple[Array, Array, Array]:
-        """Ascending times (T,) of one period from about 0 on, V_x, V_y, Omega (3, T), and friction."""
+        """Ascending times (T,) of one period from about 0 on, V_x, V_y, Omega (3, T), and power."""
         length = self.shapes.scene.period
-        values = np.concatenate([period.leading, period.works[..., :1]], axis=-1)
+        values = np.concatenate([period.leading, self._powers(period.works)[..., None]], axis=-1)
         times, rigid = self._with_partners(period.grid.times), values.reshape(-1, 4).T
         if self.reversal_time is not None:
             times = np.concatenate([times, self.reversal_time - times])
@@ -240,7 +240,7 @@ class CycleBalance:
         some = np.unique((np.array([0.07, 0.41, 0.77]) * grid.times.size).astype(int))
         finer = replace(self, order=self.order + 2, halvings=self.halvings + 6)
         change, works = finer.step(grid.times[some], found.leading[:, some])
-        powers = self._powers(works) - self._powers(found.works[:, some])
+        powers = self._powers(works - found.works[:, some]).mean(0)
         return np.asarray(abs(_paired(change)).max(1)), float(abs(powers).max())
 
     def _with_partners(self, times: Array) -> Array:

@@ -137,7 +137,7 @@ class Cycle(Shown):
         balance, period, phase_error = _with_enough_phases(self._shapes, contact, tolerance)
         mesh_error, work_error = self._mesh_errors(balance, period)
         error = period.error + phase_error[:3] + mesh_error
-        times, rigid, friction = balance.whole_period(period)
+        times, rigid, spent = balance.whole_period(period)
         power, work_error = period.power, work_error + float(phase_error[3])
         power = Estimate(power.value, power.error + work_error)
         fastest = period.fastest if period.fastest > balance.noise else 0.0
@@ -153,8 +153,8 @@ class Cycle(Shown):
             first_order=0.0 if _starts_at_second_order(scene, contact) else math.nan,
             sticks=period.sticks,
             turning=None if balance.mirrored else RigidSpeed(rigid, period.mean, error),
-            energy=Energy(power, friction, contact.friction, contact.slope),
-            deformation=CycleDeformation(balance.shapes, contact),
+            energy=Energy(power, spent, contact.friction, contact.slope),
+            deformation=CycleDeformation(balance.shapes, contact, self._other(balance)),
         )
 
     @cached_property
@@ -163,10 +163,14 @@ class Cycle(Shown):
         mesh, gain = other_mesh(self._shapes.model.discretisation.mesh)
         return KeptShapes(ShellModel(self.scene.but(cells=None, mesh=mesh))), gain
 
+    def _other(self, balance: CycleBalance) -> tuple[Shapes, float]:
+        """Shapes at the same phases on the other mesh, and the gain."""
+        kept, gain = self._compared
+        return kept.at(len(balance.shapes.states)), gain
+
     def _mesh_errors(self, balance: CycleBalance, period: PairedPeriod) -> tuple[Array, float]:
         """Mesh errors of the mean motion and of the power, from another mesh at the same times."""
-        kept, gain = self._compared
-        shapes = kept.at(len(balance.shapes.states))
+        shapes, gain = self._other(balance)
         other = balance.on(shapes).balance(period.grid.times)
         power = balance.power(period.grid, other.works).value - period.power.value
         return abs(balance.mean(period.grid, other.leading) - period.mean) / gain, abs(power) / gain
