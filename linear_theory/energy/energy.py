@@ -42,7 +42,8 @@ class Energy(Shown):
     """Powers of a periodic motion over mu times the weight, length per time, see the module docstring.
 
     power: mean net power of growth; spent (T,): what is not stored, friction and lift, at the times of
-    the speed; law: of friction; slope: tan(incline)/mu of ground that rises towards +y.
+    the speed; law: of friction; slope: tan(incline)/mu of ground that rises towards +y; model_error: of
+    the power, distance to the nonlinear sheet, NaN where it was not measured.
 
     >>> from linear_theory import SineWave, line_balance
     >>> energy = line_balance(SineWave(), alpha=0.1).energy
@@ -54,11 +55,12 @@ class Energy(Shown):
     spent: Array = field(repr=False)
     law: FrictionLaw
     slope: float = 0.0
+    model_error: float = np.nan
 
     @classmethod
     def at_rest(cls, law: FrictionLaw) -> "Energy":
         """Of a sheet that does not grow: growth does no work."""
-        return cls(Estimate(0.0, 0.0), np.zeros(1), law)
+        return cls(Estimate(0.0, 0.0), np.zeros(1), law, model_error=0.0)
 
     def in_doubt(self, error: float) -> "Energy":
         """The same with a further error of the power."""

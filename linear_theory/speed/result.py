@@ -92,7 +92,7 @@ class CrawlSpeed(Drawable, Tabular):
     turning: RigidSpeed | None = None
     beyond_reach: str = ""
     wave_error: float = 0.0
-    energy: Energy | None = field(default=None, compare=False)
+    energy: Energy | None = field(default=None, repr=False, compare=False)
     deformation: "Deformation | None" = field(default=None, repr=False, compare=False)
 
     def __getstate__(self) -> dict[str, Any]:
@@ -227,14 +227,20 @@ class CrawlSpeed(Drawable, Tabular):
         """
         names = ("mean", "error", "wave_error", "model_error", "converged", "regime", "slip_ratio")
         values = {name: getattr(self, name) for name in (*names, "beyond_reach", "seconds", "model")}
-        return flat(plain(values))
+        return flat(plain(values | self._energies()))
 
     def _contents(self) -> Mapping[str, Any]:
         """Values under the names that programs read, with groups flattened."""
         parts = dict(super()._contents())
         del parts["estimate"], parts["turning"]
         rigid = {name: getattr(self, name) for name in ("rigid", "rigid_mean", "rigid_error")}
-        return {"mean": self.mean, "error": self.error, **parts, **rigid}
+        return {"mean": self.mean, "error": self.error, **parts, **rigid, **self._energies()}
+
+    def _energies(self) -> dict[str, float]:
+        """Measures of energy with their errors by name, none if they are not known."""
+        names = ENERGIES if self.energy is not None else ()
+        found = {name: getattr(self, name) for name in names}
+        return {n: v for name, e in found.items() for n, v in ((name, e.value), (f"{name}_error", e.error))}
 
     def _title(self) -> str:
         return f"CrawlSpeed: {speed_in_words(self.mean, self.error, self.converged)}"
@@ -243,7 +249,10 @@ class CrawlSpeed(Drawable, Tabular):
         """All values except those in the title and those not computed."""
         ratio = "" if np.isnan(self.slip_ratio) else f", slip ratio {self.slip_ratio:.3g}"
         first = {"model_error": self.model_error, "regime": f"{self.regime}{ratio}"}
-        rest = {name: v for name, v in self._contents().items() if name not in TOLD and _is_there(v)}
+        told = (*TOLD, *self._energies())
+        rest = {name: v for name, v in self._contents().items() if name not in told and _is_there(v)}
+        if self.energy is not None:
+            first["energy"] = energy_in_words(self)
         if not self.wave_error:
             del rest["wave_error"]
         return {**first, **rest}
@@ -253,6 +262,9 @@ class CrawlSpeed(Drawable, Tabular):
             Column("time", self.times, "time", TIME),
             Column("velocity", self.velocity, "velocity of the sheet along y", SPEED),
         ]
+        if self.energy is not None and self.energy.spent.shape == self.times.shape:
+            words = "power of friction and lift over mu times the weight"
+            columns.append(Column("power", self.energy.spent, words, SPEED))
         if self.rigid is not None:
             columns += [
                 Column("velocity_x", self.rigid[0], "velocity across the sheet, in its axes", SPEED),
@@ -263,6 +275,22 @@ class CrawlSpeed(Drawable, Tabular):
 
 TOLD = ("mean", "error", "converged", "model_error", "slip_ratio")
 """Values shown in the title of a speed and its first rows."""
+
+
+ENERGIES = ("power", "cost_of_transport", "efficiency")
+"""Measures of energy."""
+
+
+def energy_in_words(speed: CrawlSpeed) -> str:
+    """Cost of transport and efficiency, or why there is none."""
+    cost, power = speed.cost_of_transport, speed.power
+    spent = f"power {with_error(*power)} length/time over mu weight"
+    if np.isnan(cost.value):
+        return "none is spent: nothing moves"
+    if np.isinf(cost.value):
+        return f"{spent}, cost of transport infinite: no distance is resolved"
+    efficiency = with_error(*speed.efficiency)
+    return f"cost of transport {with_error(*cost)} mu, efficiency {efficiency}, {spent}"
 
 
 def speed_in_words(mean: float, error: float, converged: bool) -> str:

@@ -138,12 +138,13 @@ class Cycle(Shown):
         mesh_error, work_error = self._mesh_errors(balance, period)
         error = period.error + phase_error[:3] + mesh_error
         times, rigid, spent = balance.whole_period(period)
+        distance = 0.0 if _is_target(scene) else math.nan
         power, work_error = period.power, work_error + float(phase_error[3])
         power = Estimate(power.value, power.error + work_error)
         fastest = period.fastest if period.fastest > balance.noise else 0.0
         return CrawlSpeed(
             estimate=Estimate(float(period.mean[1]), float(error[1])),
-            model_error=0.0 if _is_target(scene) else math.nan,
+            model_error=distance,
             converged=self._stable(balance) and balance.norm.meets(period.mean, error, tolerance),
             times=times,
             velocity=rigid[1],
@@ -153,7 +154,7 @@ class Cycle(Shown):
             first_order=0.0 if _starts_at_second_order(scene, contact) else math.nan,
             sticks=period.sticks,
             turning=None if balance.mirrored else RigidSpeed(rigid, period.mean, error),
-            energy=Energy(power, spent, contact.friction, contact.slope),
+            energy=Energy(power, spent, contact.friction, contact.slope, distance),
             deformation=CycleDeformation(balance.shapes, contact, self._other(balance)),
         )
 

@@ -1,0 +1,61 @@
+"""Model error of the power: how far the theories are from the nonlinear sheet.
+
+Relative to the power the distances were measured, as `figures/measure/power_error.py` repeats: small
+strain and second order are exact to first and second order in x = |alpha c|, and where
+c(t + T/2) = -c(t) the power is even in alpha; a narrow strip neglects that wide sheets slide sideways,
+too. The largest coefficient of 48 random sheets, waves, growth and friction laws, with a margin:
+
+    first order   1.5 x, or 4 x^2 where c(t + T/2) = -c(t),
+    second order  1.5 x^2,
+    strip         1.5 W n/L.
+"""
+
+import math
+from dataclasses import replace
+
+from linear_theory.friction.laws import FRICTION_LAWS
+from linear_theory.growth.laws import GROWTH_LAWS
+from linear_theory.scene.scene import Scene
+from linear_theory.speed.result import CrawlSpeed
+
+LARGEST_GROWTH, NARROWEST, WIDEST = 0.35, 0.1, 1.0
+"""Range of x and of widths over L within which distances were measured."""
+
+FIRST, FIRST_EVEN, SECOND, STRIP = 1.5, 4.0, 1.5, 1.5
+"""Coefficients, see the module docstring."""
+
+
+def power_error(level: str, scene: Scene, power: float) -> float:
+    """Bound of |P - P_nonlinear|, in the unit of the power; NaN where it was not measured.
+
+    level: "strip", "first order" or "second order".
+    """
+    sheet, growth, series = scene.sheet, scene.growth, scene.drive.series
+    if growth.alpha == 0 or (series is not None and not series.moves):
+        return 0.0
+    size = abs(growth.alpha) * float(abs(scene.extremes).max())
+    ratio = sheet.width / sheet.length
+    known = (
+        series is not None
+        and growth.law in GROWTH_LAWS.values()
+        and type(scene.contact.friction) in FRICTION_LAWS.values()
+        and size <= LARGEST_GROWTH
+        and (NARROWEST <= ratio or level == "strip")
+        and ratio <= WIDEST
+        and sheet.poisson >= 0
+    )
+    if series is None or not known:
+        return math.nan
+    if level == "strip":
+        return STRIP * ratio * abs(series.count) * power
+    if level == "second order":
+        return SECOND * size**2 * power
+    return (FIRST_EVEN * size**2 if scene.drive.changes_sign else FIRST * size) * power
+
+
+def with_power_error(found: CrawlSpeed, level: str, scene: Scene) -> CrawlSpeed:
+    """The speed by a theory with the model error of its power."""
+    if found.energy is None:
+        return found
+    distance = power_error(level, scene, found.power.value)
+    return replace(found, energy=replace(found.energy, model_error=distance))
