@@ -61,5 +61,6 @@ def numbers_of(found: "Prediction") -> dict[str, float | None]:
         "wave_error": speed.wave_error,
         "model_error": speed.model_error,
         "slip_ratio": speed.slip_ratio,
+        **speed.energies(),
     }
     return {name: float(value) if math.isfinite(value) else None for name, value in numbers.items()}

@@ -295,9 +295,7 @@ class Balance:
         sums, unknowns = self._sums(times, integrand, motion, halvings), len(self._modes)
         return sums[:unknowns].T, sums[unknowns:].T.reshape(times.size, unknowns, unknowns)
 
-    def _sums(
-        self, times: Integers, integrand: Integrand, motion: Velocities, halvings: int
-    ) -> Array:
+    def _sums(self, times: Integers, integrand: Integrand, motion: Velocities, halvings: int) -> Array:
         """Integrals of the functions of an integrand, (functions, times)."""
         values = self._values[:, times]
         channels, count, cells, n, _ = values.shape

@@ -116,7 +116,9 @@ class Crawl:
             batches.append(self._balance(some).solve(known and known.between(some)))
         leading, remainder, rest, fastest, works = zip(*batches, strict=True)
         return RigidMotion(
-            *map(np.concatenate, (leading, remainder, rest)),
+            np.concatenate(leading),
+            np.concatenate(remainder),
+            np.concatenate(rest),
             max(fastest),
             np.concatenate(works) / self._weight,
         )

@@ -51,7 +51,9 @@ class GrowthPower(Shown, _GrowthPower):
         return np.asarray(self.stored + self.spent)
 
     @classmethod
-    def of(cls, energy: Energy, times: Array, spent: Array, stored: Array, doubt: float) -> "GrowthPower":
+    def of(
+        cls, energy: Energy, times: Array, spent: Array, stored: Array, doubt: float
+    ) -> "GrowthPower":
         """From courses at equidistant times (T,), T even; doubt: mean error of `stored`."""
         power = stored + spent
         lost = _mean_below(power)

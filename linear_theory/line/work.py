@@ -61,7 +61,9 @@ def sampled_power(slip: Array, weight: Array, law: FrictionLaw) -> Array:
         return np.sum(weight * _mean_size(a, b), axis=1)
     nodes, weights = gauss_legendre(POINTS)
     inside = (law.dissipation(((a + b) / 2 + (b - a) / 2 * node)[None]) for node in nodes)
-    return np.asarray(sum(w / 2 * np.sum(weight * d, axis=1) for w, d in zip(weights, inside, strict=True)))
+    return np.asarray(
+        sum(w / 2 * np.sum(weight * d, axis=1) for w, d in zip(weights, inside, strict=True))
+    )
 
 
 def _mean_size(a: Array, b: Array) -> Array:

@@ -227,20 +227,22 @@ class CrawlSpeed(Drawable, Tabular):
         """
         names = ("mean", "error", "wave_error", "model_error", "converged", "regime", "slip_ratio")
         values = {name: getattr(self, name) for name in (*names, "beyond_reach", "seconds", "model")}
-        return flat(plain(values | self._energies()))
+        return flat(plain(values | self.energies()))
 
     def _contents(self) -> Mapping[str, Any]:
         """Values under the names that programs read, with groups flattened."""
         parts = dict(super()._contents())
         del parts["estimate"], parts["turning"]
         rigid = {name: getattr(self, name) for name in ("rigid", "rigid_mean", "rigid_error")}
-        return {"mean": self.mean, "error": self.error, **parts, **rigid, **self._energies()}
+        return {"mean": self.mean, "error": self.error, **parts, **rigid, **self.energies()}
 
-    def _energies(self) -> dict[str, float]:
-        """Measures of energy with their errors by name, none if they are not known."""
+    def energies(self) -> dict[str, float]:
+        """Power, cost of transport and efficiency with their errors by name, none if they are not known."""
         names = ENERGIES if self.energy is not None else ()
         found = {name: getattr(self, name) for name in names}
-        return {n: v for name, e in found.items() for n, v in ((name, e.value), (f"{name}_error", e.error))}
+        return {
+            n: v for name, e in found.items() for n, v in ((name, e.value), (f"{name}_error", e.error))
+        }
 
     def _title(self) -> str:
         return f"CrawlSpeed: {speed_in_words(self.mean, self.error, self.converged)}"
@@ -249,7 +251,7 @@ class CrawlSpeed(Drawable, Tabular):
         """All values except those in the title and those not computed."""
         ratio = "" if np.isnan(self.slip_ratio) else f", slip ratio {self.slip_ratio:.3g}"
         first = {"model_error": self.model_error, "regime": f"{self.regime}{ratio}"}
-        told = (*TOLD, *self._energies())
+        told = (*TOLD, *self.energies())
         rest = {name: v for name, v in self._contents().items() if name not in told and _is_there(v)}
         if self.energy is not None:
             first["energy"] = energy_in_words(self)

@@ -53,9 +53,9 @@ class PairedPeriod(NamedTuple):
 
     grid: times of a quarter or half of the period; leading: (2, times, 3), V_x, V_y, Omega at the
     times of the grid and half a period later; mean, error (3,): of V_x, V_y, Omega, without the errors
-    from phases and mesh; fastest: largest speed relative to the ground; sticks: see `CrawlSpeed`; works:
-    (2, times, 3), see `Balance.works`, over the load at rest; power: mean power of growth, likewise
-    without the errors from phases and mesh.
+    from phases and mesh; fastest: largest speed relative to the ground; sticks: see `CrawlSpeed`;
+    works: (2, times, 3), see `Balance.works`, over the load at rest; power: mean power of growth,
+    likewise without the errors from phases and mesh.
     """
 
     grid: TimeGrid

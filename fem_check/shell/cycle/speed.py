@@ -213,7 +213,7 @@ def _with_enough_phases(
         try:
             period = balance.average(tolerance)
             hidden = _hidden(balance, count)
-            error = _phase_error(balance, period) + [*balance.norm.each(hidden), hidden]
+            error = _phase_error(balance, period) + np.append(balance.norm.each(hidden), hidden)
         except UnresolvedError:
             if last:
                 raise
