@@ -41,7 +41,9 @@ class Distances(NamedTuple):
 def random_scene(random: np.random.Generator) -> Scene:
     """A flat sheet, its wave, growth and contact."""
     sheet = Sheet(width=float(np.exp(random.uniform(np.log(0.1), 0))), poisson=random.uniform(0, 0.5))
-    other = TravellingWave([1.0, random.uniform(0.2, 0.6)], [0.0, random.uniform(-0.4, 0.4)])
+    other = TravellingWave(
+        np.array([1.0, random.uniform(0.2, 0.6)]), np.array([0.0, random.uniform(-0.4, 0.4)])
+    )
     waves = SineWave(), SineWave(count=2), pulse_wave(0.3), other
     wave = waves[random.integers(len(waves))]
     friction = str(random.choice(["coulomb", "coulomb", "viscous"]))
@@ -67,9 +69,10 @@ def distances(scene: Scene) -> Distances:
         found.append(abs(power.value / target - 1))
         bounds.append((power_error(level, scene, power.value) + power.error) / target)
     size = abs(scene.alpha) * float(abs(scene.extremes).max())
-    even = scene.drive.changes_sign
+    even, series = scene.drive.changes_sign, scene.drive.series
+    waves = 1 if series is None else abs(series.count)
     per = {
-        "strip": scene.sheet.width / scene.sheet.length * abs(scene.drive.series.count or 1),
+        "strip": scene.sheet.width / scene.sheet.length * waves,
         "first order, even" if even else "first order": size**2 if even else size,
         "second order": size**2,
     }

@@ -25,13 +25,15 @@ efficiency is mu over the cost of transport. Efficiencies above 1 are possible w
 the area, since what slides may then be lighter than what rests.
 """
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from linear_theory.common.estimate import Estimate
-from linear_theory.common.shown import Shown
+from linear_theory.common.shown import Shown, with_error
 from linear_theory.friction.law import FrictionLaw
 
 Array = NDArray[np.float64]
@@ -48,7 +50,7 @@ class Energy(Shown):
     >>> from linear_theory import SineWave, line_balance
     >>> energy = line_balance(SineWave(), alpha=0.1).energy
     >>> print(f"{energy.power.value:.4f} L/T")  # about 2 alpha/pi
-    0.0635 L/T
+    0.0633 L/T
     """
 
     power: Estimate
@@ -56,6 +58,12 @@ class Energy(Shown):
     law: FrictionLaw
     slope: float = 0.0
     model_error: float = np.nan
+
+    def _rows(self) -> Mapping[str, Any]:
+        words = f"{with_error(*self.power)} length/time, over mu times the weight"
+        slope = {"slope": self.slope} if self.slope else {}
+        rest = {"spent": self.spent, "law": self.law.words, "model_error": self.model_error}
+        return {"power": words, **rest, **slope}
 
     @classmethod
     def at_rest(cls, law: FrictionLaw) -> "Energy":

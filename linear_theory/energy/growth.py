@@ -14,14 +14,15 @@ strain that friction can give the sheet, s = mu W/(A E h) L: d(stored)/dt over m
 over E h A.
 """
 
-from typing import NamedTuple
+from collections.abc import Mapping
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from linear_theory.common import validation
 from linear_theory.common.estimate import Estimate
-from linear_theory.common.shown import Shown
+from linear_theory.common.shown import Shown, with_error
 from linear_theory.energy.energy import Energy
 
 Array = NDArray[np.float64]
@@ -44,6 +45,10 @@ class GrowthPower(Shown, _GrowthPower):
     stored, spent (T,): its parts, see the module docstring; net: its mean; positive: the mean of its
     positive part, which counts where growth cannot take work back.
     """
+
+    def _rows(self) -> Mapping[str, Any]:
+        counts = {name: f"{with_error(*getattr(self, name))} length/time" for name in ("net", "positive")}
+        return {**counts, "times": self.times, "stored": self.stored, "spent": self.spent}
 
     @property
     def values(self) -> Array:

@@ -151,7 +151,7 @@ def _loss(before: Array | None, after: Array | None, way: Array) -> float:
 
 
 def friction_load(model: ShellModel) -> float:
-    """mu times the weight of the undeformed sheet normal to the ground; NaN if a scene names neither."""
+    """mu times the weight of the undeformed sheet normal to the ground; NaN if a scene lacks one."""
     friction, gravity = model.find(Friction), model.find(Gravity)
     if friction is None or gravity is None:
         return math.nan
