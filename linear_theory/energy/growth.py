@@ -47,7 +47,9 @@ class GrowthPower(Shown, _GrowthPower):
     """
 
     def _rows(self) -> Mapping[str, Any]:
-        counts = {name: f"{with_error(*getattr(self, name))} length/time" for name in ("net", "positive")}
+        counts = {
+            name: f"{with_error(*getattr(self, name))} length/time" for name in ("net", "positive")
+        }
         return {**counts, "times": self.times, "stored": self.stored, "spent": self.spent}
 
     @property

@@ -263,14 +263,14 @@ class CrawlSpeed(Drawable, Tabular):
             Column("time", self.times, "time", TIME),
             Column("velocity", self.velocity, "velocity of the sheet along y", SPEED),
         ]
-        if self.energy is not None and self.energy.spent.shape == self.times.shape:
-            words = "power of friction and lift over mu times the weight"
-            columns.append(Column("power", self.energy.spent, words, SPEED))
         if self.rigid is not None:
             columns += [
                 Column("velocity_x", self.rigid[0], "velocity across the sheet, in its axes", SPEED),
                 Column("rotation", self.rigid[2], "rate of rotation, anticlockwise", SPIN),
             ]
+        if self.energy is not None and self.energy.spent.shape == self.times.shape:
+            words = "power of friction and lift over mu times the weight"
+            columns.append(Column("power", self.energy.spent, words, SPEED))
         return columns
 
 

@@ -10,6 +10,7 @@ from linear_theory.common import validation
 from linear_theory.common.shown import Shown, Value
 from linear_theory.speed.result import CrawlSpeed
 
+
 class _EnergySI(NamedTuple):
     power_w: float
     work_j: float
