@@ -26,6 +26,7 @@ from linear_theory import (
     Tanh,
     TravellingWave,
     Viscous,
+    ViscousRegimeWarning,
     airy_series,
     crawl_speed,
     line_balance,
@@ -130,7 +131,7 @@ def test_theory_is_the_mean_of_the_weight_times_speed(wave, load, law):
     alpha = 0.2
     found = crawl_speed(SHEET, wave, alpha, load=load, friction=law, rtol=1e-3)
     field = airy_series(SHEET, wave, rtol=1e-4)
-    x, y = np.meshgrid((np.arange(60) + 0.5) / 120, (np.arange(240) + 0.5) / 240 - 0.5)
+    x, y = np.meshgrid((np.arange(60) + 0.5) / 240, (np.arange(240) + 0.5) / 240 - 0.5)
     rates = {"current": lambda t: field.strain(x, y, t)[:2].sum(0), "material": lambda t: 0.0}
     rates["grown"] = lambda t: 2 * field.drive.value(x, y, t)
     for i in (0, found.times.size // 3):
@@ -150,7 +151,7 @@ def test_friction_does_the_work_of_the_deformation():
     """Rigid velocities do no work against friction in balance: int N f.w = int N f.v."""
     found, alpha = small(1), 0.1
     field = airy_series(SHEET, SINE, rtol=1e-4)
-    x, y = np.meshgrid((np.arange(100) + 0.5) / 200, (np.arange(400) + 0.5) / 400 - 0.5)
+    x, y = np.meshgrid((np.arange(100) + 0.5) / 400, (np.arange(400) + 0.5) / 400 - 0.5)
     t = float(found.times[5])
     v = alpha * field.velocity(x, y, t)
     w = v + np.array([0.0, found.velocity[5]])[:, None, None]
@@ -299,14 +300,12 @@ def test_work_of_growth_agrees(name):
 
 
 def test_balance_of_the_stepper_closes():
-    """Growth = stored + friction + residual; what is stored returns, of the second order in steps."""
+    """What is stored returns, and growth has done the work of friction."""
     works = stepped("sine").power
     last = stepped("sine").last_period
     change = {name: float(w[-1] - w[last.start - 1]) for name, w in works._asdict().items()}
-    residual = abs(works.residual[-1] - works.residual[last.start - 1])
     assert abs(change["elastic"]) <= 1e-3 * change["friction"]
-    assert abs(change["growth"] - change["friction"]) <= residual + abs(change["elastic"])
-    assert residual <= 0.02 * change["friction"]
+    assert change["growth"] == pytest.approx(change["friction"], rel=1e-3)
 
 
 def test_lift_is_part_of_the_work_on_a_slope():
@@ -320,7 +319,8 @@ def test_lift_is_part_of_the_work_on_a_slope():
 
 
 def test_creep_down_a_slope_is_paid_by_the_weight():
-    found = cycle_speed(scene("slope").but(alpha=0.0))
+    with pytest.warns(ViscousRegimeWarning):
+        found = cycle_speed(scene("slope").but(alpha=0.0))
     assert found.mean < 0
     assert found.power.value == 0
 
@@ -351,7 +351,7 @@ def test_si_units():
 
 def test_bad_input_is_named():
     for strain in (0.0, -1.0, math.nan):
-        with pytest.raises(ValueError, match="friction_strain = .*must be"):
+        with pytest.raises(ValueError, match=r"friction_strain.*must be"):
             small(1).growth_power(strain)
     with pytest.raises(ValueError, match="has no shape"):
         line_balance(SINE, 0.1).growth_power(0.1)
