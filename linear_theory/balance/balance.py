@@ -20,7 +20,7 @@ and time.
 """
 
 from collections.abc import Callable, Sequence
-from functools import partial
+from functools import cached_property, partial
 from typing import NamedTuple
 
 import numpy as np
@@ -30,7 +30,7 @@ from linear_theory.balance.newton import damped_newton, guarded_newton
 from linear_theory.common.units import power_of_two
 from linear_theory.friction.isotropic import norm
 from linear_theory.friction.law import ALL, FrictionLaw
-from linear_theory.motion.cells import Integers, graded
+from linear_theory.motion.cells import Integers, gauss, graded
 from linear_theory.motion.motion import Motion
 
 Array = NDArray[np.float64]
@@ -45,9 +45,6 @@ _LINEAR = 1e-8  # alpha below which q_1 is the zero of a linear function
 _NEAR = 0.3  # after a Newton step s the error is some s^2 over the speed of the sheet: 10 would do
 _REST = 1e-6  # speeds below this share of the mean speed count as rest
 _VISCOUS = 1e150  # a width as good as infinite, whose square is a number
-_WORK_HALVINGS = 2
-"""Of cells for works, whose integrand has a kink and no more at points at rest."""
-
 _VELOCITY, _AREA, _RATE, _ARMS = slice(0, 2), 2, 3, slice(4, 6)
 """Channels of the values at a point: v_x, v_y, area, e; x, y from the centre if the sheet may turn;
 then v_2 and u if there are any."""
@@ -112,7 +109,8 @@ class Balance:
     motion: velocities per unit alpha at T times; rate: e of the load, (T, cells, n, n); alpha: growth
     coupling, not 0; law: for speeds per unit |alpha|; halvings: how often a cell is halved towards
     points at rest; tolerance: of q, relative to the root mean square of v^. slope: tan(incline)/mu of
-    ground that rises towards +y, in (-1, 1), for loads that are not expanded in alpha (rate = 0).
+    ground that rises towards +y, in (-1, 1), for loads that are not expanded in alpha (rate = 0). rest:
+    load of the undeformed sheet, for such loads; by default the area.
     """
 
     def __init__(
@@ -124,7 +122,9 @@ class Balance:
         halvings: int = 30,
         tolerance: float = 1e-10,
         slope: float = 0.0,
+        rest: float | None = None,
     ) -> None:
+        self._rest = rest
         units = self._units = Units.of(motion)
         self._alpha, self._law, self._slope = alpha, law.scaled(units.speed), slope
         self._modes = _ALONG if motion.mirrored else _ALL
@@ -174,34 +174,26 @@ class Balance:
         return RigidMotion(self._full(steps[0]), self._full(steps[1]), still, 0.0, works)
 
     def works(self, leading: Array, remainder: Array) -> Array:
-        """Rates of work of unknowns (times, J) per unit |alpha|, (times, 3), load times speed.
+        """Rates of work of unknowns (times, J) per unit |alpha| and load at rest, (times, 3), speeds.
 
         Of friction p_0, p_1 in p_0 + alpha p_1 = int (1 + alpha e) f(w) . w dA, p_0 that of the motion
-        of first order under the load 1; and the rate at which the load rises, int w_y dA.
+        of first order under the load 1; and, on a slope, that at which the load rises, int w_y dA.
+        At points at rest the integrand has a kink and no more: cells are not halved towards them.
         """
-        law, alpha, second = self._law, self._alpha, self._has_second
+        law, alpha, values = self._law, self._alpha, self._values
+        w = self._moved(values, leading)
+        first = law.dissipation(w)
+        rates = [first, np.zeros(()), w[1] if self._slope else np.zeros(())]
+        if self._has_second:
+            after = law.dissipation(w + alpha * self._change(values, leading, remainder))
+            rates[1] = ((1 + alpha * values[_RATE]) * after - first) / alpha
+        weights = gauss(values.shape[-1]).weights
+        area = values[_AREA] * np.multiply.outer(weights, weights)
+        rest = self._rest or self._units.area * float(area[0].sum())
+        sums = np.stack([np.sum(area * rate, axis=(1, 2, 3)) for rate in rates], axis=1)
+        return sums * (self._units.area * self._units.speed / rest)
 
-        def later(values: Array, owners: Integers, w: Array) -> Array:
-            return w + alpha * self._change(values, leading[owners], remainder[owners])
-
-        def integrand(values: Array, owners: Integers) -> Array:
-            w = self._moved(values, leading[owners])
-            first = law.dissipation(w)
-            more = np.zeros_like(first)
-            if second:
-                after = law.dissipation(later(values, owners, w))
-                more = ((1 + alpha * values[_RATE]) * after - first) / alpha
-            return values[_AREA] * np.stack([first, more, w[1]])
-
-        def motion(values: Array, owners: Integers) -> list[Array]:
-            w = self._moved(values, leading[owners])
-            return [w, later(values, owners, w)] if second and abs(alpha) > _LINEAR else [w]
-
-        halvings = min(_WORK_HALVINGS, self._stages[-1][0])
-        sums = self._sums(np.arange(len(leading)), integrand, motion, halvings)
-        return sums.T * (self._units.area * self._units.speed)
-
-    @property
+    @cached_property
     def _has_second(self) -> bool:
         """Whether anything is of second order: loads, velocities, displacements."""
         return any(np.any(self._values[i]) for i in (_RATE, self._second, self._shift))
@@ -292,11 +284,6 @@ class Balance:
         self, times: Integers, integrand: Integrand, motion: Velocities, halvings: int
     ) -> tuple[Array, Array]:
         """Gradients (times, J) and Hessians (times, J, J); motion: the velocities that matter."""
-        sums, unknowns = self._sums(times, integrand, motion, halvings), len(self._modes)
-        return sums[:unknowns].T, sums[unknowns:].T.reshape(times.size, unknowns, unknowns)
-
-    def _sums(self, times: Integers, integrand: Integrand, motion: Velocities, halvings: int) -> Array:
-        """Integrals of the functions of an integrand, (functions, times)."""
         values = self._values[:, times]
         channels, count, cells, n, _ = values.shape
         owners = np.repeat(np.arange(count), cells)
@@ -308,7 +295,9 @@ class Balance:
 
         flat = values.reshape(channels, count * cells, n, n)
         cells_now = graded(flat, owners, roughness, halvings)
-        return cells_now.integrals(integrand(cells_now.values, cells_now.owners))
+        sums = cells_now.integrals(integrand(cells_now.values, cells_now.owners))
+        unknowns = len(self._modes)
+        return sums[:unknowns].T, sums[unknowns:].T.reshape(count, unknowns, unknowns)
 
     def _moved(self, values: Array, q: Array, at: Array | None = None) -> Array:
         """Velocity against the ground, (2, ...), of points that move with values[:2]; q (..., J)."""

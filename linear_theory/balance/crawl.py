@@ -14,7 +14,6 @@ from linear_theory.common.progress import track
 from linear_theory.deformation.field import LinearField
 from linear_theory.friction.contact import Contact
 from linear_theory.friction.load import Load
-from linear_theory.motion.cells import gauss
 from linear_theory.motion.motion import CellGrid, Motion
 from linear_theory.motion.rigid import RigidNorm
 from linear_theory.wave.protocol import Drive
@@ -120,7 +119,7 @@ class Crawl:
             np.concatenate(remainder),
             np.concatenate(rest),
             max(fastest),
-            np.concatenate(works) / self._weight,
+            np.concatenate(works),
         )
 
     @property
@@ -140,13 +139,6 @@ class Crawl:
     def reaches(self, count: float) -> bool:
         """Whether a number of times is within the work limit."""
         return count <= min(MOST_TIMES, MOST_WORK / self.work)
-
-    @cached_property
-    def _weight(self) -> float:
-        """Undeformed area that the balance integrates over, the load at rest."""
-        area = self._motion(np.zeros(1)).area
-        weights = gauss(area.shape[-1]).weights
-        return float((area @ weights @ weights).sum())
 
     @property
     def speed_per_rate(self) -> float:
@@ -174,7 +166,7 @@ class Crawl:
         orders = abs(np.stack([step.leading, step.remainder])).max(1)
         if self.starts_at_second_order:
             orders[0] = 0.0
-        works = step.works[:, :2] / finer._weight - motion.works[some, :2]
+        works = step.works[:, :2] - motion.works[some, :2]
         return CellErrors(abs(self.counted(step)).max(1), orders, abs(works).max(0))
 
     def field_error(self, motion: RigidMotion) -> float:

@@ -35,7 +35,8 @@ def travelling_power(body: Body, level: float, unit: float, law: FrictionLaw) ->
 
     body: with a node of its profile where a dry element is at rest; unit: alpha/(nT).
     """
-    full, half = (_power(body, level, unit, law, finer) for finer in (0.5, 1.0))
+    full = _power(body, level, unit, law, 0.5)
+    half = _power(body, level, unit, law, 1.0) if 0 < law.width < math.inf else full
     return Estimate(full, abs(full - half) + ROUNDING * full)
 
 

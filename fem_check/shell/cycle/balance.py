@@ -6,7 +6,6 @@ taken over half a period.
 """
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import NamedTuple
@@ -169,7 +168,7 @@ class CycleBalance:
             np.concatenate(remainder).reshape(*shape, 3),
             np.concatenate(rest).reshape(shape),
             max(fastest),
-            self._over_weight(works).reshape(*shape, 3),
+            np.concatenate(works).reshape(*shape, 3),
         )
 
     def step(self, times: Array, leading: Array) -> Change:
@@ -183,7 +182,7 @@ class CycleBalance:
             for i in range(0, times.size, LOT)
         ]
         change = np.concatenate([step.leading for step in steps]).reshape(leading.shape)
-        return Change(change, self._over_weight([s.works for s in steps]).reshape(leading.shape))
+        return Change(change, np.concatenate([s.works for s in steps]).reshape(leading.shape))
 
     def power(self, grid: TimeGrid, works: Array) -> Estimate:
         """Mean power of growth over mu times the weight, from works (2, times, 3) on the grid."""
@@ -192,9 +191,6 @@ class CycleBalance:
     def _powers(self, works: Array) -> Array:
         """Of friction and of raising the load, (2, times)."""
         return np.asarray(works[..., 0] + self.contact.slope * works[..., 2])
-
-    def _over_weight(self, works: Sequence[Array]) -> Array:
-        return np.asarray(np.concatenate(works) / self._motion.weight)
 
     def mean(self, grid: TimeGrid, leading: Array) -> Array:
         """Mean V_x, V_y, Omega (3,) of motions (2, times, 3) on the grid and half a period later."""
@@ -253,7 +249,8 @@ class CycleBalance:
 
     def _balance(self, times: Array) -> Balance:
         motion, law, slope = self._motion.at(times), self.contact.friction, self.contact.slope
-        return Balance(motion, motion.dilation, 1.0, law, self.halvings, self.tolerance, slope)
+        rest = self._motion.weight
+        return Balance(motion, motion.dilation, 1.0, law, self.halvings, self.tolerance, slope, rest)
 
 
 def _mirrored(shapes: Shapes, contact: Contact) -> bool:
