@@ -47,8 +47,7 @@ def travelling_balance(
     body, scale = Body.of(wave, alpha, growth), wave.count * wave.period
     unit, sign = body.size / scale, -1.0 if alpha < 0 else 1.0
     level, rests, still = _level(body, _width(law, abs(unit)))
-    moving = body if still is None else replace(body, profile=body.profile.anchored(still))
-    power = travelling_power(moving, level.value, unit, law)
+    power = travelling_power(body, level.value, still, unit, law)
     small = replace(body, growth=growth, size=0.0)
     first, second = _coefficients(small, sign * wave.mean, law)
     return LineMotion(

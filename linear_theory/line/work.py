@@ -30,18 +30,13 @@ POINTS = 4
 """Gauss points on a cell on which the velocity is linear; with dry friction integrals are exact."""
 
 
-def travelling_power(body: Body, level: float, unit: float, law: FrictionLaw) -> Estimate:
+def travelling_power(
+    body: Body, level: float, still: float | None, unit: float, law: FrictionLaw
+) -> Estimate:
     """Power of a travelling wave, whose elements move with unit (level - z + mean z).
 
-    body: with a node of its profile where a dry element is at rest; unit: alpha/(nT).
+    still: g where a dry element is at rest, None for other laws; unit: alpha/(nT).
     """
-    full = _power(body, level, unit, law, 0.5)
-    half = _power(body, level, unit, law, 1.0) if 0 < law.width < math.inf else full
-    return Estimate(full, abs(full - half) + ROUNDING * full)
-
-
-def _power(body: Body, level: float, unit: float, law: FrictionLaw, finer: float) -> float:
-    at_rest = float(body.growth.law.stretch(np.asarray(body.growth.start))) ** body.growth.power
 
     def velocity(g: Array) -> Array:
         return unit * (level + body.mean_height - body.height(g))
@@ -49,10 +44,18 @@ def _power(body: Body, level: float, unit: float, law: FrictionLaw, finer: float
     def density(g: Array) -> Array:
         return (1 + body.gain(g)) * law.dissipation(velocity(g)[None])
 
-    if law.width == 0 or math.isinf(law.width):
-        return at_rest * body.profile.mean(density)
-    measure, g = quadrature(body.profile, lambda g: velocity(g)[None] / law.width, finer)
-    return at_rest * float(measure @ density(g))
+    at_rest = float(body.growth.law.stretch(np.asarray(body.growth.start))) ** body.growth.power
+    if still is not None:
+        full = half = body.profile.mean_with_kink(density, still)
+    elif math.isinf(law.width):
+        full = half = body.profile.mean(density)
+    else:
+        shares = (
+            quadrature(body.profile, lambda g: velocity(g)[None] / law.width, widest)
+            for widest in (0.5, 1.0)
+        )
+        full, half = (float(measure @ density(g)) for measure, g in shares)
+    return Estimate(at_rest * full, at_rest * (abs(full - half) + ROUNDING * full))
 
 
 def sampled_power(slip: Array, weight: Array, law: FrictionLaw) -> Array:
