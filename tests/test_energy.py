@@ -139,7 +139,7 @@ def test_theory_is_the_mean_of_the_weight_times_speed(wave, load, law):
         v = alpha * field.velocity(x, y, t) + np.array([0.0, found.velocity[i]])[:, None, None]
         size = np.hypot(*v)
         exact = np.mean((1 + alpha * rates[load](t)) * (size if law == Coulomb() else size**2))
-        assert found.energy.spent[i] == pytest.approx(exact, rel=2e-4)
+        assert found.energy.spent[i] == pytest.approx(exact, rel=1e-3)  # at one time
 
 
 @cache
