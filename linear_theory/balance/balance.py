@@ -30,7 +30,7 @@ from linear_theory.balance.newton import damped_newton, guarded_newton
 from linear_theory.common.units import power_of_two
 from linear_theory.friction.isotropic import norm
 from linear_theory.friction.law import ALL, FrictionLaw
-from linear_theory.motion.cells import Integers, gauss, graded
+from linear_theory.motion.cells import Graded, Integers, gauss, graded
 from linear_theory.motion.motion import Motion
 
 Array = NDArray[np.float64]
@@ -110,7 +110,8 @@ class Balance:
     coupling, not 0; law: for speeds per unit |alpha|; halvings: how often a cell is halved towards
     points at rest; tolerance: of q, relative to the root mean square of v^. slope: tan(incline)/mu of
     ground that rises towards +y, in (-1, 1), for loads that are not expanded in alpha (rate = 0). rest:
-    load of the undeformed sheet, for such loads; by default the area.
+    load of the undeformed sheet, for such loads; by default the area. work_halvings: of cells,
+    for works.
     """
 
     def __init__(
@@ -123,8 +124,9 @@ class Balance:
         tolerance: float = 1e-10,
         slope: float = 0.0,
         rest: float | None = None,
+        work_halvings: int = 0,
     ) -> None:
-        self._rest = rest
+        self._rest, self._work_halvings = rest, work_halvings
         units = self._units = Units.of(motion)
         self._alpha, self._law, self._slope = alpha, law.scaled(units.speed), slope
         self._modes = _ALONG if motion.mirrored else _ALL
@@ -178,20 +180,39 @@ class Balance:
 
         Of friction p_0, p_1 in p_0 + alpha p_1 = int (1 + alpha e) f(w) . w dA, p_0 that of the motion
         of first order under the load 1; and, on a slope, that at which the load rises, int w_y dA.
-        At points at rest the integrand has a kink and no more: cells are not halved towards them.
+        At points at rest the integrand has a kink and no more: few halvings will do, or none.
         """
-        law, alpha, values = self._law, self._alpha, self._values
-        w = self._moved(values, leading)
+        law, alpha, found = self._law, self._alpha, self._work_cells(leading)
+        values, q = found.values, leading[found.owners]
+        w = self._moved(values, q)
         first = law.dissipation(w)
-        rates = [first, np.zeros(()), w[1] if self._slope else np.zeros(())]
+        more, lift = np.zeros_like(first), w[1] if self._slope else np.zeros_like(first)
         if self._has_second:
-            after = law.dissipation(w + alpha * self._change(values, leading, remainder))
-            rates[1] = ((1 + alpha * values[_RATE]) * after - first) / alpha
-        weights = gauss(values.shape[-1]).weights
-        area = values[_AREA] * np.multiply.outer(weights, weights)
-        rest = self._rest or self._units.area * float(area[0].sum())
-        sums = np.stack([np.sum(area * rate, axis=(1, 2, 3)) for rate in rates], axis=1)
-        return sums * (self._units.area * self._units.speed / rest)
+            after = law.dissipation(w + alpha * self._change(values, q, remainder[found.owners]))
+            more = ((1 + alpha * values[_RATE]) * after - first) / alpha
+        sums = found.integrals(values[_AREA] * np.stack([first, more, lift])).T
+        rest = self._rest or self._units.area * self._area()
+        return np.asarray(sums * (self._units.area * self._units.speed / rest))
+
+    def _work_cells(self, leading: Array) -> Graded:
+        """Cells of all times, halved a few times towards points at rest if so asked."""
+        channels, count, cells, n, _ = self._values.shape
+        flat = self._values.reshape(channels, count * cells, n, n)
+        owners = np.repeat(np.arange(count), cells)
+        if not self._work_halvings:
+            return Graded(flat, owners, np.ones(owners.size))
+        corners = np.array([0, n // 2, n - 1])
+
+        def roughness(values: Array, owners: Integers) -> tuple[NDArray[np.bool_], Integers]:
+            sample = values[:, :, corners[:, None], corners]
+            return self._roughness(self._moved(sample, leading[owners])[None])
+
+        return graded(flat, owners, roughness, self._work_halvings)
+
+    def _area(self) -> float:
+        """Of the sheet, in units of areas."""
+        weights = gauss(self._values.shape[-1]).weights
+        return float((self._values[_AREA, 0] @ weights @ weights).sum())
 
     @cached_property
     def _has_second(self) -> bool:

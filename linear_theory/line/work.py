@@ -19,7 +19,7 @@ from linear_theory.common.quadrature import gauss_legendre
 from linear_theory.friction.law import FrictionLaw
 from linear_theory.line.body import Body
 from linear_theory.line.roots import EPS
-from linear_theory.line.tanh_level import quadrature
+from linear_theory.line.tanh_level import NARROWEST, quadrature
 
 Array = NDArray[np.float64]
 
@@ -50,8 +50,9 @@ def travelling_power(
     elif math.isinf(law.width):
         full = half = body.profile.mean(density)
     else:
+        width = max(law.width, NARROWEST * abs(unit) * (body.range[1] - body.range[0]))
         shares = (
-            quadrature(body.profile, lambda g: velocity(g)[None] / law.width, widest)
+            quadrature(body.profile, lambda g: velocity(g)[None] / width, widest)
             for widest in (0.5, 1.0)
         )
         full, half = (float(measure @ density(g)) for measure, g in shares)

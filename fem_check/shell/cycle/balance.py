@@ -47,6 +47,10 @@ TIME_SHARE, HIDDEN = 0.3, 0.1
 harmonics of the wave may alias."""
 
 
+WORK_HALVINGS = 3
+"""Of cells for the power of friction: the elements are larger than the cells of theory."""
+
+
 class PairedPeriod(NamedTuple):
     """Motion over one period from the friction balance, V in length per time.
 
@@ -249,8 +253,9 @@ class CycleBalance:
 
     def _balance(self, times: Array) -> Balance:
         motion, law, slope = self._motion.at(times), self.contact.friction, self.contact.slope
+        resolution = self.halvings, self.tolerance
         rest = self._motion.weight
-        return Balance(motion, motion.dilation, 1.0, law, self.halvings, self.tolerance, slope, rest)
+        return Balance(motion, motion.dilation, 1.0, law, *resolution, slope, rest, WORK_HALVINGS)
 
 
 def _mirrored(shapes: Shapes, contact: Contact) -> bool:
