@@ -2,14 +2,14 @@
 
 Small strain and second order are exact to first and second order in x = |alpha c|, and where
 c(t + T/2) = -c(t) the power is even in alpha; a narrow strip neglects that wide sheets slide sideways,
-too. Relative to the power of the nonlinear sheet the distances r were measured for 68 random sheets,
-waves, growths and laws of friction (`python -m figures.measure.power_error`); the largest were
+too. Relative to the power of the nonlinear sheet the distances r were measured for 40 random sheets,
+waves, growths and laws of friction (`python -m figures.measure.power_error 40 5`); the largest were
 
-    first order   1.06 x, or 2.35 x^2 where c(t + T/2) = -c(t),
-    second order  2.18 x^2,
-    strip         1.07 W n/L, and 0.73 at the most.
+    first order   1.03 x, or 2.35 x^2 where c(t + T/2) = -c(t),
+    second order  2.03 x^2,
+    strip         1.11 W n/L.
 
-The bounds are half as much more, r/(1 - r) of the power by theory.
+The bounds are about half as much more, as r/(1 - r) of the power by theory.
 """
 
 import math
@@ -24,7 +24,7 @@ LARGEST_GROWTH, NARROWEST, WIDEST = 0.35, 0.1, 1.0
 """Range of x and of widths over L within which distances were measured."""
 
 FIRST, FIRST_EVEN, SECOND, STRIP, STRIP_MOST = 1.6, 3.5, 3.3, 1.6, 0.8
-"""Bounds of the coefficients, see the module docstring."""
+"""Bounds of the coefficients, see the module docstring, and of the strip's r."""
 
 
 def power_error(level: str, scene: Scene, power: float) -> float:
