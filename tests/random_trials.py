@@ -20,6 +20,7 @@ from typing import Any
 
 import numpy as np
 
+from fem_check.answer.energy import with_model_errors
 from fem_check.choice.levels import LEVELS, finer
 from fem_check.choice.prediction import predict
 from fem_check.command import main
@@ -99,11 +100,14 @@ def an_alpha(rng: np.random.Generator, largest: float) -> float:
 
 
 def compared(found: CrawlSpeed, better: CrawlSpeed, words: str) -> Outcome:
-    """All three components where there are such."""
+    """All three components where there are such, and the power."""
+    pairs = [(abs(found.power.value - better.power.value), found.power.error + better.power.error)]
     if found.rigid_mean is None or better.rigid_mean is None:
-        return Outcome(words, abs(found.mean - better.mean), found.error + better.error)
-    true = abs(found.rigid_mean - better.rigid_mean)
-    stated = found.rigid_error + better.rigid_error
+        pairs.append((abs(found.mean - better.mean), found.error + better.error))
+    else:
+        differences = abs(found.rigid_mean - better.rigid_mean)
+        pairs += zip(differences, found.rigid_error + better.rigid_error, strict=True)
+    true, stated = np.array(pairs).T
     worst = int(np.argmax(true / np.maximum(stated, 1e-300)))
     return Outcome(words, float(true[worst]), float(stated[worst]))
 
@@ -163,7 +167,7 @@ def prediction(rng: np.random.Generator) -> Outcome:
         better = cycle_speed(finer(scene, 3), rtol=3e-4, atol=3e-5 * alpha**2)
     except REFUSALS as refusal:
         return Outcome(f"{words}: {refusal}")
-    return Outcome(words, abs(found.mean - better.mean), found.error + better.error)
+    return compared(with_model_errors(found.speed), better, words)
 
 
 WORDS: tuple[tuple[str, ...], ...] = (

@@ -410,3 +410,17 @@ def test_half_period_antisymmetry_is_sufficient_but_not_necessary():
 
     assert median(0.0) == pytest.approx(0, abs=1e-4)
     assert abs(median(np.pi / 2)) > 0.1
+
+
+def test_power_of_the_sine_wave():
+    """Mean of (1 + alpha sin) |sin(theta) - sin(phi)| at balance, and its share of V."""
+    power = signed((1 + ALPHA * sp.sin(PHI)) * (Q - sp.sin(PHI))) / (2 * sp.pi)
+    balanced = sp.cos(THETA) * (2 + ALPHA * sp.sin(THETA) - ALPHA**2) / sp.pi
+    for angle in (0.1, 0.4, 0.7):
+        values = {THETA: angle, ALPHA: angle / sp.cos(angle)}  # theta = alpha cos(theta)
+        assert abs(sp.N((power - balanced).subs(values))) < 1e-14
+    # rigid velocities do no work: the power is that of the deformation, -sin(phi), alone
+    force = signed((1 + ALPHA * sp.sin(PHI)) * Q)
+    assert abs(sp.N(force.subs({THETA: 0.4, ALPHA: 0.4 / sp.cos(0.4)}))) < 1e-14
+    small = sp.limit(balanced.subs(THETA, ALPHA), ALPHA, 0)
+    assert small == 2 / sp.pi

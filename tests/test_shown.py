@@ -84,6 +84,11 @@ def turning():
     return linear_theory.crawl_speed(SHEET, wave, alpha=0.25, rtol=5e-2)
 
 
+@cache
+def speed():
+    return linear_theory.crawl_speed(SHEET, SINE, alpha=0.25, rtol=1e-2)
+
+
 def measured():
     y, t = np.linspace(-0.5, 0.5, 12), np.arange(10) / 10
     c = np.sin(2 * np.pi * (y[:, None] - t)) + 0.1 * np.cos(40 * y[:, None] * t)
@@ -251,6 +256,8 @@ MADE = {
     "TravellingWave of many": many_harmonics,
     "Viscous": linear_theory.Viscous,
     "Works": lambda: trajectory().power,
+    "EnergySI": lambda: linear_theory.Scale(0.04, 8.0).energy(speed(), 2e-3, 0.4),
+    "GrowthPower": lambda: speed().growth_power(1e-2),
 }
 """One of each public type and of what their calls return; what follows a space tells variants apart."""
 

@@ -19,7 +19,7 @@ ROOT = Path(__file__).parents[1]
 
 LAYERS = (
     *(f"linear_theory.{part}" for part in ("common", "identity", "sheet", "wave", "growth")),
-    *(f"linear_theory.{part}" for part in ("friction", "motion", "deformation", "scene")),
+    *(f"linear_theory.{part}" for part in ("friction", "motion", "deformation", "energy", "scene")),
     *(f"linear_theory.{part}" for part in ("balance", "speed", "line")),
     "linear_theory",
     *(f"fem_check.{part}" for part in ("version", "scene", "mesh", "plane_stress", "excitable")),

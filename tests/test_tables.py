@@ -59,20 +59,21 @@ def test_speed_over_time():
     assert np.array_equal(frame.index, speed.times)
     assert np.array_equal(labelled["time"], speed.times)
     columns = {"velocity": speed.velocity, "velocity_x": speed.rigid[0], "rotation": speed.rigid[2]}
+    columns["power"] = speed.energy.spent
     assert list(frame.columns) == list(columns)
     for name, values in columns.items():
         assert np.array_equal(frame[name], values)
         assert np.array_equal(labelled[name], values)
     units = {"time": "time", "velocity": "length/time", "velocity_x": "length/time"}
-    assert frame.attrs["units"] == {**units, "rotation": "rad/time"}
+    assert frame.attrs["units"] == {**units, "rotation": "rad/time", "power": "length/time"}
     assert labelled["velocity"].attrs["units"] == "length/time"
     assert "along y" in labelled["velocity"].attrs["long_name"]
     assert frame.attrs["mean"] == labelled.attrs["mean"] == speed.mean
 
 
-def test_speed_of_mirrored_motion_has_one_column():
+def test_speed_of_mirrored_motion_has_one_velocity():
     frame = crawl_speed(Sheet(), SineWave(), alpha=0.1, rtol=1e-2).to_dataframe()
-    assert list(frame.columns) == ["velocity"]
+    assert list(frame.columns) == ["velocity", "power"]
     assert frame.index.name == "time"
 
 

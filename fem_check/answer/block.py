@@ -1,4 +1,4 @@
-"""A speed on the screen: the question, speed and direction, accuracy, assumptions and cost.
+"""A speed on the screen: the question, speed and direction, accuracy, energy, assumptions and cost.
 
 The command prints this block, and so does `print` of a `Prediction` in Python.
 """
@@ -9,6 +9,7 @@ import textwrap
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
+from fem_check.answer.energy import energy
 from fem_check.answer.growth import extremes
 from fem_check.answer.motion import heading, per_period, sideways_and_turning
 from fem_check.answer.rounding import measured, plain, rounded_up
@@ -114,6 +115,7 @@ def _answer(found: "Prediction", units: Units) -> Iterator[Line]:
     if not found.speed.beyond_reach and (missed := _missed(found, units)):
         yield "NOT MET", missed
     yield "accuracy", _accuracy(found, units)
+    yield "energy", energy(found)
 
 
 def _missed(found: "Prediction", units: Units) -> str:

@@ -3,6 +3,7 @@
 import math
 from typing import TYPE_CHECKING, Any
 
+from fem_check.answer.energy import energy
 from fem_check.answer.units import Units
 from linear_theory.common.shown import flat
 
@@ -13,8 +14,9 @@ if TYPE_CHECKING:
 def record(found: "Prediction", units: Units | None) -> dict[str, Any]:
     """The answer for programs, in the units of the question; what is unknown is None.
 
-    error: as the block says it; not_in_error: its parts that were not estimated, in words. tolerance:
-    None where none was asked for.
+    error: as the block says it; not_in_error: its parts that were not estimated, in words. energy: in
+    words, since an infinite cost of transport is None among the numbers. tolerance: None where none was
+    asked for.
     """
     asked = found.tolerance
     return {
@@ -27,6 +29,7 @@ def record(found: "Prediction", units: Units | None) -> dict[str, Any]:
         "caution": found.caution,
         "not_in_error": list(found.not_in_error),
         "regime": found.regime,
+        "energy": energy(found),
         "level": found.level,
         "reason": found.reason,
         "model": found.speed.model,
@@ -61,5 +64,6 @@ def numbers_of(found: "Prediction") -> dict[str, float | None]:
         "wave_error": speed.wave_error,
         "model_error": speed.model_error,
         "slip_ratio": speed.slip_ratio,
+        **speed.energies(),
     }
     return {name: float(value) if math.isfinite(value) else None for name, value in numbers.items()}

@@ -24,6 +24,7 @@ from linear_theory.line.balance import line_crawl
 from linear_theory.scene.scene import Scene
 from linear_theory.speed.crawl import drawn_deformation, theory_speed
 from linear_theory.speed.model_error import model_error
+from linear_theory.speed.power_error import with_power_error
 from linear_theory.speed.result import CrawlSpeed
 from linear_theory.speed.wave_error import with_wave_error
 
@@ -44,6 +45,7 @@ def strip(scene: Scene, tolerance: Tolerance) -> CrawlSpeed:
     if scene.drive.depends_on_x:
         raise ValueError("method = 'strip': must be 'cycle' for a wave that depends on x")
     found, distance = line_crawl(scene, tolerance, "strip"), model_error("strip", scene)
+    found = with_power_error(found, "strip", scene)
     return replace(found, model_error=distance, deformation=drawn_deformation(scene))
 
 

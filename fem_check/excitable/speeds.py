@@ -205,7 +205,7 @@ def _on_sheet(scene: Scene, rtol: float) -> Velocities:
         known = RitzField(field.drive, field.solver, Snapshots(field.drive, times))
         crawl = Crawl(known, scene.alpha, scene.contact, first_resolution(rtol))
         motion = crawl.balance(times)
-        errors, _ = crawl.quadrature_errors(times, motion)
+        errors = crawl.quadrature_errors(times, motion).counted
         found = crawl.counted(motion)[1]
         return found, float(errors[1]) * float(np.mean(abs(found)) / max(abs(found).max(), 1e-300))
 

@@ -92,6 +92,7 @@ def _attributes(recording: Recording) -> dict[str, Any]:
         "seconds": speed.seconds,
         "slip_ratio": speed.slip_ratio,
         "regime": speed.regime,
+        **speed.energies(),
         "model": speed.model,
         "words": recording.words,
         "period": recording.period,

@@ -20,7 +20,7 @@ and time.
 """
 
 from collections.abc import Callable, Sequence
-from functools import partial
+from functools import cached_property, partial
 from typing import NamedTuple
 
 import numpy as np
@@ -30,7 +30,7 @@ from linear_theory.balance.newton import damped_newton, guarded_newton
 from linear_theory.common.units import power_of_two
 from linear_theory.friction.isotropic import norm
 from linear_theory.friction.law import ALL, FrictionLaw
-from linear_theory.motion.cells import Integers, graded
+from linear_theory.motion.cells import Graded, Integers, gauss, graded
 from linear_theory.motion.motion import Motion
 
 Array = NDArray[np.float64]
@@ -53,17 +53,22 @@ _ALONG = (1,)  # rigid velocities of a mirror-symmetric motion; 0, 1 translation
 _ALL = (0, 1, 2)
 
 
+NO_WORKS = np.zeros((0, 3))
+
+
 class RigidMotion(NamedTuple):
     """q = leading + alpha remainder per unit alpha, (times, 3) each: V_x, V_y, Omega.
 
     rest: (times,), the share of the points that move slower than 1e-6 of the mean speed;
-    fastest: the largest speed against the ground, per unit alpha.
+    fastest: the largest speed against the ground, per unit alpha; works: (times, 3), rates of work per
+    unit |alpha|, see `Balance.works`.
     """
 
     leading: Array
     remainder: Array
     rest: Array
     fastest: float
+    works: Array = NO_WORKS
 
     def joined(self, more: "RigidMotion", added: NDArray[np.bool_]) -> "RigidMotion":
         """Motions merged in time order: `more` at the times `added`; times are the last axis of
@@ -72,11 +77,11 @@ class RigidMotion(NamedTuple):
         order = np.empty(added.size, int)
         order[~added] = np.arange(known)
         order[added] = known + np.arange(more.rest.shape[-1])
-        leading, remainder, rest = (
+        leading, remainder, rest, works = (
             np.take(np.concatenate([a, b], axis), order, axis)
-            for a, b in zip(self[:3], more[:3], strict=True)
+            for a, b in zip((*self[:3], self.works), (*more[:3], more.works), strict=True)
         )
-        return RigidMotion(leading, remainder, rest, max(self.fastest, more.fastest))
+        return RigidMotion(leading, remainder, rest, max(self.fastest, more.fastest), works)
 
 
 class Units(NamedTuple):
@@ -104,7 +109,9 @@ class Balance:
     motion: velocities per unit alpha at T times; rate: e of the load, (T, cells, n, n); alpha: growth
     coupling, not 0; law: for speeds per unit |alpha|; halvings: how often a cell is halved towards
     points at rest; tolerance: of q, relative to the root mean square of v^. slope: tan(incline)/mu of
-    ground that rises towards +y, in (-1, 1), for loads that are not expanded in alpha (rate = 0).
+    ground that rises towards +y, in (-1, 1), for loads that are not expanded in alpha (rate = 0). rest:
+    load of the undeformed sheet, for such loads; by default the area. work_halvings: of cells,
+    for works.
     """
 
     def __init__(
@@ -116,7 +123,10 @@ class Balance:
         halvings: int = 30,
         tolerance: float = 1e-10,
         slope: float = 0.0,
+        rest: float | None = None,
+        work_halvings: int = 0,
     ) -> None:
+        self._rest, self._work_halvings = rest, work_halvings
         units = self._units = Units.of(motion)
         self._alpha, self._law, self._slope = alpha, law.scaled(units.speed), slope
         self._modes = _ALONG if motion.mirrored else _ALL
@@ -147,9 +157,7 @@ class Balance:
         first, second = starts
         leading = self._zero(self._leading, np.zeros((1, 1)), 1.0, first)
         remainder = np.zeros_like(leading)
-        if any(
-            np.any(self._values[i]) for i in (_RATE, self._second, self._shift)
-        ):  # else nothing remains
+        if self._has_second:  # else nothing remains
             remainder = self._remaining(leading, second)
         change = self._change(self._values, leading, remainder)
         speed = norm(self._moved(self._values, leading) + self._alpha * change)
@@ -157,13 +165,59 @@ class Balance:
         still = ~np.any(self._values[_VELOCITY], axis=(0, 2, 3, 4))
         rest[still] = 0.0  # all is at rest, no part of it sticks
         fastest = 0.0 if still.all() and not self._slope else self._units.speed * float(speed.max())
-        return RigidMotion(self._full(leading), self._full(remainder), rest, fastest)
+        works = self.works(leading, remainder)
+        return RigidMotion(self._full(leading), self._full(remainder), rest, fastest, works)
 
     def correction(self, leading: Array, remainder: Array) -> RigidMotion:
-        """One Newton step from a motion (times, 3) that was found with other cells."""
+        """One Newton step from a motion (times, 3) that was found with other cells, and its works."""
         first, second = self._unknowns(leading), self._unknowns(remainder)
         steps = self._step(self._leading, first), self._step(partial(self._remainder, first), second)
-        return RigidMotion(self._full(steps[0]), self._full(steps[1]), np.zeros(len(leading)), 0.0)
+        still, works = np.zeros(len(leading)), self.works(first, second)
+        return RigidMotion(self._full(steps[0]), self._full(steps[1]), still, 0.0, works)
+
+    def works(self, leading: Array, remainder: Array) -> Array:
+        """Rates of work of unknowns (times, J) per unit |alpha| and load at rest, (times, 3), speeds.
+
+        Of friction p_0, p_1 in p_0 + alpha p_1 = int (1 + alpha e) f(w) . w dA, p_0 that of the motion
+        of first order under the load 1; and, on a slope, that at which the load rises, int w_y dA.
+        At points at rest the integrand has a kink and no more: few halvings will do, or none.
+        """
+        law, alpha, found = self._law, self._alpha, self._work_cells(leading)
+        values, q = found.values, leading[found.owners]
+        w = self._moved(values, q)
+        first = law.dissipation(w)
+        more, lift = np.zeros_like(first), w[1] if self._slope else np.zeros_like(first)
+        if self._has_second:
+            after = law.dissipation(w + alpha * self._change(values, q, remainder[found.owners]))
+            more = ((1 + alpha * values[_RATE]) * after - first) / alpha
+        sums = found.integrals(values[_AREA] * np.stack([first, more, lift])).T
+        rest = self._rest or self._units.area * self._area()
+        return np.asarray(sums * (self._units.area * self._units.speed / rest))
+
+    def _work_cells(self, leading: Array) -> Graded:
+        """Cells of all times, halved a few times towards points at rest if so asked."""
+        channels, count, cells, n, _ = self._values.shape
+        flat = self._values.reshape(channels, count * cells, n, n)
+        owners = np.repeat(np.arange(count), cells)
+        if not self._work_halvings:
+            return Graded(flat, owners, np.ones(owners.size))
+        corners = np.array([0, n // 2, n - 1])
+
+        def roughness(values: Array, owners: Integers) -> tuple[NDArray[np.bool_], Integers]:
+            sample = values[:, :, corners[:, None], corners]
+            return self._roughness(self._moved(sample, leading[owners])[None])
+
+        return graded(flat, owners, roughness, self._work_halvings)
+
+    def _area(self) -> float:
+        """Of the sheet, in units of areas."""
+        weights = gauss(self._values.shape[-1]).weights
+        return float((self._values[_AREA, 0] @ weights @ weights).sum())
+
+    @cached_property
+    def _has_second(self) -> bool:
+        """Whether anything is of second order: loads, velocities, displacements."""
+        return any(np.any(self._values[i]) for i in (_RATE, self._second, self._shift))
 
     def _remaining(self, leading: Array, start: Array | None) -> Array:
         """q_1, (times, unknowns)."""

@@ -66,6 +66,15 @@ class Course:
             means[0] = errors[0] = 0.0
         return means, errors
 
+    def works(self) -> tuple[Array, Array]:
+        """Means of the rates of work p_0 and p_1 (see `Balance.works`), (2,), and their errors."""
+        rates = self.motion.works[:, :2].T
+        means, errors = self.grid.means(rates)
+        if self.checks is not None:
+            return means, np.maximum(errors, self._off(rates, self.checks.works[:, :2].T))
+        drive = self.crawl.drive
+        return means, errors + drive.hidden(self.grid.longest_step) * drive.speed_per_rate(1.0, True)
+
     def improved(self, tolerance: float) -> tuple["Course", TimeGrid | None]:
         """This course, with checks where needed, and the finer grid that the tolerance requires.
 

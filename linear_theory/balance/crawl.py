@@ -44,6 +44,14 @@ class Known(NamedTuple):
         return RigidMotion(leading, remainder, np.zeros(times.size), 0.0)
 
 
+class CellErrors(NamedTuple):
+    """Errors from cells: of the counted motion (3,), of q_0, q_1 (2, 3) and of works p_0, p_1 (2,)."""
+
+    counted: Array
+    orders: Array
+    works: Array
+
+
 @dataclass(frozen=True)
 class Resolution:
     """Cells per wave, Gauss points per cell and direction, halvings, tolerance of q."""
@@ -105,9 +113,13 @@ class Crawl:
         for i in track("friction balance over the period", range(0, times.size, size)):
             some = times[i : i + size]
             batches.append(self._balance(some).solve(known and known.between(some)))
-        leading, remainder, rest, fastest = zip(*batches, strict=True)
+        leading, remainder, rest, fastest, works = zip(*batches, strict=True)
         return RigidMotion(
-            np.concatenate(leading), np.concatenate(remainder), np.concatenate(rest), max(fastest)
+            np.concatenate(leading),
+            np.concatenate(remainder),
+            np.concatenate(rest),
+            max(fastest),
+            np.concatenate(works),
         )
 
     @property
@@ -143,10 +155,10 @@ class Crawl:
         second = self.alpha**2 * motion.remainder.T
         return self.alpha * motion.leading.T + second if self.counts_leading else second
 
-    def quadrature_errors(self, times: Array, motion: RigidMotion) -> tuple[Array, Array]:
-        """Largest change of the counted motion (3,) and of q_0, q_1 (2, 3) on finer cells.
+    def quadrature_errors(self, times: Array, motion: RigidMotion) -> "CellErrors":
+        """What finer cells change, at the most of three times.
 
-        From one Newton step at three times; 0 for a q_0 without a mean.
+        From one Newton step; 0 for a q_0 without a mean.
         """
         some = np.unique((np.array([0.07, 0.41, 0.77]) * times.size).astype(int))
         finer = replace(self, resolution=self.resolution.finer())
@@ -154,7 +166,8 @@ class Crawl:
         orders = abs(np.stack([step.leading, step.remainder])).max(1)
         if self.starts_at_second_order:
             orders[0] = 0.0
-        return abs(self.counted(step)).max(1), orders
+        works = step.works[:, :2] - motion.works[some, :2]
+        return CellErrors(abs(self.counted(step)).max(1), orders, abs(works).max(0))
 
     def field_error(self, motion: RigidMotion) -> float:
         """Error of V_x, V_y and g Omega each (see `RigidNorm`) due to the error of the deformation.
@@ -166,6 +179,15 @@ class Crawl:
         speed = self.field.error * abs(self.alpha) * motion.fastest
         by_load = 0.0 if self.contact.load is Load.MATERIAL else 0.4 * abs(self.alpha)
         return speed * (by_load + (0.0 if self.starts_at_second_order else 0.02))
+
+    def work_errors(self, motion: RigidMotion) -> Array:
+        """Errors of p_0 and p_1 (see `Balance.works`) due to that of the deformation, (2,).
+
+        That of velocities; friction is balanced, so that what follows of V does no work. The load has
+        the error of the strain, which is larger: twice is assumed.
+        """
+        speed = self.field.error * motion.fastest
+        return np.array([speed, 0.0 if self.contact.load is Load.MATERIAL else 2 * speed])
 
     def _motion(self, times: Array) -> Motion:
         field, r = self.field, self.resolution

@@ -9,13 +9,31 @@ from numpy.typing import NDArray
 from linear_theory.balance import crawl as limits
 from linear_theory.balance.balance import RigidMotion
 from linear_theory.balance.course import Course
-from linear_theory.balance.crawl import Crawl, Known
+from linear_theory.balance.crawl import CellErrors, Crawl, Known
 from linear_theory.balance.time_grid import TimeGrid, first_grid
+from linear_theory.common.estimate import Estimate
 from linear_theory.common.tolerance import Tolerance
 
 Array = NDArray[np.float64]
 
 _STICKING = 0.01  # share of the sheet at rest that counts as sticking
+
+
+class Works(NamedTuple):
+    """Rates of work p_0 and p_1 of friction per unit |alpha| (see `Balance.works`) and load at rest.
+
+    rates (2, T) at the times of a `Period`; means, errors (2,): over the period.
+    """
+
+    rates: Array
+    means: Array
+    errors: Array
+
+    def at(self, alpha: float) -> tuple[Estimate, Array]:
+        """The mean power over mu times the weight, length/time, and its course (T,)."""
+        orders = abs(alpha) * np.array([1.0, alpha])
+        mean = Estimate(float(orders @ self.means), float(abs(orders) @ self.errors))
+        return mean, np.asarray(orders @ self.rates)
 
 
 class Period(NamedTuple):
@@ -25,7 +43,7 @@ class Period(NamedTuple):
     rigid_mean, rigid_error (3,): means of `rigid` and their estimated errors, absolute; means,
     mean_errors (2, 3): means of `orders` and their errors from times and cells;
     fastest: the largest speed relative to the ground; sticks: whether part of the sheet is at rest at
-    some time.
+    some time; works: rates of work of friction.
     """
 
     times: Array
@@ -37,6 +55,7 @@ class Period(NamedTuple):
     mean_errors: Array
     fastest: float
     sticks: bool
+    works: Works
 
     @property
     def mean(self) -> float:
@@ -62,24 +81,25 @@ def average(crawl: Crawl, tolerance: Tolerance) -> Period:
     """
     crawl.drive.check()
     grid = _first_grid(crawl)
-    crawl, motion, (quadrature_error, quadrature_errors) = _with_fine_cells(
-        crawl, grid.times, tolerance
-    )
+    crawl, motion, cells = _with_fine_cells(crawl, grid.times, tolerance)
     course = _with_enough_times(Course(crawl, grid, motion), tolerance)
     grid, motion = course.grid, course.motion
     means, errors = course.means()
+    powers, power_errors = course.works()
     field_error = crawl.norm.each(crawl.field_error(motion))
     times, orders = _whole_period(crawl, grid.times, np.stack([motion.leading.T, motion.remainder.T]))
+    rates = _whole_period(crawl, grid.times, motion.works[:, :2].T)[1]
     return Period(
         times=times,
         orders=orders,
         rigid=crawl.alpha * (orders[0] + crawl.alpha * orders[1]),
         rigid_mean=course.mean,
-        rigid_error=course.error() + quadrature_error + field_error + 1e-13 * abs(course.mean),
+        rigid_error=course.error() + cells.counted + field_error + 1e-13 * abs(course.mean),
         means=means,
-        mean_errors=errors + quadrature_errors,
+        mean_errors=errors + cells.orders,
         fastest=abs(crawl.alpha) * motion.fastest,
         sticks=bool(motion.rest.max() > _STICKING),
+        works=Works(rates, powers, power_errors + cells.works + crawl.work_errors(motion)),
     )
 
 
@@ -99,7 +119,7 @@ def _with_enough_times(course: Course, tolerance: Tolerance) -> Course:
 
 def _with_fine_cells(
     crawl: Crawl, times: Array, tolerance: Tolerance
-) -> tuple[Crawl, RigidMotion, tuple[Array, Array]]:
+) -> tuple[Crawl, RigidMotion, CellErrors]:
     """Refine the cells until they meet their share of the tolerance at the first times."""
     known = None
     for last in (False, False, True):
@@ -107,7 +127,7 @@ def _with_fine_cells(
         errors = crawl.quadrature_errors(times, motion)
         goal = 0.3 * crawl.norm.allowed(crawl.counted(motion).mean(1), tolerance)
         finer = replace(crawl, resolution=crawl.resolution.finer())
-        if last or crawl.norm.size(errors[0]) <= goal or not finer.affords(times):
+        if last or crawl.norm.size(errors.counted) <= goal or not finer.affords(times):
             break
         crawl, known = finer, Known(times, motion)
     return crawl, motion, errors

@@ -91,6 +91,11 @@ class Isotropic(FrictionLaw):
         """See FrictionLaw."""
         return self.at(v).tangent
 
+    def dissipation(self, v: Array) -> Array:
+        """See FrictionLaw: f(r) r, a third of the work of force times velocity."""
+        r = norm(v)
+        return self.size(r) * r
+
     def force_difference(self, v: Array, change: Array, step: float) -> Array:
         """See FrictionLaw; of dry friction for velocities that are not 0."""
         return self.at(v).moved(change, step)[1]

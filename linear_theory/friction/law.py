@@ -117,6 +117,17 @@ class FrictionLaw(Value, ABC):
     def speed_at(self, share: float) -> float:
         """Speed along y at which the force is that share of mu N, in (0, 1) for a law with a limit."""
 
+    def dissipation(self, v: Array) -> Array:
+        """Power of friction, force times velocity, (...), length per time.
+
+        >>> import numpy as np
+        >>> from linear_theory import Coulomb, Viscous
+        >>> v = np.array([[0.3], [0.4]])
+        >>> print(Coulomb().dissipation(v), Viscous(speed=2.0).dissipation(v))
+        [0.5] [0.125]
+        """
+        return np.asarray((self.force(v) * v).sum(0))
+
     def at(self, v: Array, kept: slice = ALL) -> "Response":
         """The law at given velocities; kept: the components of forces that are asked for."""
         return Response(self, v, kept)

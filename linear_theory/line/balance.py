@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from linear_theory.common import validation
 from linear_theory.common.threads import one_blas_thread
 from linear_theory.common.tolerance import Tolerance
+from linear_theory.energy.energy import Energy
 from linear_theory.friction.contact import Contact
 from linear_theory.friction.law import FrictionLaw
 from linear_theory.friction.laws import FRICTION_LAWS
@@ -16,7 +17,7 @@ from linear_theory.friction.regime import warn_if_viscous
 from linear_theory.growth.laws import GrowthLaw
 from linear_theory.line.piece import Piece
 from linear_theory.line.result import LineMotion
-from linear_theory.line.samples import coarse_mean, sampled_balance
+from linear_theory.line.samples import coarse_means, sampled_balance
 from linear_theory.line.travelling import travelling_balance
 from linear_theory.motion.rigid import RigidNorm
 from linear_theory.scene.scene import Scene
@@ -123,6 +124,7 @@ def line_crawl(scene: Scene, tolerance: Tolerance, body: str) -> CrawlSpeed:
         first_order=length * answer.first,
         second_order=length * answer.second,
         sticks=answer.sticks and answer.fastest > 0,
+        energy=Energy(Estimate(*(length * v for v in answer.power)), length * answer.friction, law),
         seconds=time.perf_counter() - start,
         model=_words(scene, body),
     )
@@ -140,8 +142,8 @@ def _wave_error(scene: Scene, piece: Piece) -> WaveError | None:
 
     def mean(wave: Wave) -> NDArray[np.float64]:
         on_line = drive(wave, scene.sheet, on_axis(length))
-        found = coarse_mean(on_line, scene.alpha, law, piece, shares * on_line.period)
-        return np.array([0.0, length * found, 0.0])
+        speed, power = coarse_means(on_line, scene.alpha, law, piece, shares * on_line.period)
+        return length * np.array([0.0, speed, 0.0, power])
 
     return wave_error(uncertainty, scene.wave, mean)
 

@@ -72,6 +72,26 @@ def line_speed(alpha: ArrayLike, count: int = 1, period: float = 1.0, form: str 
     return np.asarray(np.ldexp(product + tail, exponent))
 
 
+def line_power(alpha: ArrayLike, count: int = 1, period: float = 1.0) -> Array:
+    """Power of growth of the sine wave with dry friction, over mu times the weight, in closed form.
+
+        P = |alpha/(pi nT)| cos(theta) (2 + |alpha| sin(theta) - alpha^2),   theta = |alpha| cos(theta),
+
+    the mean of (1 + alpha sin(phi)) |V - (alpha/nT) sin(phi)|: over a period the work of friction is
+    that of growth. P/V is the cost of transport over mu, and V/P the efficiency, pi |alpha|/2 for small
+    alpha (see `CrawlSpeed.efficiency`). Arguments and units as for `line_speed`. Raises ValueError as
+    it does.
+
+    >>> from linear_theory import line_power, line_speed
+    >>> print(f"efficiency {line_speed(0.1) / line_power(0.1):.4f}")
+    efficiency 0.1568
+    """
+    alpha, scale = _checked(alpha, count, period)
+    size, (sine, _) = abs(alpha), _kepler_sine(abs(alpha))
+    cosine = np.sqrt((1 - sine) * (1 + sine))
+    return np.asarray(abs(scale) / np.pi * cosine * (2 + size * sine - size**2))
+
+
 def line_speed_viscous(alpha: ArrayLike, count: int = 1, period: float = 1.0) -> Array:
     """Speed of the sine wave with viscous friction on the current length: alpha^2/(2nT), exactly.
 

@@ -33,6 +33,9 @@ TERMS = 15
 """Terms of the Taylor series: the first one neglected is < (2 pi/16)^15/15! = 1e-18 of the highest
 harmonic at the far end of a cell."""
 
+COARSE_TERMS = 9
+"""Terms for an error of 2e-8 of the highest harmonic."""
+
 GAUSS_NODES, GAUSS_WEIGHTS = gauss_legendre(10)
 """Gauss points per cell, on which g is a sixteenth of a wave, stretches vary by MOST_VARIATION and the
 argument of tanh by at most 1 (poles at distance pi/2 or more): errors below 1e-16."""
@@ -141,6 +144,18 @@ class Profile:
         """Mean over the period of a function of g that is smooth on every cell."""
         return float(self.integrals(function).cells.sum())
 
+    def mean_with_kink(self, function: Callable[[Array], Array], level: float) -> float:
+        """Mean over the period of a function of g that is smooth but for a kink at g = level."""
+        _, start, span, low, high = self._cells(above=-math.inf)
+        cut = np.flatnonzero((low < level) & (level < high))
+        series, reach = self.taylor[:, start], span.copy()
+        # An error of the place of the kink counts by its square: fewer terms will do.
+        reach[cut] = _reach(series[:COARSE_TERMS, cut], span[cut], level - low[cut])
+        begin = np.concatenate([np.zeros(span.size), reach[cut]])
+        length = np.concatenate([reach, span[cut] - reach[cut]])
+        arcs = np.concatenate([series, series[:, cut]], axis=1)
+        return float(_integral(arcs, length, function, begin).sum())
+
     def rise(self, base: float, height: float, integrals: Integrals | None = None) -> Rise:
         """The set between the levels base and base + height, height >= 0.
 
@@ -247,9 +262,14 @@ def _derivative(series: Array) -> Array:
     return np.asarray(series[1:] * np.arange(1.0, series.shape[0])[:, None])
 
 
-def _integral(series: Array, distance: Array, function: Callable[[Array], Array]) -> Array:
-    """Integral of function(g) over arcs of a signed length, in fractions of the period."""
-    values = function(polynomial(series, distance / 2 * (1 + GAUSS_NODES[:, None])))
+def _integral(
+    series: Array, distance: Array, function: Callable[[Array], Array], start: Array | float = 0.0
+) -> Array:
+    """Integral of function(g) over arcs of a signed length, in fractions of the period.
+
+    start: signed distance of the arcs from the nodes.
+    """
+    values = function(polynomial(series, start + distance / 2 * (1 + GAUSS_NODES[:, None])))
     return np.asarray(GAUSS_WEIGHTS @ values * abs(distance) / (4 * math.pi))
 
 

@@ -5,6 +5,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from linear_theory.common.estimate import Estimate
+
 Array = NDArray[np.float64]
 
 REST_SPEED = 1e-3
@@ -31,7 +33,8 @@ class Level(NamedTuple):
 class LineMotion(NamedTuple):
     """Speeds of a body in balance: mean and its error, V(t), the largest speed relative to the ground.
 
-    times, velocity: (T,); first, second: coefficients of alpha and alpha^2; sticks: see `CrawlSpeed`.
+    times, velocity: (T,); power: mean power of friction over mu times the weight, friction (T,): its
+    course; first, second: coefficients of alpha and alpha^2; sticks: see `CrawlSpeed`.
     """
 
     mean: float
@@ -42,3 +45,5 @@ class LineMotion(NamedTuple):
     first: float
     second: float
     sticks: bool
+    power: Estimate
+    friction: Array

@@ -24,6 +24,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linear_theory.common import validation
+from linear_theory.common.estimate import Estimate
 from linear_theory.common.tolerance import Tolerance
 from linear_theory.friction.law import FrictionLaw
 from linear_theory.friction.laws import Tanh
@@ -31,6 +32,7 @@ from linear_theory.line.piece import Piece
 from linear_theory.line.result import REST_PART, REST_SPEED, LineMotion
 from linear_theory.line.roots import EPS, bracketed_newton
 from linear_theory.line.tanh_level import NARROWEST, SATURATED
+from linear_theory.line.work import sampled_power
 from linear_theory.wave.protocol import Drive
 
 Array = NDArray[np.float64]
@@ -55,20 +57,22 @@ CLOSE = 0.02
 """Slip speeds between the ends of a cell below which two Gauss points are exact to rounding."""
 
 COARSE_CELLS, COARSE_SHARE = 128, 0.1
-"""Cells of `coarse_mean` at least, and the share of c that they may miss."""
+"""Cells of `coarse_means` at least, and the share of c that they may miss."""
 
 BLOCK = 1 << 16
 """Cells times times held at once: few enough to stay in the cache."""
 
 
 class Snapshot(NamedTuple):
-    """Speed, its coefficients of alpha and alpha^2, largest speed and part at rest, each (times,)."""
+    """Speed, its coefficients of alpha and alpha^2, largest speed, part at rest and power of friction
+    over mu times the weight, each (times,)."""
 
     velocity: Array
     first: Array
     second: Array
     fastest: Array
     rest: Array
+    power: Array
 
 
 def sampled_balance(
@@ -114,16 +118,26 @@ def sampled_balance(
         first=float(fine.first.mean()),
         second=float(fine.second.mean()),
         sticks=law.width == 0 and bool(fine.rest.max() >= REST_PART),
+        power=_mean_power(fine.power, coarse.power, drive.hidden(period / times) * abs(alpha)),
+        friction=fine.power,
     )
 
 
-def coarse_mean(drive: Drive, alpha: float, law: FrictionLaw, growth: Piece, times: Array) -> float:
-    """Mean speed from these times and a number of cells that the wave asks for, without an error.
+def _mean_power(fine: Array, coarse: Array, hidden: float) -> Estimate:
+    """Mean of powers (times,), from its change on half as many cells and times."""
+    mean = float(fine.mean())
+    changes = abs(mean - float(coarse.mean())) + abs(mean - float(fine[::2].mean()))
+    return Estimate(mean, CHANCE * changes + hidden + 16 * EPS * mean)
+
+
+def coarse_means(drive: Drive, alpha: float, law: FrictionLaw, growth: Piece, times: Array) -> Array:
+    """Mean speed and power (2,) from these times and cells that the wave asks for, without errors.
 
     Differences of it between waves that are alike are much better than itself.
     """
     cells = min(max(COARSE_CELLS, _first_cells(drive, COARSE_SHARE)), MOST_CELLS)
-    return float(_snapshots(drive, alpha, law, growth, times, cells).velocity.mean())
+    found = _snapshots(drive, alpha, law, growth, times, cells)
+    return np.array([found.velocity.mean(), found.power.mean()])
 
 
 def speeds_at(
@@ -211,7 +225,8 @@ def _snapshot(
     tolerance = REST_SPEED * np.ptp(slip, axis=1, keepdims=True)
     ends = _Ends.of(slip)
     rest = np.mean(ends.part_below(tolerance) - ends.part_below(-tolerance), axis=1)
-    return Snapshot(velocity, first, second, abs(slip).max(axis=1), rest)
+    power = sampled_power(slip, weight, law)
+    return Snapshot(velocity, first, second, abs(slip).max(axis=1), rest, power)
 
 
 def _on_grid(values: Array, times: Array, y: Array) -> Array:

@@ -66,7 +66,7 @@ def _balance(body: Body, level: float, width: float, finer: float) -> tuple[Arra
         shift = level + body.mean_height - body.bent(g)
         return np.stack([shift - body.straight(g), -body.straight(g), shift]) / width
 
-    measure, g = _quadrature(body.profile, arguments, finer)
+    measure, g = quadrature(body.profile, arguments, finer)
     (x, y, gap), gain = arguments(g)[:, None], body.gain(g)
     symmetric = body.profile.symmetric
     met, moved = UNIT.at(y).moved(gap, 1.0) if symmetric else (UNIT.at(x), None)
@@ -75,7 +75,7 @@ def _balance(body: Body, level: float, width: float, finer: float) -> tuple[Arra
     return np.array(measure @ lacking), np.array((measure * (1 + gain)) @ tangent / width)
 
 
-def _quadrature(
+def quadrature(
     profile: Profile, arguments: Callable[[Array], Array], finer: float
 ) -> tuple[Array, Array]:
     """Weights (of the period) and values of g at Gauss points that resolve tanh of the arguments."""

@@ -31,6 +31,7 @@ from linear_theory.line.piece import Piece
 from linear_theory.line.result import REST_PART, REST_SPEED, Level, LineMotion
 from linear_theory.line.roots import EPS, bracketed_newton
 from linear_theory.line.tanh_level import tanh_level
+from linear_theory.line.work import travelling_power
 from linear_theory.wave.travelling import TravellingWave
 
 Array = NDArray[np.float64]
@@ -45,7 +46,8 @@ def travelling_balance(
     """
     body, scale = Body.of(wave, alpha, growth), wave.count * wave.period
     unit, sign = body.size / scale, -1.0 if alpha < 0 else 1.0
-    level, rests = _level(body, _width(law, abs(unit)))
+    level, rests, still = _level(body, _width(law, abs(unit)))
+    power = travelling_power(body, level.value, still, unit, law)
     small = replace(body, growth=growth, size=0.0)
     first, second = _coefficients(small, sign * wave.mean, law)
     return LineMotion(
@@ -57,6 +59,8 @@ def travelling_balance(
         first=sign * first / scale,
         second=second / scale,
         sticks=rests,
+        power=power,
+        friction=np.full(2, power.value),
     )
 
 
@@ -68,17 +72,17 @@ def _width(law: FrictionLaw, unit: float) -> float:
         return float(np.float64(law.width) / unit)
 
 
-def _level(body: Body, width: float) -> tuple[Level, bool]:
-    """nTV/|alpha|, and whether the body sticks."""
+def _level(body: Body, width: float) -> tuple[Level, bool, float | None]:
+    """nTV/|alpha|, whether the body sticks, and the value of g that is at rest if friction is dry."""
     if width == 0:
         median = _weighted_median(body)
-        return _at_rest(body, median), _sticks(body, median.value)
+        return _at_rest(body, median), _sticks(body, median.value), median.value
     viscous = _viscous_level(body)
     if math.isinf(width):
-        return viscous, False
+        return viscous, False, None
     symmetric = body.profile.symmetric
     guess = viscous if symmetric else _at_rest(body, Level(body.profile.median(), 0.0))
-    return tanh_level(body, width, guess.value), False
+    return tanh_level(body, width, guess.value), False, None
 
 
 def _at_rest(body: Body, median: Level) -> Level:

@@ -17,6 +17,7 @@ from linear_theory.common.tolerance import Tolerance
 from linear_theory.deformation.airy import airy_series
 from linear_theory.deformation.field import LinearField, checked_field
 from linear_theory.deformation.ritz import ritz_field
+from linear_theory.energy.energy import Energy
 from linear_theory.friction.contact import Contact
 from linear_theory.friction.law import FrictionLaw
 from linear_theory.friction.load import Load
@@ -29,6 +30,7 @@ from linear_theory.scene.scene import Scene
 from linear_theory.sheet.rectangle import Sheet
 from linear_theory.speed.drawn import LinearDeformation
 from linear_theory.speed.model_error import LEVELS, model_error
+from linear_theory.speed.power_error import with_power_error
 from linear_theory.speed.reach import judged, too_large_growth, warn_if_beyond
 from linear_theory.speed.result import CrawlSpeed, Estimate, RigidSpeed
 from linear_theory.speed.second_order import second_order_speed
@@ -122,6 +124,7 @@ def theory_speed(
     # Computed again for drawing, so that a speed does not keep a solution and its tables in memory.
     deformation = drawn_deformation(scene, method)
     distance = model_error(LEVELS[order], scene)
+    found = with_power_error(found, LEVELS[order], scene)
     return replace(found, model_error=distance, deformation=deformation)
 
 
@@ -186,7 +189,7 @@ def _field_speed(
     deformation = LinearDeformation(lambda: field, alpha, contact)
     if alpha == 0:
         still = CrawlSpeed.steady(0.0, model, law.slip_ratio(0.0), field.seconds)
-        return replace(still, deformation=deformation)
+        return replace(still, deformation=deformation, energy=Energy.at_rest(law))
     crawl = Crawl(field, alpha, contact, first_resolution(tolerance.rtol))
     period = average(crawl, tolerance)
     turning = RigidSpeed(period.rigid, period.rigid_mean, period.rigid_error)
@@ -202,6 +205,7 @@ def _field_speed(
         first_order=period.first_order,
         sticks=period.sticks,
         turning=None if crawl.mirrored else turning,
+        energy=Energy(*period.works.at(alpha), law),
         deformation=deformation,
     )
     return judged(found, beyond_reach(field, alpha))

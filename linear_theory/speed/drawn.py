@@ -12,12 +12,16 @@ from numpy.typing import NDArray
 
 from linear_theory.common.shown import Shown
 from linear_theory.deformation.field import LinearField
+from linear_theory.energy.stored import Storing, stored_rate
 from linear_theory.friction.contact import Contact
 from linear_theory.friction.law import FrictionLaw
 from linear_theory.wave.protocol import Drive
 
 Array = NDArray[np.float64]
 Integers = NDArray[np.int64]
+
+STORING = 2.0
+"""Relative error of the rate of storing over that of the displacement: of the strain, once more."""
 
 
 class _Touch(NamedTuple):
@@ -64,6 +68,9 @@ class Deformation(Protocol):
 
     def stress(self, points: Array, t: float) -> Array | None:
         """Stress (xx, yy, xy) at the points, (3, n), units of Young's modulus; None if not known."""
+
+    def storing(self, times: Array) -> Storing:
+        """Rate at which energy is stored at times (n,)."""
 
 
 class LinearDeformation(Shown):
@@ -124,3 +131,8 @@ class LinearDeformation(Shown):
     def stress(self, points: Array, t: float) -> Array:
         """See Deformation."""
         return self.alpha * self.field.stress(points[0], points[1], t)
+
+    def storing(self, times: Array) -> Storing:
+        """See Deformation. Of order alpha^2."""
+        rate = self.alpha**2 * stored_rate(self.field, times)
+        return Storing(rate, STORING * self.field.error * float(np.mean(abs(rate))))

@@ -2,14 +2,17 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from linear_theory.common.drawable import Drawable
+from linear_theory.common.estimate import Estimate as Estimate
 from linear_theory.common.shown import Shown, flat, plain, with_error
 from linear_theory.common.tables import SPEED, SPIN, TIME, Column, Tabular
+from linear_theory.energy.energy import Energy
+from linear_theory.energy.growth import GrowthPower, checked_strain, growth_times
 from linear_theory.friction.regime import Regime, regime_of
 
 if TYPE_CHECKING:
@@ -18,19 +21,7 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 
-class _Estimate(NamedTuple):
-    value: float
-    error: float
-
-
-class Estimate(Shown, _Estimate):
-    """A number and its estimated numerical error, absolute.
-
-    >>> from linear_theory import Sheet, SineWave, crawl_speed
-    >>> found = crawl_speed(Sheet(), SineWave(), alpha=0.25, rtol=1e-2).estimate
-    >>> print(f"{found.value:.2f}", found.error < 1e-2 * found.value)
-    0.11 True
-    """
+UNKNOWN = Estimate(np.nan, np.nan)
 
 
 @dataclass(frozen=True, eq=False)
@@ -74,6 +65,8 @@ class CrawlSpeed(Drawable, Tabular):
     beyond_reach: why a theory of small growth is not valid at this alpha (see `reach`), in words; empty
     if it is. Such results are never converged.
     wave_error: the part of error due to a measured wave (see `wave_error`), 0 for an exact one.
+    energy: power of growth and friction, None if not known; `power`, `cost_of_transport` and
+    `efficiency` are made of it.
     deformation: the deformation of the sheet, for pictures (see `drawn.Deformation`); None if there
     is no shape. It is not part of the value and is not copied or pickled.
 
@@ -99,6 +92,7 @@ class CrawlSpeed(Drawable, Tabular):
     turning: RigidSpeed | None = None
     beyond_reach: str = ""
     wave_error: float = 0.0
+    energy: Energy | None = field(default=None, repr=False, compare=False)
     deformation: "Deformation | None" = field(default=None, repr=False, compare=False)
 
     def __getstate__(self) -> dict[str, Any]:
@@ -151,6 +145,68 @@ class CrawlSpeed(Drawable, Tabular):
         return regime_of(self.slip_ratio)
 
     @property
+    def power(self) -> Estimate:
+        """Mean net power of growth over mu times the weight, length/time, see `energy.energy`.
+
+        NaN where it is not known, as are `cost_of_transport` and `efficiency`.
+        """
+        return UNKNOWN if self.energy is None else self.energy.power
+
+    @property
+    def cost_of_transport(self) -> Estimate:
+        """Work of growth over weight times distance, over mu; infinite if the sheet stays in place.
+
+        Distances are along and, without mirror symmetry, across the sheet, in its own axes.
+
+        >>> from linear_theory import Sheet, SineWave, crawl_speed
+        >>> speed = crawl_speed(Sheet(), SineWave(), alpha=0.25)
+        >>> print(f"{speed.cost_of_transport.value:.3f} mu, efficiency {speed.efficiency.value:.3f}")
+        2.017 mu, efficiency 0.496
+        """
+        return UNKNOWN if self.energy is None else self.energy.cost(self._distance)
+
+    @property
+    def efficiency(self) -> Estimate:
+        """Power of dragging the rigid sheet at the same speed over that of growth (Lighthill's)."""
+        if self.energy is None:
+            return UNKNOWN
+        return self.energy.efficiency(self._velocity, self._distance.error)
+
+    def growth_power(self, friction_strain: float) -> GrowthPower:
+        """Power of growth over a period, with that of the elastic energy, and both ways to count it.
+
+        friction_strain: of the sheet by friction, mu (weight per area) L/(E h) > 0, by which friction
+        and elastic energy compare; see `energy.growth`. Raises ValueError for another one, and for a
+        speed without a shape: of a body on a line, or one that was copied.
+
+        >>> from linear_theory import Sheet, SineWave, crawl_speed
+        >>> power = crawl_speed(Sheet(), SineWave(), alpha=0.1).growth_power(friction_strain=1e-4)
+        >>> print(f"{power.positive.value / power.net.value:.1f} times as much if none is taken back")
+        11.8 times as much if none is taken back
+        """
+        strain = checked_strain(friction_strain)
+        if self.deformation is None or self.energy is None:
+            missing = "shape" if self.deformation is None else "known power of friction"
+            raise ValueError(f"speed: has no {missing}, must be of a sheet that was solved here")
+        drive = self.deformation.drive
+        times = growth_times(drive.period)
+        spent = np.interp(times, self.times, self.energy.spent, period=drive.period)
+        rate, error = self.deformation.storing(times)
+        unit = drive.sheet.length / strain
+        return GrowthPower.of(self.energy, times, spent, unit * rate, unit * error)
+
+    @property
+    def _velocity(self) -> Array:
+        """Mean V_x, V_y."""
+        return np.array([0.0, self.mean]) if self.turning is None else self.turning.mean[:2]
+
+    @property
+    def _distance(self) -> Estimate:
+        """Speed in any direction."""
+        error = self.error if self.turning is None else float(np.hypot(*self.turning.error[:2]))
+        return Estimate(float(np.hypot(*self._velocity)), error)
+
+    @property
     def reach(self) -> str:
         """Relation of the speed to that of the nonlinear sheet, in words."""
         if self.beyond_reach:
@@ -171,14 +227,21 @@ class CrawlSpeed(Drawable, Tabular):
         """
         names = ("mean", "error", "wave_error", "model_error", "converged", "regime", "slip_ratio")
         values = {name: getattr(self, name) for name in (*names, "beyond_reach", "seconds", "model")}
-        return flat(plain(values))
+        return flat(plain(values | self.energies()))
 
     def _contents(self) -> Mapping[str, Any]:
         """Values under the names that programs read, with groups flattened."""
         parts = dict(super()._contents())
         del parts["estimate"], parts["turning"]
         rigid = {name: getattr(self, name) for name in ("rigid", "rigid_mean", "rigid_error")}
-        return {"mean": self.mean, "error": self.error, **parts, **rigid}
+        return {"mean": self.mean, "error": self.error, **parts, **rigid, **self.energies()}
+
+    def energies(self) -> dict[str, float]:
+        """Power, cost of transport and efficiency with their errors by name; none if not known."""
+        found: dict[str, float] = {}
+        for name in ENERGIES if self.energy is not None else ():
+            found[name], found[f"{name}_error"] = getattr(self, name)
+        return found
 
     def _title(self) -> str:
         return f"CrawlSpeed: {speed_in_words(self.mean, self.error, self.converged)}"
@@ -187,7 +250,10 @@ class CrawlSpeed(Drawable, Tabular):
         """All values except those in the title and those not computed."""
         ratio = "" if np.isnan(self.slip_ratio) else f", slip ratio {self.slip_ratio:.3g}"
         first = {"model_error": self.model_error, "regime": f"{self.regime}{ratio}"}
-        rest = {name: v for name, v in self._contents().items() if name not in TOLD and _is_there(v)}
+        told = (*TOLD, *self.energies())
+        rest = {name: v for name, v in self._contents().items() if name not in told and _is_there(v)}
+        if self.energy is not None:
+            first["energy"] = energy_in_words(self)
         if not self.wave_error:
             del rest["wave_error"]
         return {**first, **rest}
@@ -202,11 +268,30 @@ class CrawlSpeed(Drawable, Tabular):
                 Column("velocity_x", self.rigid[0], "velocity across the sheet, in its axes", SPEED),
                 Column("rotation", self.rigid[2], "rate of rotation, anticlockwise", SPIN),
             ]
+        if self.energy is not None and self.energy.spent.shape == self.times.shape:
+            words = "power of friction and lift over mu times the weight"
+            columns.append(Column("power", self.energy.spent, words, SPEED))
         return columns
 
 
 TOLD = ("mean", "error", "converged", "model_error", "slip_ratio")
 """Values shown in the title of a speed and its first rows."""
+
+
+ENERGIES = ("power", "cost_of_transport", "efficiency")
+"""Measures of energy."""
+
+
+def energy_in_words(speed: CrawlSpeed) -> str:
+    """Cost of transport and efficiency, or why there is none."""
+    cost, power = speed.cost_of_transport, speed.power
+    spent = f"power {with_error(*power)} length/time over mu weight"
+    if np.isnan(cost.value):
+        return "none is spent: nothing moves"
+    if np.isinf(cost.value):
+        return f"{spent}, cost of transport infinite: no distance is resolved"
+    efficiency = with_error(*speed.efficiency)
+    return f"cost of transport {with_error(*cost)} mu, efficiency {efficiency}, {spent}"
 
 
 def speed_in_words(mean: float, error: float, converged: bool) -> str:

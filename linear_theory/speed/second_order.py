@@ -38,6 +38,7 @@ from linear_theory.common.shown import Shown, with_error
 from linear_theory.common.threads import one_blas_thread
 from linear_theory.common.tolerance import Tolerance
 from linear_theory.deformation.second.field import SecondOrderField, second_order_field
+from linear_theory.energy.energy import Energy
 from linear_theory.friction.contact import Contact
 from linear_theory.friction.law import FrictionLaw
 from linear_theory.friction.load import Load
@@ -129,6 +130,11 @@ class _Coefficients(Crawl):
     def field_error(self, motion: RigidMotion) -> float:
         """Error of V_2 due to the errors of u_1 and u_2."""
         return self.alpha**2 * _second_field_error(self.field, motion.fastest)
+
+    def work_errors(self, motion: RigidMotion) -> Array:
+        """See Crawl."""
+        second = _second_field_error(self.field, motion.fastest)
+        return np.array([self.field.error * motion.fastest, 2 * second])
 
 
 @one_blas_thread
@@ -274,6 +280,7 @@ def second_order_speed(scene: Scene, tolerance: Tolerance) -> CrawlSpeed:
         speed_at(alpha, both, period, mirrored),
         converged=norm.meets(both.rigid_mean(alpha), both.rigid_error(alpha), tolerance),
         slip_ratio=law.slip_ratio(fastest),
+        energy=Energy(*period.works.at(alpha), law),
         seconds=time.perf_counter() - start,
     )
     beyond = too_large_growth(scene.drive, alpha, *_points(scene.sheet))

@@ -1,13 +1,26 @@
 """Results in SI units: the theory knows only the sheet's length L and the wave's period T."""
 
 from dataclasses import dataclass
-from typing import TypeVar
+from typing import NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from linear_theory.common import validation
-from linear_theory.common.shown import Value
+from linear_theory.common.shown import Shown, Value
+from linear_theory.speed.result import CrawlSpeed
+
+
+class _EnergySI(NamedTuple):
+    power_w: float
+    work_j: float
+    cost_of_transport: float
+
+
+class EnergySI(Shown, _EnergySI):
+    """Net power of growth in watts, its work per period in joules, and that per weight and distance,
+    J/(N m), a number."""
+
 
 Number = TypeVar("Number", float, NDArray[np.float64])
 
@@ -44,6 +57,25 @@ class Scale(Value):
     def speed(self, speed: Number) -> Number:
         """A speed in L/T, in metres per second."""
         return speed * (self.length_m / self.period_s)
+
+    def energy(self, speed: CrawlSpeed, weight_n: float, friction: float) -> EnergySI:
+        """Power, work per period and cost of transport of a speed in L/T.
+
+        weight_n: weight of the undeformed sheet, newtons; friction: its coefficient mu. Raises
+        ValueError unless both are finite and positive, and for a speed whose energy is not known.
+
+        >>> from linear_theory import Scale, Sheet, SineWave, crawl_speed
+        >>> speed = crawl_speed(Sheet(), SineWave(), alpha=0.12, rtol=1e-3)
+        >>> used = Scale(length_m=0.04, period_s=8.0).energy(speed, weight_n=2e-3, friction=0.4)
+        >>> print(f"{1e9 * used.power_w:.0f} nW, {used.cost_of_transport:.2f} J/(N m)")
+        431 nW, 1.61 J/(N m)
+        """
+        force = validation.positive("weight_n", weight_n) * validation.positive("friction", friction)
+        if speed.energy is None:
+            raise ValueError("speed: has no known energy, must be of a sheet with known friction")
+        power = force * self.speed(speed.power.value)
+        cost = friction * speed.cost_of_transport.value
+        return EnergySI(power, power * self.period_s, cost)
 
 
 def speed_si(speed: Number, length_m: float, period_s: float) -> Number:

@@ -36,7 +36,7 @@ from linear_theory.wave.uncertain import Uncertainty, doubt_of, uncertainty_of
 
 Array = NDArray[np.float64]
 Mean = Callable[[Wave], Array]
-"""Mean motion V_x, V_y, Omega (3,) for a wave, by one and the same resolution for all waves."""
+"""Means of V_x, V_y, Omega and the power of friction (4,) for a wave, by one resolution for all."""
 
 RESAMPLES, FACTOR = 16, 3.5
 """Student's t with 16 degrees of freedom: 99.7 % of errors are within so many root mean squares."""
@@ -58,10 +58,14 @@ OF_WAVE = 0.1
 
 
 class WaveError(NamedTuple):
-    """Mean motion of the given wave, coarsely, and what the error of the wave does to it, (3,) each."""
+    """Mean motion of the given wave, coarsely, and what the error of the wave does to it, (3,) each.
+
+    power: what it does to the power of friction.
+    """
 
     mean: Array
     error: Array
+    power: float
 
     def leaves(self, tolerance: Tolerance, norm: RigidNorm) -> Tolerance:
         """Of the tolerance what the numbers may take, and OF_WAVE in any case."""
@@ -80,8 +84,10 @@ class WaveError(NamedTuple):
             converged = norm.meets(turning.mean, turning.error, tolerance)
         else:
             converged = estimate.error <= tolerance.allowed(estimate.value)
+        energy = found.energy
         return replace(
             found,
+            energy=None if energy is None else energy.in_doubt(self.power),
             estimate=estimate,
             turning=turning,
             wave_error=along,
@@ -94,14 +100,18 @@ def wave_error(uncertainty: Uncertainty, wave: Wave, mean: Mean) -> WaveError:
     given, scale = mean(wave), max(1.0, LEAST_SHARE / uncertainty.share)
     for _ in range(HALVINGS):
         try:
-            return WaveError(given, _spread(uncertainty, mean, given, scale))
+            return _error(given, _spread(uncertainty, mean, given, scale))
         except ValueError:  # growth that no sheet could follow, where samples leave a wave wide open
             scale /= 2
-    return WaveError(given, _spread(uncertainty, mean, given, scale))
+    return _error(given, _spread(uncertainty, mean, given, scale))
+
+
+def _error(given: Array, spread: Array) -> WaveError:
+    return WaveError(given[:3], spread[:3], float(spread[3]))
 
 
 def _spread(uncertainty: Uncertainty, mean: Mean, given: Array, scale: float) -> Array:
-    """Error of the mean motion by waves that are moved by `scale` times the error of the wave."""
+    """Error of the means by waves that are moved by `scale` times the error of the wave."""
     others = uncertainty.waves(RESAMPLES, scale)
     moved = np.stack([mean(other) for other in track("the error of the wave", others)])
     return np.asarray(FACTOR / scale * np.sqrt(np.mean((moved - given) ** 2, axis=0)))
@@ -165,13 +175,15 @@ class _Coarse(NamedTuple):
 
     @one_blas_thread
     def mean(self, wave: Wave) -> Array:
-        """Mean motion at the growth of the scene."""
+        """Means at the growth of the scene."""
         driven = drive(wave, self.scene.sheet)
         times = self.times * (driven.period / self.scene.period)
         field = RitzField(driven, self.field.solver, Snapshots(driven, times))
         crawl = Crawl(field, self.alpha, self.scene.contact, first_resolution(COARSE))
-        found = crawl.counted(crawl.balance(times)).mean(1)
-        return np.asarray(found * (self.scene.alpha / self.alpha))
+        motion = crawl.balance(times)
+        works = motion.works[:, 0] + self.alpha * motion.works[:, 1]
+        means = [*crawl.counted(motion).mean(1), abs(self.alpha) * works.mean()]
+        return np.array(means) * (self.scene.alpha / self.alpha)
 
 
 def equidistant_times(scene: Scene) -> Array:

@@ -19,6 +19,7 @@ from fem_check.shell.cycle.shapes import Shapes
 from fem_check.shell.kinematics.places import ROUNDOFF, distinct
 from linear_theory.balance.balance import Balance, RigidMotion
 from linear_theory.balance.time_grid import TimeGrid, first_grid
+from linear_theory.common.estimate import Estimate
 from linear_theory.common.progress import track
 from linear_theory.common.tolerance import Tolerance
 from linear_theory.friction.contact import Contact
@@ -46,12 +47,18 @@ TIME_SHARE, HIDDEN = 0.3, 0.1
 harmonics of the wave may alias."""
 
 
+WORK_HALVINGS = 3
+"""Of cells for the power of friction: the elements are larger than the cells of theory."""
+
+
 class PairedPeriod(NamedTuple):
     """Motion over one period from the friction balance, V in length per time.
 
     grid: times of a quarter or half of the period; leading: (2, times, 3), V_x, V_y, Omega at the
     times of the grid and half a period later; mean, error (3,): of V_x, V_y, Omega, without the errors
-    from phases and mesh; fastest: largest speed relative to the ground; sticks: see `CrawlSpeed`.
+    from phases and mesh; fastest: largest speed relative to the ground; sticks: see `CrawlSpeed`;
+    works: (2, times, 3), see `Balance.works`, over the load at rest; power: mean power of growth,
+    likewise without the errors from phases and mesh.
     """
 
     grid: TimeGrid
@@ -60,6 +67,15 @@ class PairedPeriod(NamedTuple):
     error: Array
     fastest: float
     sticks: bool
+    works: Array
+    power: Estimate
+
+
+class Change(NamedTuple):
+    """One Newton step of a motion (2, times, 3), and the works (2, times, 3) of that motion."""
+
+    leading: Array
+    works: Array
 
 
 @dataclass(frozen=True, eq=False)
@@ -137,51 +153,65 @@ class CycleBalance:
             added = ~np.isin(finer.times, grid.times)
             grid, found = finer, found.joined(self.balance(finer.times[added]), added)
         roundoff = self.norm.each(1e-12 * found.fastest + self.noise)
-        error = time_error + self._quadrature_error(grid, found.leading) + roundoff
+        cell_error, work_error = self._quadrature_errors(grid, found)
+        error = time_error + cell_error + roundoff
         sticks = bool(found.rest.max() > STICKING)
-        return PairedPeriod(grid, found.leading, mean, error, found.fastest, sticks)
+        power = self.power(grid, found.works)
+        power = Estimate(power.value, power.error + work_error + 1e-12 * found.fastest)
+        return PairedPeriod(grid, found.leading, mean, error, found.fastest, sticks, found.works, power)
 
     def balance(self, times: Array) -> RigidMotion:
         """Motion at given times and half a period later, leading and remainder (2, times, 3)."""
         later = self._with_partners(times)
         starts = track("friction balance over the period", range(0, later.size, LOT))
         lots = [self._balance(later[i : i + LOT]).solve() for i in starts]
-        leading, remainder, rest, fastest = zip(*lots, strict=True)
+        leading, remainder, rest, fastest, works = zip(*lots, strict=True)
         shape = 2, times.size
         return RigidMotion(
             np.concatenate(leading).reshape(*shape, 3),
             np.concatenate(remainder).reshape(*shape, 3),
             np.concatenate(rest).reshape(shape),
             max(fastest),
+            np.concatenate(works).reshape(*shape, 3),
         )
 
-    def change(self, grid: TimeGrid, leading: Array) -> Array:
-        """Change of the mean motion (3,) by one Newton step, from a motion on other shapes or cells."""
-        times, start = self._with_partners(grid.times), leading.reshape(-1, 3)
+    def step(self, times: Array, leading: Array) -> Change:
+        """One Newton step from a motion (2, times, 3) on other shapes or cells, and its works here."""
+        times, start = self._with_partners(times), leading.reshape(-1, 3)
         nothing = np.zeros((LOT, 3))
         steps = [
-            self._balance(times[i : i + LOT])
-            .correction(start[i : i + LOT], nothing[: times[i : i + LOT].size])
-            .leading
+            self._balance(times[i : i + LOT]).correction(
+                start[i : i + LOT], nothing[: times[i : i + LOT].size]
+            )
             for i in range(0, times.size, LOT)
         ]
-        return self.mean(grid, np.concatenate(steps).reshape(leading.shape))
+        change = np.concatenate([step.leading for step in steps]).reshape(leading.shape)
+        return Change(change, np.concatenate([s.works for s in steps]).reshape(leading.shape))
+
+    def power(self, grid: TimeGrid, works: Array) -> Estimate:
+        """Mean power of growth over mu times the weight, from works (2, times, 3) on the grid."""
+        return Estimate(*grid.mean(self._powers(works).mean(0)))
+
+    def _powers(self, works: Array) -> Array:
+        """Of friction and of raising the load, (2, times)."""
+        return np.asarray(works[..., 0] + self.contact.slope * works[..., 2])
 
     def mean(self, grid: TimeGrid, leading: Array) -> Array:
         """Mean V_x, V_y, Omega (3,) of motions (2, times, 3) on the grid and half a period later."""
         return grid.means(_paired(leading))[0]
 
-    def whole_period(self, period: PairedPeriod) -> tuple[Array, Array]:
-        """Ascending times (T,) of one period from about 0 on, and V_x, V_y, Omega, (3, T)."""
+    def whole_period(self, period: PairedPeriod) -> tuple[Array, Array, Array]:
+        """Ascending times (T,) of one period from about 0 on, V_x, V_y, Omega (3, T), and power."""
         length = self.shapes.scene.period
-        times, rigid = self._with_partners(period.grid.times), period.leading.reshape(-1, 3).T
+        values = np.concatenate([period.leading, self._powers(period.works)[..., None]], axis=-1)
+        times, rigid = self._with_partners(period.grid.times), values.reshape(-1, 4).T
         if self.reversal_time is not None:
             times = np.concatenate([times, self.reversal_time - times])
             rigid = np.concatenate([rigid, rigid], axis=1)
         share = np.mod(times / length, 1)
         share[share > 1 - ROUNDOFF] = 0.0  # the end of a period is the start of the next
         _, first = np.unique(distinct(share)[1], return_index=True)
-        return share[first] * length, rigid[:, first]
+        return share[first] * length, rigid[:3, first], rigid[3, first]
 
     def _finer(self, grid: TimeGrid, speeds: Array, goal: float) -> TimeGrid | None:
         """The finer grid that the goal requires; None if it is met and no harmonic aliases."""
@@ -205,13 +235,13 @@ class CycleBalance:
             return first_grid(0.0, length / 2, 4)
         return first_grid(reversal / 2, reversal / 2 + length / 4, 2)
 
-    def _quadrature_error(self, grid: TimeGrid, leading: Array) -> Array:
-        """Largest change (3,) of the paired motion at three times by one Newton step on finer cells."""
+    def _quadrature_errors(self, grid: TimeGrid, found: RigidMotion) -> tuple[Array, float]:
+        """Largest change on finer cells, at three times: of the paired motion (3,), of the power."""
         some = np.unique((np.array([0.07, 0.41, 0.77]) * grid.times.size).astype(int))
         finer = replace(self, order=self.order + 2, halvings=self.halvings + 6)
-        start = leading[:, some].reshape(-1, 3)
-        step = finer._balance(self._with_partners(grid.times[some])).correction(start, 0 * start)
-        return np.asarray(abs(_paired(step.leading.reshape(2, -1, 3))).max(1))
+        change, works = finer.step(grid.times[some], found.leading[:, some])
+        powers = self._powers(works - found.works[:, some]).mean(0)
+        return np.asarray(abs(_paired(change)).max(1)), float(abs(powers).max())
 
     def _with_partners(self, times: Array) -> Array:
         """Times, then those half a period later."""
@@ -223,7 +253,9 @@ class CycleBalance:
 
     def _balance(self, times: Array) -> Balance:
         motion, law, slope = self._motion.at(times), self.contact.friction, self.contact.slope
-        return Balance(motion, motion.dilation, 1.0, law, self.halvings, self.tolerance, slope)
+        resolution = self.halvings, self.tolerance
+        rest = self._motion.weight
+        return Balance(motion, motion.dilation, 1.0, law, *resolution, slope, rest, WORK_HALVINGS)
 
 
 def _mirrored(shapes: Shapes, contact: Contact) -> bool:

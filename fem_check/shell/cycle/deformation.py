@@ -11,9 +11,11 @@ from numpy.typing import NDArray
 from fem_check.mesh import location as triangles
 from fem_check.shell.cycle.motion import CycleMotion
 from fem_check.shell.cycle.shapes import Shapes, time_factors
+from fem_check.shell.cycle.stored import storing
 from fem_check.shell.effects.gravity import Gravity
 from fem_check.shell.kinematics.region import Region
 from linear_theory.common.shown import Shown
+from linear_theory.energy.stored import Storing
 from linear_theory.friction.contact import Contact
 from linear_theory.friction.load import Load
 from linear_theory.motion.rigid import centre_and_gyration
@@ -28,9 +30,15 @@ MOTIONS = 4
 
 
 class CycleDeformation(Shown):
-    """See `linear_theory.speed.drawn.Deformation`; the shapes are those behind the speed."""
+    """See `linear_theory.speed.drawn.Deformation`; the shapes are those behind the speed.
 
-    def __init__(self, shapes: Shapes, contact: Contact) -> None:
+    other: shapes on another mesh, and the least ratio of the difference to the error (`other_mesh`).
+    """
+
+    def __init__(
+        self, shapes: Shapes, contact: Contact, other: tuple[Shapes, float] | None = None
+    ) -> None:
+        self._other = other
         self.shapes, self._load, self.law = shapes, contact.load, contact.friction
         self.alpha = shapes.scene.alpha
         where = "in the plane" if shapes.scene.planar else "in space"
@@ -79,6 +87,10 @@ class CycleDeformation(Shown):
 
     def stress(self, points: Array, t: float) -> None:
         """See Deformation; not computed."""
+
+    def storing(self, times: Array) -> Storing:
+        """See Deformation. Of the sheet with its weight on the ground."""
+        return storing(self.shapes, self._other, times)
 
     def _motion(self, points: Array) -> "_AtPoints":
         return self._motions(points.tobytes())

@@ -11,6 +11,7 @@ from scipy.spatial import cKDTree
 from fem_check.mesh.location import quadrilateral_points
 from fem_check.shell.cycle.frame import BodyFrame
 from fem_check.shell.cycle.shapes import Shapes, time_factors
+from fem_check.shell.effects.gravity import Gravity
 from fem_check.shell.effects.ground import Ground
 from fem_check.shell.kinematics.discretisation import Discretisation
 from fem_check.shell.kinematics.places import ROUNDOFF
@@ -18,6 +19,7 @@ from fem_check.shell.kinematics.region import Region
 from linear_theory.common.errors import SheetcrawlError
 from linear_theory.common.quadrature import gauss_legendre
 from linear_theory.friction.load import Load
+from linear_theory.motion.cells import gauss
 from linear_theory.motion.motion import Motion
 
 Array = NDArray[np.float64]
@@ -80,6 +82,14 @@ class CycleMotion:
             growth=nothing,
             mirrored=self.mirrored,
         )
+
+    @cached_property
+    def weight(self) -> float:
+        """Normal load of the undeformed sheet on these cells, in the unit of the loads."""
+        area = self.region.measure.reshape(-1, self.order, self.order)
+        weights = gauss(self.order).weights
+        unit = self.shapes.model.find(Gravity).weight if self.load is Load.GROUND else 1.0
+        return float(unit * (area @ weights @ weights).sum())
 
     @cached_property
     def region(self) -> Region:

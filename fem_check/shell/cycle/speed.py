@@ -31,6 +31,7 @@ from linear_theory.common.progress import Report, watched
 from linear_theory.common.shown import Shown
 from linear_theory.common.threads import one_blas_thread
 from linear_theory.common.tolerance import Tolerance
+from linear_theory.energy.energy import Energy
 from linear_theory.friction.contact import Contact
 from linear_theory.friction.law import FrictionLaw
 from linear_theory.friction.load import Load
@@ -136,12 +137,16 @@ class Cycle(Shown):
         if scene.alpha == 0 and (scene.planar or scene.curvature_coupling == 0):
             return _without_growth(scene, contact)
         balance, period, phase_error = _with_enough_phases(self._shapes, contact, tolerance)
-        error = period.error + phase_error + self._mesh_error(balance, period)
-        times, rigid = balance.whole_period(period)
+        mesh_error, work_error = self._mesh_errors(balance, period)
+        error = period.error + phase_error[:3] + mesh_error
+        times, rigid, spent = balance.whole_period(period)
+        distance = 0.0 if _is_target(scene) else math.nan
+        power, work_error = period.power, work_error + float(phase_error[3])
+        power = Estimate(power.value, power.error + work_error)
         fastest = period.fastest if period.fastest > balance.noise else 0.0
         return CrawlSpeed(
             estimate=Estimate(float(period.mean[1]), float(error[1])),
-            model_error=0.0 if _is_target(scene) else math.nan,
+            model_error=distance,
             converged=self._sound(balance) and balance.norm.meets(period.mean, error, tolerance),
             times=times,
             velocity=rigid[1],
@@ -151,7 +156,8 @@ class Cycle(Shown):
             first_order=0.0 if _starts_at_second_order(scene, contact) else math.nan,
             sticks=period.sticks,
             turning=None if balance.mirrored else RigidSpeed(rigid, period.mean, error),
-            deformation=CycleDeformation(balance.shapes, contact),
+            energy=Energy(power, spent, contact.friction, contact.slope, distance),
+            deformation=CycleDeformation(balance.shapes, contact, self._other(balance)),
         )
 
     @cached_property
@@ -160,12 +166,17 @@ class Cycle(Shown):
         mesh, gain = other_mesh(self._shapes.model.discretisation.mesh)
         return KeptShapes(ShellModel(self.scene.but(cells=None, mesh=mesh))), gain
 
-    def _mesh_error(self, balance: CycleBalance, period: PairedPeriod) -> Array:
-        """Mesh error of the mean motion, from the speed on another mesh at the same times."""
+    def _other(self, balance: CycleBalance) -> tuple[Shapes, float]:
+        """Shapes at the same phases on the other mesh, and the gain."""
         kept, gain = self._compared
-        shapes = kept.at(len(balance.shapes.states))
+        return kept.at(len(balance.shapes.states)), gain
+
+    def _mesh_errors(self, balance: CycleBalance, period: PairedPeriod) -> tuple[Array, float]:
+        """Mesh errors of the mean motion and of the power, from another mesh at the same times."""
+        shapes, gain = self._other(balance)
         other = balance.on(shapes).balance(period.grid.times)
-        return np.asarray(abs(balance.mean(period.grid, other.leading) - period.mean) / gain)
+        power = balance.power(period.grid, other.works).value - period.power.value
+        return abs(balance.mean(period.grid, other.leading) - period.mean) / gain, abs(power) / gain
 
     def _sound(self, balance: CycleBalance) -> bool:
         """Whether a real sheet has these shapes: they do not cross themselves, nor need this mesh."""
@@ -208,27 +219,31 @@ def _with_enough_phases(
         balance = CycleBalance.of(kept.at(count), contact, tolerance.rtol)
         try:
             period = balance.average(tolerance)
-            error = _phase_error(balance, period) + balance.norm.each(_hidden(balance, count))
+            hidden = _hidden(balance, count)
+            error = _phase_error(balance, period) + np.append(balance.norm.each(hidden), hidden)
         except UnresolvedError:
             if last:
                 raise
         else:
             goal = max(PHASE_SHARE * balance.norm.allowed(period.mean, tolerance), balance.noise)
-            if last or balance.norm.size(error) <= goal or _hidden(balance, MOST_PHASES) > goal:
+            if last or balance.norm.size(error[:3]) <= goal or _hidden(balance, MOST_PHASES) > goal:
                 return balance, period, error
         count *= 2
 
 
 def _phase_error(balance: CycleBalance, period: PairedPeriod) -> Array:
-    """Error of the mean motion from the interpolation between phases, (3,).
+    """Error of the mean motion and of the power from the interpolation between phases, (4,).
 
     The change on omitting every second phase, times the ratio of the unresolved harmonics, estimated
     as twice the highest ones, to those omitted.
     """
-    change = abs(replace(balance, shapes=balance.shapes.thinned()).change(period.grid, period.leading))
+    thinned = replace(balance, shapes=balance.shapes.thinned())
+    change, works = thinned.step(period.grid.times, period.leading)
+    power = balance.power(period.grid, works).value - period.power.value
+    changes = abs(np.array([*balance.mean(period.grid, change), power]))
     speeds = _speeds_of_harmonics(balance.shapes)
     lost, beyond = np.linalg.norm(speeds[speeds.size // 2 - 1 :]), 2 * speeds[-2:].max()
-    return np.asarray(change * (min(1.0, beyond / lost) if lost > 0 else 0.0))
+    return np.asarray(changes * (min(1.0, beyond / lost) if lost > 0 else 0.0))
 
 
 def _hidden(balance: CycleBalance, count: int) -> float:
@@ -275,7 +290,8 @@ def other_mesh(mesh: Any) -> tuple[Any, float]:
 def _without_growth(scene: Scene, contact: Contact) -> CrawlSpeed:
     """The speed without growth: 0, except that a sheet with tanh friction creeps down a slope."""
     words, slide = _words(scene, contact), creep(contact)
-    return CrawlSpeed.steady(slide, words, contact.friction.slip_ratio(abs(slide)))
+    found = CrawlSpeed.steady(slide, words, contact.friction.slip_ratio(abs(slide)))
+    return replace(found, energy=Energy.at_rest(contact.friction))
 
 
 def _is_target(scene: Scene) -> bool:

@@ -14,7 +14,7 @@ from fem_check.shell.kinematics.crossing import crossed, crossing_words
 from fem_check.shell.model import ShellModel
 from fem_check.shell.stepping import columns
 from fem_check.shell.stepping.between import between, interpolation_error, motion_around
-from fem_check.shell.stepping.power import Works
+from fem_check.shell.stepping.power import Works, energy_of
 from fem_check.shell.stepping.sliding import COMPARED
 from fem_check.shell.stepping.step_control import LANDED
 from fem_check.shell.stepping.stepper import amplitude
@@ -278,7 +278,11 @@ class Trajectory(Drawable, Tabular):
     @property
     def last_period(self) -> slice:
         """Rows of the last period, without the one at its start."""
-        return self._last(1)
+        return self.period_rows(self.periods - 1)
+
+    def period_rows(self, period: int) -> slice:
+        """Rows of a counted period, 0 the first, without the one at its start."""
+        return slice(self._at(period) + 1, self._at(period + 1) + 1)
 
     @cached_property
     def period_speeds(self) -> Array:
@@ -353,6 +357,7 @@ class Trajectory(Drawable, Tabular):
             seconds=self.seconds,
             model=model,
             slip_ratio=self.slip_ratio,
+            energy=energy_of(self),
         )
 
     def _title(self) -> str:

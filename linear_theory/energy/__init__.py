@@ -1,0 +1,1 @@
+"""Energy of a crawling sheet: work of growth, friction, cost of transport, efficiency."""
