@@ -11,6 +11,7 @@ from linear_theory.common.version import current_version
 from linear_theory.deformation.airy import AirySeries, airy_series
 from linear_theory.deformation.ritz import RitzField, ritz_field
 from linear_theory.friction.contact import Contact
+from linear_theory.friction.directional import Directional
 from linear_theory.friction.isotropic import Isotropic
 from linear_theory.friction.law import FrictionLaw
 from linear_theory.friction.laws import Coulomb, Tanh, Viscous
@@ -51,6 +52,7 @@ __all__ = [
     "Contact",
     "Coulomb",
     "CrawlSpeed",
+    "Directional",
     "Estimate",
     "Exp",
     "FieldWave",

@@ -200,7 +200,7 @@ class Balance:
         along = self._values[1].reshape(self._values.shape[1], -1)
         margin = 0.1 * np.ptp(along, axis=1) + self._scale  # the polynomials exceed these values
         if self._slope:  # at which friction carries the weight down the slope
-            margin = margin + self._law.speed_at(abs(self._slope))
+            margin = margin + abs(self._law.creep(-self._slope))
         return (-along.max(1) - margin)[:, None], (-along.min(1) + margin)[:, None]
 
     def _leading(self, q: Array, times: Integers, halvings: int) -> tuple[Array, Array]:

@@ -86,12 +86,12 @@ class Crawl:
     @property
     def starts_at_second_order(self) -> bool:
         """Whether c(t + T/2) = -c(t), so that the leading q_0 has exactly no mean."""
-        return self.drive.changes_sign and self.contact.friction.even
+        return self.drive.changes_sign and self.contact.friction.reversible
 
     @property
     def mirrored(self) -> bool:
         """Whether motion and friction are mirror symmetric in x."""
-        return self.field.mirrored and self.contact.friction.even
+        return self.field.mirrored and self.contact.friction.mirrored
 
     @property
     def counts_leading(self) -> bool:
@@ -177,5 +177,5 @@ class Crawl:
         motion, r = self._motion(times), self.resolution
         rate = self.contact.load.rate(motion.dilation, motion.growth)
         check_load(motion, rate, self.alpha)
-        law = self.contact.friction.scaled(abs(self.alpha))
+        law = self.contact.friction.per(self.alpha)
         return Balance(motion, rate, self.alpha, law, r.halvings, r.tolerance)

@@ -10,6 +10,7 @@ deform.
 import math
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, ClassVar
 
@@ -63,6 +64,26 @@ class FrictionLaw(Value, ABC):
         return False
 
     @property
+    def mirrored(self) -> bool:
+        """Whether the potential is the same for (-v_x, v_y): mirrored motions have mirrored forces."""
+        return self.even
+
+    @property
+    def reversible(self) -> bool:
+        """Whether the potential is the same for -v: opposite motions have opposite forces."""
+        return self.even
+
+    @property
+    def crease(self) -> tuple[float, float] | None:
+        """n of the line n . v = 0 across which the tangent jumps; None if it does so at rest alone."""
+        return None
+
+    @property
+    def follows_body(self) -> bool:
+        """Whether its axes turn with the sheet; else they are those of the ground."""
+        return False
+
+    @property
     @abstractmethod
     def width(self) -> float:
         """Least speed over which the force changes sign: 0 for dry friction, infinite for viscous."""
@@ -76,6 +97,16 @@ class FrictionLaw(Value, ABC):
     def limited(self) -> bool:
         """Whether the force is at most mu N at any speed, as for all laws but the viscous one."""
         return self.width < math.inf
+
+    @property
+    def limits(self) -> tuple[float, float]:
+        """Largest force against slip towards -y and towards +y, over mu N; infinite if unlimited."""
+        largest = 1.0 if self.limited else math.inf
+        return largest, largest
+
+    def creep(self, force: float) -> float:
+        """Speed along y, signed, of a point that is pulled along y by that force, signed, over mu N."""
+        return math.copysign(self.speed_at(abs(force)), force) if force else 0.0
 
     @property
     def words(self) -> str:
@@ -117,6 +148,15 @@ class FrictionLaw(Value, ABC):
     def speed_at(self, share: float) -> float:
         """Speed along y at which the force is that share of mu N, in (0, 1) for a law with a limit."""
 
+    @property
+    def opposite(self) -> "FrictionLaw":
+        """The law whose potential at v is that of this one at -v."""
+        return self if self.reversible else Opposite(self)
+
+    def per(self, alpha: float) -> "FrictionLaw":
+        """The law for velocities divided by alpha, of either sign; itself for 0."""
+        return (self.opposite if alpha < 0 else self).scaled(abs(alpha) or 1.0)
+
     def at(self, v: Array, kept: slice = ALL) -> "Response":
         """The law at given velocities; kept: the components of forces that are asked for."""
         return Response(self, v, kept)
@@ -149,3 +189,75 @@ class Response(Shown):
         """The law at v + step change, and the difference of the forces over the step."""
         after = self.law.at(self.v + step * change, self.kept)
         return after, self.law.force_difference(self.v, change, step)[self.kept]
+
+
+@dataclass(frozen=True)
+class Opposite(FrictionLaw):
+    """The law of opposite velocities, for one that is not `reversible`."""
+
+    law: FrictionLaw
+    name: ClassVar[str] = "opposite"
+
+    @property
+    def mirrored(self) -> bool:
+        """See FrictionLaw."""
+        return self.law.mirrored
+
+    @property
+    def crease(self) -> tuple[float, float] | None:
+        """See FrictionLaw."""
+        return self.law.crease
+
+    @property
+    def follows_body(self) -> bool:
+        """See FrictionLaw."""
+        return self.law.follows_body
+
+    @property
+    def width(self) -> float:
+        """See FrictionLaw."""
+        return self.law.width
+
+    @property
+    def words(self) -> str:
+        """See FrictionLaw."""
+        return f"{self.law.words}, reversed"
+
+    @property
+    def opposite(self) -> FrictionLaw:
+        """See FrictionLaw."""
+        return self.law
+
+    @property
+    def limits(self) -> tuple[float, float]:
+        """See FrictionLaw."""
+        backward, forward = self.law.limits
+        return forward, backward
+
+    def potential(self, v: Array) -> Array:
+        """See FrictionLaw."""
+        return self.law.potential(-v)
+
+    def force(self, v: Array) -> Array:
+        """See FrictionLaw."""
+        return -self.law.force(-v)
+
+    def tangent(self, v: Array) -> Array:
+        """See FrictionLaw."""
+        return self.law.tangent(-v)
+
+    def force_difference(self, v: Array, change: Array, step: float) -> Array:
+        """See FrictionLaw."""
+        return -self.law.force_difference(-v, -change, step)
+
+    def scaled(self, factor: float) -> "Opposite":
+        """See FrictionLaw."""
+        return Opposite(self.law.scaled(factor))
+
+    def creep(self, force: float) -> float:
+        """See FrictionLaw."""
+        return -self.law.creep(-force)
+
+    def speed_at(self, share: float) -> float:
+        """See FrictionLaw."""
+        return self.creep(share)

@@ -9,6 +9,7 @@ from linear_theory.common import validation
 from linear_theory.common.threads import one_blas_thread
 from linear_theory.common.tolerance import Tolerance
 from linear_theory.friction.contact import Contact
+from linear_theory.friction.directional import Directional
 from linear_theory.friction.law import FrictionLaw
 from linear_theory.friction.laws import FRICTION_LAWS
 from linear_theory.friction.load import Load
@@ -57,7 +58,7 @@ def line_balance(
     1 + alpha c (eq. 5) or "metric" (1 + 2 alpha c)^(1/2), without expansion in alpha.
     body: "line", with the weight per length, or "strip", narrow and growing in both directions, with
     the weight per area; load: "current", "grown" (the same here) or "material" (weight conserved).
-    friction: "coulomb", "tanh" with its `slip_speed` in length/time, or "viscous".
+    friction: "coulomb", "tanh" with its `slip_speed` in length/time, "viscous", or a `Directional`.
     rtol, atol: `converged` says whether error <= max(rtol |mean|, atol), atol =
     1e-3 rtol alpha^2 length/period unless given (length/time).
 
@@ -104,8 +105,8 @@ def line_crawl(scene: Scene, tolerance: Tolerance, body: str) -> CrawlSpeed:
     Raises ValueError for a law of friction without a name, which may depend on direction.
     """
     start, law, length = time.perf_counter(), scene.contact.friction, scene.sheet.length
-    if type(law) not in FRICTION_LAWS.values():  # a subclass may have changed anything
-        names = ", ".join(kind.__name__ for kind in FRICTION_LAWS.values())
+    if not _integrable(law):
+        names = ", ".join(kind.__name__ for kind in (*FRICTION_LAWS.values(), Directional))
         raise ValueError(f"friction = {law!r}: must be one of {names} for a body on a line")
     piece = Piece.of(scene.growth.law, scene.contact.load, body)
     tolerance = tolerance.of_speed(scene.alpha, scene.unit)
@@ -128,6 +129,12 @@ def line_crawl(scene: Scene, tolerance: Tolerance, body: str) -> CrawlSpeed:
     )
     found = found if error is None else error.joins(found, tolerance, ALONG)
     return doubted(found, scene.wave)
+
+
+def _integrable(law: FrictionLaw) -> bool:
+    """Whether a law is one of those here; a subclass may have changed anything."""
+    known = tuple(FRICTION_LAWS.values())
+    return type(law) in known or (type(law) is Directional and type(law.form) in known)
 
 
 def _wave_error(scene: Scene, piece: Piece) -> WaveError | None:

@@ -5,14 +5,15 @@ g = int_0^S s'(alpha c) c_t dS' less its mean; eq. 7 is balanced at every time b
 
     V(t) = -alpha m,   m the median of g over the body, weighted with s^p (see `growth`)   (dry)
 
-or by the root of the tanh law. Here s' c_t is linear between equidistant points, as is g, and the
+or by the root of a law with a width. Of friction with a direction m is the quantile at the share of the
+weight that must slip one way, mu_f/(mu_f + mu_b) for alpha > 0 (`line.share`). Here s' c_t is linear between equidistant points, as is g, and the
 weight constant there: every step after that is exact, so the error falls with the square of the
 spacing, and samples and times are doubled until the last change meets the tolerance.
 
 For small alpha g = g_1 + alpha s_2 g_2 + ..., g_1 = int c_t, g_2 = int 2 c c_t, both less their means.
 With m_0 the median of g_1, f its density there and E_0 the mean over the places where g_1 = m_0,
 
-    V = -alpha m_0 + alpha^2 (p E[c sgn(m_0 - g_1)]/(2 f) - s_2 E_0[g_2]) + ...
+    V = -alpha m_0 + alpha^2 (p E[c (1(g_1 < m_0) - share)]/f - s_2 E_0[g_2]) + ...
 """
 
 import math
@@ -26,11 +27,12 @@ from numpy.typing import NDArray
 from linear_theory.common import validation
 from linear_theory.common.tolerance import Tolerance
 from linear_theory.friction.law import FrictionLaw
-from linear_theory.friction.laws import Tanh
+from linear_theory.friction.laws import Viscous
 from linear_theory.line.piece import Piece
 from linear_theory.line.result import REST_PART, REST_SPEED, LineMotion
 from linear_theory.line.roots import EPS, bracketed_newton
-from linear_theory.line.tanh_level import NARROWEST, SATURATED
+from linear_theory.line.share import share_slower
+from linear_theory.line.tanh_level import NARROWEST, SATURATED, not_narrower
 from linear_theory.wave.protocol import Drive
 
 Array = NDArray[np.float64]
@@ -199,13 +201,16 @@ def _snapshot(
     g = _less_mean(growth.slope(alpha * c) * rate)
     weight = (1 + _middle(growth.gain(alpha * c))) / cells
     if law.width == 0:
-        level, _ = _weighted_median(g, weight)
+        share = share_slower(law, alpha)
+        level, _ = _weighted_quantile(g, weight, share)
         velocity = -alpha * level
-        first, second = _dry_coefficients(c, rate, growth)
+        first, second = _dry_coefficients(c, rate, growth, share)
     else:
         velocity = -alpha * np.sum(weight * _middle(g), axis=1) / weight.sum(axis=1)
         first, second = np.zeros(times.size), _viscous_coefficient(c, rate, growth)
-        if isinstance(law, Tanh):
+        if not law.reversible:
+            first = second = np.full(times.size, math.nan)
+        if type(law) is not Viscous:
             velocity = _regularised_speed(alpha * g, weight, law, velocity)
     slip = velocity[:, None] + alpha * g
     tolerance = REST_SPEED * np.ptp(slip, axis=1, keepdims=True)
@@ -244,26 +249,26 @@ def _part_below(g: Array, level: Array) -> Array:
     return np.where(high > low, part, level >= high)
 
 
-def _weighted_median(g: Array, weight: Array) -> tuple[Array, Array]:
-    """Level, and part of each cell below it, for every time.
+def _weighted_quantile(g: Array, weight: Array, share: float = 0.5) -> tuple[Array, Array]:
+    """Level with that share of the weight below, and part of each cell below it, for every time.
 
     The weight below a level is linear between neighbours of the sorted samples: bisect for the
     neighbours, then interpolate. It jumps where a cell is flat.
     """
     rows = np.arange(g.shape[0])
-    ordered, half = np.sort(g, axis=1), weight.sum(axis=1) / 2
+    ordered, wanted = np.sort(g, axis=1), share * weight.sum(axis=1)
     below, above = np.zeros(rows.size, int), np.full(rows.size, g.shape[1] - 1)
     while np.any(above - below > 1):
         middle = (below + above) // 2
-        enough = np.sum(weight * _part_below(g, ordered[rows, middle, None]), axis=1) >= half
+        enough = np.sum(weight * _part_below(g, ordered[rows, middle, None]), axis=1) >= wanted
         below, above = np.where(enough, below, middle), np.where(enough, middle, above)
     low, high = ordered[rows, below], ordered[rows, above]
     flat = (g[:, 1:] == g[:, :-1]) & (g[:, 1:] == high[:, None])
     at_low = np.sum(weight * _part_below(g, low[:, None]), axis=1)
     at_high = np.sum(weight * np.where(flat, 0.0, _part_below(g, high[:, None])), axis=1)
     gain = np.where(at_high > at_low, at_high - at_low, np.inf)
-    level = low + (high - low) * np.clip((half - at_low) / gain, 0, 1)
-    level = np.where((at_low < half) & (half < at_high), level, high)
+    level = low + (high - low) * np.clip((wanted - at_low) / gain, 0, 1)
+    level = np.where((at_low < wanted) & (wanted < at_high), level, high)
     return level, _part_below(g, level[:, None])
 
 
@@ -276,12 +281,13 @@ def _at_level(g: Array, level: Array) -> Array:
         return np.where(there, 1 / (high - low), 0) / low.shape[1]
 
 
-def _dry_coefficients(c: Array, rate: Array, growth: Piece) -> tuple[Array, Array]:
+def _dry_coefficients(c: Array, rate: Array, growth: Piece, share: float) -> tuple[Array, Array]:
     """Of V = V1 alpha + V2 alpha^2, as in the module's head, each (times,)."""
     g, mean_growth = _less_mean(rate), _middle(c)
-    level, below = _weighted_median(g, np.full(mean_growth.shape, 1 / mean_growth.shape[1]))
+    even = np.full(mean_growth.shape, 1 / mean_growth.shape[1])
+    level, below = _weighted_quantile(g, even, share)
     density = _at_level(g, level)
-    weighed = np.mean(mean_growth * (2 * below - 1), axis=1) / (2 * density.sum(axis=1))
+    weighed = np.mean(mean_growth * (below - share), axis=1) / density.sum(axis=1)
     second = growth.power * weighed
     if growth.curvature:
         second = second - growth.curvature * _mean_at(_less_mean(2 * c * rate), g, level, density)
@@ -303,10 +309,10 @@ def _viscous_coefficient(c: Array, rate: Array, growth: Piece) -> Array:
     return np.asarray(-growth.power * np.mean(_middle(c) * _middle(_less_mean(rate)), axis=1))
 
 
-def _regularised_speed(velocity: Array, weight: Array, law: Tanh, guess: Array) -> Array:
+def _regularised_speed(velocity: Array, weight: Array, law: FrictionLaw, guess: Array) -> Array:
     """V with int w f(V + v) = 0, f the force of the law, v = `velocity` linear on each cell."""
     fastest = abs(velocity).max(axis=1)
-    law = Tanh(max(law.width, NARROWEST * float(fastest.max())))
+    law = not_narrower(law, NARROWEST * float(fastest.max()))
 
     def balance(speed: Array) -> tuple[Array, Array]:
         slip = speed[:, None] + velocity
@@ -316,15 +322,18 @@ def _regularised_speed(velocity: Array, weight: Array, law: Tanh, guess: Array) 
     return bracketed_newton(balance, -fastest, fastest, guess, atol=EPS * float(fastest.max()))
 
 
-def _means(law: Tanh, slip: Array) -> Array:
+def _means(law: FrictionLaw, slip: Array) -> Array:
     """Means of force and tangent over cells on which the velocity is linear, (2, times, cells).
 
     slip: at their ends, (times, cells + 1). Differences of their integrals; means of two Gauss points
     where these would cancel.
     """
     a, b = slip[:, :-1], slip[:, 1:]
-    dry = (np.sign(a) == np.sign(b)) & (np.minimum(abs(a), abs(b)) > SATURATED * law.width)
-    close = dry | (abs(b - a) < CLOSE * law.width)
+    one_way = np.sign(a) == np.sign(b)
+    dry = one_way & (np.minimum(abs(a), abs(b)) > SATURATED * law.width)
+    # across rest the tangent may jump; there nothing cancels, as potential and force are 0 there
+    close = dry | (abs(b - a) < CLOSE * law.width) & (one_way | law.reversible)
+    close |= a == b
     with np.errstate(divide="ignore", invalid="ignore"):
         means = np.diff([law.potential(slip[None]), law.force(slip[None])[0]]) / (b - a)
     middle, offset = (a[close] + b[close]) / 2, (b[close] - a[close]) / math.sqrt(12)

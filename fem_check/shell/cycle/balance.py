@@ -115,7 +115,7 @@ class CycleBalance:
     def speed_per_rate(self) -> float:
         """Largest mean V for dc/dt of root mean square 1."""
         scene = self.shapes.scene
-        opposed = scene.drive.changes_sign and self.contact.friction.even
+        opposed = scene.drive.changes_sign and self.contact.friction.reversible
         return scene.speed_per_rate(self.contact.slope != 0 or not opposed)
 
     def on(self, shapes: Shapes) -> "CycleBalance":
@@ -228,7 +228,7 @@ class CycleBalance:
 
 def _mirrored(shapes: Shapes, contact: Contact) -> bool:
     """Whether motion and friction are mirror symmetric in x."""
-    return is_mirrored(shapes) and contact.friction.even
+    return is_mirrored(shapes) and contact.friction.mirrored
 
 
 def _paired(leading: Array) -> Array:
