@@ -214,7 +214,7 @@ def test_a_line_takes_the_laws_with_names_only() -> None:
     """A subclass may have changed anything."""
     for law in (Soft(0.1), type("Mine", (Tanh,), {})(0.1)):
         with pytest.raises(
-            ValueError, match="must be one of Coulomb, Tanh, Viscous for a body on a line"
+            ValueError, match="must be one of Coulomb, Tanh, Viscous, Directional for a body on a line"
         ):
             line_balance(SineWave(), 0.1, friction=law)
 

@@ -31,6 +31,7 @@ from linear_theory.common.units import power_of_two
 from linear_theory.friction.isotropic import norm
 from linear_theory.friction.law import ALL, FrictionLaw
 from linear_theory.motion.cells import Integers, graded
+from linear_theory.motion.creases import cut
 from linear_theory.motion.motion import Motion
 
 Array = NDArray[np.float64]
@@ -262,9 +263,24 @@ class Balance:
 
         flat = values.reshape(channels, count * cells, n, n)
         cells_now = graded(flat, owners, roughness, halvings)
+        for crease in self._creases(motion):
+            cells_now = cut(cells_now, crease, _AREA)
         sums = cells_now.integrals(integrand(cells_now.values, cells_now.owners))
         unknowns = len(self._modes)
         return sums[:unknowns].T, sums[unknowns:].T.reshape(count, unknowns, unknowns)
+
+    def _creases(self, motion: Velocities) -> list[Callable[[Array, Integers], Array]]:
+        """Functions that vanish where the tangent of the law jumps, for each of the velocities."""
+        normal = self._law.crease
+        if normal is None:
+            return []
+        count = len(motion(self._values[:, 0, :1], np.zeros(1, int)))
+
+        def level(k: int, values: Array, owners: Integers) -> Array:
+            v = motion(values, owners)[k]
+            return np.asarray(normal[0] * v[0] + normal[1] * v[1])
+
+        return [partial(level, k) for k in range(count)]
 
     def _moved(self, values: Array, q: Array, at: Array | None = None) -> Array:
         """Velocity against the ground, (2, ...), of points that move with values[:2]; q (..., J)."""

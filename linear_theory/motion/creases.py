@@ -1,0 +1,78 @@
+"""Cells cut along the curve on which an integrand has a crease.
+
+Friction with a direction has another tangent on either side of the curve where slip across it vanishes.
+A cell that the curve crosses is cut in two curved cells: along the local axis on which the level varies
+more, every line of Gauss points is divided where the level is 0, and each part gets Gauss points of its
+own, by interpolation. Gauss quadrature then sees smooth functions along these lines, and across them
+one that has at most a kink, where the curve leaves the cell by its side.
+"""
+
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linear_theory.motion.cells import Graded, gauss
+
+Array = NDArray[np.float64]
+Integers = NDArray[np.int64]
+
+NEWTON_STEPS = 4
+"""From the chord between neighbouring points, on lines where the level is nearly linear."""
+
+
+def cut(cells: Graded, level: Callable[[Array, Integers], Array], area: int) -> Graded:
+    """The cells, of which those on which the level changes sign are cut there.
+
+    level(values, owners): (cells, n, n), a polynomial on each cell; area: the channel of the values
+    that counts the area, which is shared between the parts.
+    """
+    values, owners, shares = cells
+    at = level(values, owners)
+    crossed = (at.min((1, 2)) < 0) & (at.max((1, 2)) > 0)
+    if not crossed.any():
+        return cells
+    lines, at = values[:, crossed], at[crossed]
+    across = abs(np.diff(at, axis=1)).sum((1, 2)) > abs(np.diff(at, axis=2)).sum((1, 2))
+    lines[:, across] = lines[:, across].swapaxes(-1, -2)  # the level varies along the last axis
+    at[across] = at[across].swapaxes(-1, -2)
+    root = _roots(at)
+    points = (gauss(at.shape[-1]).points + 1) / 2
+    parts = [values[:, ~crossed]]
+    for start, length in ((-1.0, root + 1), (root, 1 - root)):
+        places = np.expand_dims(np.asarray(start), -1) + length[..., None] * points
+        part = _interpolated(lines, places)
+        part[area] *= length[..., None] / 2
+        parts.append(part)
+    who, share = (np.concatenate([a[~crossed], a[crossed], a[crossed]]) for a in (owners, shares))
+    return Graded(np.concatenate(parts, axis=1), who, share)
+
+
+def _interpolated(values: Array, places: Array) -> Array:
+    """Values (channels, cells, n, n) along their last axis at places (cells, n, m)."""
+    rule = gauss(values.shape[-1])
+    weights = np.polynomial.legendre.legvander(places, values.shape[-1] - 1) @ rule.inverse
+    return np.asarray((weights @ values[..., None])[..., 0])
+
+
+def _roots(level: Array) -> Array:
+    """Where levels (cells, n, n) change sign along the last axis, (cells, n); 1 where they do not."""
+    rule = gauss(level.shape[-1])
+    nodes = np.concatenate([[-1.0], rule.points, [1.0]])
+    ends = level @ rule.with_ends.T
+    changes = (ends[..., 1:] > 0) != (ends[..., :-1] > 0)
+    first = changes.argmax(-1)
+    low, high = nodes[first], nodes[first + 1]
+    below, above = (np.take_along_axis(ends, first[..., None] + k, -1)[..., 0] for k in (0, 1))
+    there = changes.any(-1)
+    root = np.where(there, low + (high - low) * below / np.where(there, below - above, 1.0), 1.0)
+    coefficients = level @ rule.inverse.T
+    degree = level.shape[-1] - 1
+    slopes = np.polynomial.legendre.legder(np.moveaxis(coefficients, -1, 0))
+    for _ in range(NEWTON_STEPS):
+        powers = np.polynomial.legendre.legvander(root, degree)
+        value = (powers * coefficients).sum(-1)
+        slope = (powers[..., :degree] * np.moveaxis(slopes, 0, -1)).sum(-1)
+        step = np.where(there & (slope != 0), value / np.where(slope == 0, 1.0, slope), 0.0)
+        root = np.where(there, np.clip(root - step, low, high), root)
+    return np.asarray(root)
