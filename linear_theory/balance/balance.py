@@ -42,6 +42,7 @@ Residual = Callable[..., tuple[Array, Array]]
 
 _COARSE_HALVINGS = 8
 _MARGIN = 1.5  # mean over variation of w on a cell, above which Gauss quadrature sees it as smooth
+_MOST_ASIDE = 5  # halvings of a cell that a crease leaves by a side; the error falls like 8^-k
 _LINEAR = 1e-8  # alpha below which q_1 is the zero of a linear function
 _NEAR = 0.3  # after a Newton step s the error is some s^2 over the speed of the sheet: 10 would do
 _REST = 1e-6  # speeds below this share of the mean speed count as rest
@@ -264,7 +265,7 @@ class Balance:
         flat = values.reshape(channels, count * cells, n, n)
         cells_now = graded(flat, owners, roughness, halvings)
         for crease in self._creases(motion):
-            cells_now = cut(cells_now, crease, _AREA)
+            cells_now = cut(cells_now, crease, _AREA, min(halvings // 3, _MOST_ASIDE))
         sums = cells_now.integrals(integrand(cells_now.values, cells_now.owners))
         unknowns = len(self._modes)
         return sums[:unknowns].T, sums[unknowns:].T.reshape(count, unknowns, unknowns)

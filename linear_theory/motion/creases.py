@@ -20,32 +20,68 @@ Integers = NDArray[np.int64]
 NEWTON_STEPS = 4
 """From the chord between neighbouring points, on lines where the level is nearly linear."""
 
+Level = Callable[[Array, Integers], Array]
 
-def cut(cells: Graded, level: Callable[[Array, Integers], Array], area: int) -> Graded:
+
+def cut(cells: Graded, level: Level, area: int, halvings: int) -> Graded:
     """The cells, of which those on which the level changes sign are cut there.
 
     level(values, owners): (cells, n, n), a polynomial on each cell; area: the channel of the values
-    that counts the area, which is shared between the parts.
+    that counts the area, which is shared between the parts; halvings: the most of a cell that the curve
+    leaves by a side, so that what has a kink there is small.
     """
-    values, owners, shares = cells
-    at = level(values, owners)
+    at = level(cells.values, cells.owners)
     crossed = (at.min((1, 2)) < 0) & (at.max((1, 2)) > 0)
     if not crossed.any():
         return cells
-    lines, at = values[:, crossed], at[crossed]
+    left, inside = [_some(cells, ~crossed)], _some(cells, crossed)
+    at = at[crossed]
     across = abs(np.diff(at, axis=1)).sum((1, 2)) > abs(np.diff(at, axis=2)).sum((1, 2))
-    lines[:, across] = lines[:, across].swapaxes(-1, -2)  # the level varies along the last axis
-    at[across] = at[across].swapaxes(-1, -2)
-    root = _roots(at)
+    inside.values[:, across] = inside.values[:, across].swapaxes(-1, -2)  # now along the last axis
+    for left_over in range(halvings, -1, -1):
+        at = level(inside.values, inside.owners)
+        met = _meets(at)
+        some = met.any(1)
+        leaving = some & ~met.all(1) & (left_over > 0)
+        left.append(_some(inside, ~some))
+        left += _divided(_some(inside, some & ~leaving), at[some & ~leaving], area)
+        if not leaving.any():
+            break
+        inside = _halved_aside(_some(inside, leaving))
+    return Graded(
+        np.concatenate([part.values for part in left], axis=1),
+        np.concatenate([part.owners for part in left]),
+        np.concatenate([part.shares for part in left]),
+    )
+
+
+def _some(cells: Graded, which: NDArray[np.bool_]) -> Graded:
+    return Graded(cells.values[:, which], cells.owners[which], cells.shares[which])
+
+
+def _halved_aside(cells: Graded) -> Graded:
+    """Halves along the first axis."""
+    halves = [half @ cells.values for half in gauss(cells.values.shape[-1]).halves]
+    return Graded(
+        np.concatenate(halves, axis=1), np.tile(cells.owners, 2), np.tile(cells.shares / 2, 2)
+    )
+
+
+def _divided(cells: Graded, at: Array, area: int) -> list[Graded]:
+    """The parts of cells below and above the place of their level 0, along the last axis."""
+    root, parts = _roots(at), []
     points = (gauss(at.shape[-1]).points + 1) / 2
-    parts = [values[:, ~crossed]]
-    for start, length in ((-1.0, root + 1), (root, 1 - root)):
-        places = np.expand_dims(np.asarray(start), -1) + length[..., None] * points
-        part = _interpolated(lines, places)
+    for start, length in ((np.full_like(root, -1.0), root + 1), (root, 1 - root)):
+        part = _interpolated(cells.values, start[..., None] + length[..., None] * points)
         part[area] *= length[..., None] / 2
-        parts.append(part)
-    who, share = (np.concatenate([a[~crossed], a[crossed], a[crossed]]) for a in (owners, shares))
-    return Graded(np.concatenate(parts, axis=1), who, share)
+        parts.append(cells._replace(values=part))
+    return parts
+
+
+def _meets(level: Array) -> NDArray[np.bool_]:
+    """Whether a level (cells, n, n) changes sign along each line of the last axis, (cells, n)."""
+    ends = level @ gauss(level.shape[-1]).with_ends.T
+    return np.asarray((ends.min(-1) < 0) & (ends.max(-1) > 0))
 
 
 def _interpolated(values: Array, places: Array) -> Array:
