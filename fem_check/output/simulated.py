@@ -93,8 +93,10 @@ class Simulated:
             return np.zeros((2, region.size))
         before, after = self._within(t - AROUND * self.period), self._within(t + AROUND * self.period)
         moved = self._place(region, after)[:2] - self._place(region, before)[:2]
-        law = self._scene.contact.friction
-        return np.asarray(-self._load(region, t) * law.force(moved / (after - before)))
+        law, slip = self._scene.contact.friction, moved / (after - before)
+        angle = self._frame(region, points, t).heading if law.follows_body else 0.0
+        force = turned(law.force(turned(slip, -angle)), angle)
+        return np.asarray(-self._load(region, t) * force)
 
     def ground(self, x: Array, y: Array) -> Array:
         """See Moving."""

@@ -8,7 +8,7 @@ from fem_check.shell.effects.gravity import Gravity
 from fem_check.shell.effects.ground import Ground
 from fem_check.shell.effects.inertia import Inertia
 from fem_check.shell.effects.koiter import Bending
-from linear_theory.scene.level import THEORY, Level
+from linear_theory.scene.level import THEORY, Level, turns_on_ground
 from linear_theory.scene.scene import Scene
 
 
@@ -33,7 +33,7 @@ def _rests_otherwise(scene: Scene) -> str:
     return ""
 
 
-CYCLE = Level("cycle_speed(scene)", _of_a_cycle)
+CYCLE = Level("cycle_speed(scene)", _of_a_cycle, (turns_on_ground,))
 
 STEPPED = Level("simulate(scene)", _of_a_step, (_moves_in_time, _rests_otherwise))
 

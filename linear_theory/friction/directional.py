@@ -118,6 +118,11 @@ class Directional(FrictionLaw):
         return self.fixed_to is FixedTo.BODY and not self._is_isotropic
 
     @property
+    def follows_ground(self) -> bool:
+        """See FrictionLaw."""
+        return self.fixed_to is FixedTo.GROUND and not self._is_isotropic
+
+    @property
     def opposite(self) -> "Directional":
         """See FrictionLaw."""
         return replace(self, forward=self.backward, backward=self.forward)

@@ -80,7 +80,12 @@ class FrictionLaw(Value, ABC):
 
     @property
     def follows_body(self) -> bool:
-        """Whether its axes turn with the sheet; else they are those of the ground."""
+        """Whether it has axes that turn with the sheet."""
+        return False
+
+    @property
+    def follows_ground(self) -> bool:
+        """Whether it has axes that stay with the ground where the sheet turns."""
         return False
 
     @property
@@ -212,6 +217,11 @@ class Opposite(FrictionLaw):
     def follows_body(self) -> bool:
         """See FrictionLaw."""
         return self.law.follows_body
+
+    @property
+    def follows_ground(self) -> bool:
+        """See FrictionLaw."""
+        return self.law.follows_ground
 
     @property
     def width(self) -> float:

@@ -54,5 +54,13 @@ def _cut(scene: Scene) -> str:
     return "" if scene.mesh is None else "a mesh of its own outline"
 
 
-THEORY = Level("linear_theory", lambda effect, scene: effect.beyond_theory(scene), (_sloping, _cut))
+def turns_on_ground(scene: Scene) -> str:
+    """The direction of friction fixed to the ground, where the sheet may turn on it."""
+    law = scene.contact.friction
+    if not law.follows_ground or (scene.drive.mirrored and law.mirrored):
+        return ""
+    return f"a direction of friction fixed to the ground below a sheet that may turn ({law.words})"
+
+
+THEORY = Level("linear_theory", lambda effect, scene: effect.beyond_theory(scene), (_sloping, _cut, turns_on_ground))
 """The theories of a flat rectangle that is not deformed by friction."""

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from fem_check.shell.abilities import STEPPED
 from fem_check.shell.effects.effect import Effect
 from fem_check.shell.effects.restraint import Restraint
+from fem_check.shell.kinematics.heading import heading
 from fem_check.shell.kinematics.point_state import PointState
 from fem_check.shell.kinematics.rates import Affine, Step
 from fem_check.shell.kinematics.rest_state import RestState
@@ -177,7 +178,13 @@ class Stepper:
             return step
         state = PointState(self.region, u, (0,), rest, step)
         load, normal = self.bearer.normal_load(state), self.bearer.ground_normal(state)
-        return replace(step, load=load, normal=normal)
+        return replace(step, load=load, normal=normal, heading=self.heading(u))
+
+    def heading(self, u: Array) -> float:
+        """Of the sheet as a whole, if the axes of friction turn with it; else 0."""
+        if not any(effect.law.follows_body for effect in self.model.effects if effect.law):
+            return 0.0
+        return heading(self.model.discretisation, u)
 
     def area(self, u: Array) -> Array:
         """Quadrature weight times current area, (points,)."""
