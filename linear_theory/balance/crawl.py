@@ -113,7 +113,8 @@ class Crawl:
     @property
     def reversal_time(self) -> float | None:
         """t_0 with V(t_0 - t) = V(t), where the wave and the sheet have that symmetry."""
-        return self.drive.reversal_time if self.mirrored else None
+        alike = self.mirrored and self.contact.friction.map is None
+        return self.drive.reversal_time if alike else None
 
     @cached_property
     def work(self) -> int:
@@ -178,4 +179,7 @@ class Crawl:
         rate = self.contact.load.rate(motion.dilation, motion.growth)
         check_load(motion, rate, self.alpha)
         law = self.contact.friction.per(self.alpha)
+        if law.map is not None:
+            share = law.map.values(*motion.position, np.reshape(times, (-1, 1, 1, 1)))
+            motion = replace(motion, area=motion.area * share)
         return Balance(motion, rate, self.alpha, law, r.halvings, r.tolerance)

@@ -12,7 +12,6 @@ isotropic law at the velocity (m_s v_s, m_n v_n), which gives force, tangent and
 
 import math
 from dataclasses import dataclass, field, replace
-from enum import StrEnum
 from functools import cached_property
 from typing import ClassVar
 
@@ -24,6 +23,7 @@ from linear_theory.common.pairs import PAIRS, pairs_among
 from linear_theory.friction.isotropic import Isotropic, IsotropicResponse, norm
 from linear_theory.friction.law import ALL, FrictionLaw, Response
 from linear_theory.friction.laws import Coulomb
+from linear_theory.friction.maps import FixedTo
 
 Array = NDArray[np.float64]
 
@@ -33,13 +33,6 @@ difference does not cancel."""
 
 EXTREME = 1e50
 """Bound of the coefficients and of their inverses, so that their squares are numbers."""
-
-
-class FixedTo(StrEnum):
-    """What the axes of a law, or a map of friction, move with."""
-
-    BODY = "body"
-    GROUND = "ground"
 
 
 @dataclass(frozen=True)
@@ -81,8 +74,7 @@ class Directional(FrictionLaw):
         if abs(heading) > math.pi:
             raise ValueError(f"heading = {heading:g}: must be from -pi to pi, radians")
         self._set("heading", heading)
-        fixed = FixedTo(validation.choice("fixed_to", self.fixed_to, tuple(FixedTo)))
-        self._set("fixed_to", fixed)
+        self._set("fixed_to", FixedTo.named(self.fixed_to))
         validation.instance("form", self.form, Isotropic)
 
     def _set(self, name: str, value: object) -> None:

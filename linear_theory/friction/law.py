@@ -50,6 +50,8 @@ class FrictionLaw(Value, ABC):
     """
 
     name: ClassVar[str]
+    map: ClassVar[Any] = None
+    """Of the coefficient, a `maps.FrictionMap`; None where it is the same everywhere."""
 
     def __str__(self) -> str:
         return self.name

@@ -13,6 +13,7 @@ from linear_theory.friction.directional import Directional
 from linear_theory.friction.law import FrictionLaw
 from linear_theory.friction.laws import FRICTION_LAWS
 from linear_theory.friction.load import Load
+from linear_theory.friction.maps import Mapped
 from linear_theory.friction.regime import warn_if_viscous
 from linear_theory.growth.laws import GrowthLaw
 from linear_theory.line.piece import Piece
@@ -20,6 +21,7 @@ from linear_theory.line.result import LineMotion
 from linear_theory.line.samples import coarse_mean, sampled_balance
 from linear_theory.line.travelling import travelling_balance
 from linear_theory.motion.rigid import RigidNorm
+from linear_theory.scene.level import map_on_ground
 from linear_theory.scene.scene import Scene
 from linear_theory.sheet.rectangle import Sheet
 from linear_theory.speed.result import CrawlSpeed, Estimate
@@ -108,6 +110,9 @@ def line_crawl(scene: Scene, tolerance: Tolerance, body: str) -> CrawlSpeed:
     if not _integrable(law):
         names = ", ".join(kind.__name__ for kind in (*FRICTION_LAWS.values(), Directional))
         raise ValueError(f"friction = {law!r}: must be one of {names} for a body on a line")
+    if map_on_ground(scene):
+        shown = validation.shown(law)
+        raise ValueError(f"friction = {shown}: must have no map on the ground for a body on a line")
     piece = Piece.of(scene.growth.law, scene.contact.load, body)
     tolerance = tolerance.of_speed(scene.alpha, scene.unit)
     error = _wave_error(scene, piece)
@@ -134,6 +139,8 @@ def line_crawl(scene: Scene, tolerance: Tolerance, body: str) -> CrawlSpeed:
 def _integrable(law: FrictionLaw) -> bool:
     """Whether a law is one of those here; a subclass may have changed anything."""
     known = tuple(FRICTION_LAWS.values())
+    if type(law) is Mapped:
+        law = law.law
     return type(law) in known or (type(law) is Directional and type(law.form) in known)
 
 
@@ -168,7 +175,7 @@ def _checked_length(length: float | None, wave: Wave) -> float:
 def _in_lengths(scene: Scene, piece: Piece, tolerance: Tolerance) -> LineMotion:
     """The balance in units of the length of the body, as for the tolerance."""
     law, series = scene.contact.friction.scaled(scene.sheet.length), scene.drive.series
-    if series is not None:
+    if series is not None and law.map is None:
         return travelling_balance(series, scene.alpha, law, piece)
     on_line = drive(scene.wave, scene.sheet, on_axis(scene.sheet.length))
     return sampled_balance(on_line, scene.alpha, law, piece, tolerance)

@@ -28,6 +28,7 @@ from linear_theory.common import validation
 from linear_theory.common.tolerance import Tolerance
 from linear_theory.friction.law import FrictionLaw
 from linear_theory.friction.laws import Viscous
+from linear_theory.friction.maps import Mapped
 from linear_theory.line.piece import Piece
 from linear_theory.line.result import REST_PART, REST_SPEED, LineMotion
 from linear_theory.line.roots import EPS, bracketed_newton
@@ -200,6 +201,8 @@ def _snapshot(
     _check_strain(alpha, c, times, y, growth)
     g = _less_mean(growth.slope(alpha * c) * rate)
     weight = (1 + _middle(growth.gain(alpha * c))) / cells
+    if law.map is not None:
+        weight = weight * _middle(np.broadcast_to(law.map.values(0.0, place, times), g.shape))
     if law.width == 0:
         share = share_slower(law, alpha)
         level, _ = _weighted_quantile(g, weight, share)
@@ -208,14 +211,19 @@ def _snapshot(
     else:
         velocity = -alpha * np.sum(weight * _middle(g), axis=1) / weight.sum(axis=1)
         first, second = np.zeros(times.size), _viscous_coefficient(c, rate, growth)
-        if not law.reversible:
-            first = second = np.full(times.size, math.nan)
-        if type(law) is not Viscous:
+        if not is_viscous(law):
             velocity = _regularised_speed(alpha * g, weight, law, velocity)
+    if law.map is not None or (law.width > 0 and not law.reversible):
+        first = second = np.full(times.size, math.nan)
     slip = velocity[:, None] + alpha * g
     tolerance = REST_SPEED * np.ptp(slip, axis=1, keepdims=True)
     rest = np.mean(_part_below(slip, tolerance) - _part_below(slip, -tolerance), axis=1)
     return Snapshot(velocity, first, second, abs(slip).max(axis=1), rest)
+
+
+def is_viscous(law: FrictionLaw) -> bool:
+    """Whether it is linear, so that no equation is to be solved."""
+    return type(law.law if isinstance(law, Mapped) else law) is Viscous
 
 
 def _on_grid(values: Array, times: Array, y: Array) -> Array:

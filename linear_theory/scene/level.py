@@ -10,6 +10,7 @@ from importlib import import_module
 from typing import Any
 
 from linear_theory.common.shown import Shown
+from linear_theory.friction.maps import FixedTo
 from linear_theory.scene.scene import Scene
 
 LEVELS = "fem_check.shell.abilities"
@@ -62,5 +63,13 @@ def turns_on_ground(scene: Scene) -> str:
     return f"a direction of friction fixed to the ground below a sheet that may turn ({law.words})"
 
 
-THEORY = Level("linear_theory", lambda effect, scene: effect.beyond_theory(scene), (_sloping, _cut, turns_on_ground))
+def map_on_ground(scene: Scene) -> str:
+    """A map of friction on the ground, under which a motion does not repeat."""
+    found = scene.contact.friction.map
+    if found is None or found.fixed_to is FixedTo.BODY:
+        return ""
+    return "a map of friction fixed to the ground, over which the sheet moves on"
+
+
+THEORY = Level("linear_theory", lambda effect, scene: effect.beyond_theory(scene), (_sloping, _cut, turns_on_ground, map_on_ground))
 """The theories of a flat rectangle that is not deformed by friction."""

@@ -107,7 +107,7 @@ class CycleBalance:
         velocity along y at (y, t) is that at (-y, t_0 - t).
         """
         reversal = self.shapes.scene.drive.reversal_time
-        if reversal is None or not self.mirrored:
+        if reversal is None or not self.mirrored or self.contact.friction.map is not None:
             return None
         return reversal if is_mirrored(self.shapes, axis=1) else None
 
@@ -219,7 +219,10 @@ class CycleBalance:
 
     @cached_property
     def _motion(self) -> CycleMotion:
-        return CycleMotion(self.shapes, self.contact.load, self.order, self.mirrored)
+        contact = self.contact
+        return CycleMotion(
+            self.shapes, contact.load, self.order, self.mirrored, map=contact.friction.map
+        )
 
     def _balance(self, times: Array) -> Balance:
         motion, law, slope = self._motion.at(times), self.contact.friction, self.contact.slope

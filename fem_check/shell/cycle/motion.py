@@ -1,6 +1,6 @@
 """The motion of a cycle of shapes at Gauss points, in the form read by the friction balance."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
@@ -18,6 +18,7 @@ from fem_check.shell.kinematics.region import Region
 from linear_theory.common.errors import SheetcrawlError
 from linear_theory.common.quadrature import gauss_legendre
 from linear_theory.friction.load import Load
+from linear_theory.friction.maps import FrictionMap
 from linear_theory.motion.motion import Motion
 
 Array = NDArray[np.float64]
@@ -46,7 +47,7 @@ def is_mirrored(shapes: Shapes, axis: int = 0) -> bool:
 class CycleMotion:
     """Velocities and loads of shapes on the cells of their mesh.
 
-    load: see `Contact`; order: Gauss points per cell and direction; mirrored: whether the
+    load: see `Contact`; map: of the coefficient of friction, which multiplies the load; order: Gauss points per cell and direction; mirrored: whether the
     motion is mirror symmetric. A rectangle is one cell, a triangle three.
     """
 
@@ -54,6 +55,7 @@ class CycleMotion:
     load: Load
     order: int
     mirrored: bool
+    map: FrictionMap | None = field(default=None, kw_only=True)
 
     def at(self, times: Array) -> Motion:
         """Motion at times (T,), with velocities in length per time and the load as `area`.
@@ -69,6 +71,8 @@ class CycleMotion:
         velocity = np.tensordot(slopes, self._jets[:, 0, :2], 1).swapaxes(0, 1)
         load = self._load(times, values, position)
         _check_load(load, times)
+        if self.map is not None:
+            load = load * self.map.values(*self.region.reference[0, :2], times[:, None])
         place, velocity = self._frame.seen(times, position[:2], velocity)
         shape = (times.size, -1, self.order, self.order)
         nothing = np.zeros(load.size).reshape(shape)
