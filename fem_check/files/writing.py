@@ -4,7 +4,7 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
-from fem_check.files.parts.effects import LAWS
+from fem_check.files.parts.friction import entries_of
 from fem_check.files.parts.scene_file import RunSettings
 from fem_check.files.reading import parsed
 from fem_check.files.toml import text_of
@@ -120,11 +120,7 @@ def _contact(scene: Scene) -> Entries:
     own, contact = contact_of(scene.effects, scene.components, None), scene.contact
     entries: Entries = {}
     if contact.friction != own.friction:
-        if contact.friction.name not in LAWS:
-            raise ValueError(f"friction = {contact.friction!r}: has no name in a scene file")
-        entries["law"] = LAWS[contact.friction.name]
-        if contact.friction.regularised:
-            entries["slip_speed"] = contact.friction.width
+        entries |= _without_defaults(entries_of(contact.friction))
     if contact.load != own.load:
         entries["load"] = str(contact.load)
     if repr(contact.slope) != repr(own.slope):
@@ -166,7 +162,7 @@ TABLES_OF: dict[type, tuple[str, Callable[[Any], Entries]]] = {
     Ground: ("ground", _ground),
     Friction: (
         "friction",
-        lambda effect: {"coefficient": effect.coefficient, "slip_speed": effect.slip_speed},
+        lambda effect: {"coefficient": effect.coefficient, **entries_of(effect.law)},
     ),
     Inertia: ("inertia", lambda effect: {"density": effect.density}),
     DeadLoad: ("dead_load", lambda effect: {"force": list(effect.force)}),
@@ -175,6 +171,9 @@ TABLES_OF: dict[type, tuple[str, Callable[[Any], Entries]]] = {
 
 DEFAULTS = {
     "incline": 0.0,
+    "heading": 0.0,
+    "fixed_to": "body",
+    "outside": 1.0,
     "damping": 0.0,
     "form": "clipped",
     "curvature_coupling": 0.0,
