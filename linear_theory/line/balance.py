@@ -104,12 +104,13 @@ def line_balance(
 def line_crawl(scene: Scene, tolerance: Tolerance, body: str) -> CrawlSpeed:
     """`line_balance` of a body as long as the sheet of a scene, without its warning.
 
-    Raises ValueError for a law of friction without a name, which may depend on direction.
+    Raises ValueError for a law of friction of one's own.
     """
     start, law, length = time.perf_counter(), scene.contact.friction, scene.sheet.length
     if not _integrable(law):
         names = ", ".join(kind.__name__ for kind in (*FRICTION_LAWS.values(), Directional))
         raise ValueError(f"friction = {law!r}: must be one of {names} for a body on a line")
+    law.potential(np.ones((1, 1)))  # raises ValueError for a heading, which a line has not
     if map_on_ground(scene):
         shown = validation.shown(law)
         raise ValueError(f"friction = {shown}: must have no map on the ground for a body on a line")
