@@ -46,6 +46,7 @@ _MOST_ASIDE = 5  # halvings of a cell that a crease leaves by a side; the error 
 _LINEAR = 1e-8  # alpha below which q_1 is the zero of a linear function
 _NEAR = 0.3  # after a Newton step s the error is some s^2 over the speed of the sheet: 10 would do
 _REST = 1e-6  # speeds below this share of the mean speed count as rest
+_TURNING = 1e-12  # the same for a whole sheet, where a reciprocal motion turns, but for rounding
 _VISCOUS = 1e150  # a width as good as infinite, whose square is a number
 _VELOCITY, _AREA, _RATE, _ARMS = slice(0, 2), 2, 3, slice(4, 6)
 """Channels of the values at a point: v_x, v_y, area, e; x, y from the centre if the sheet may turn;
@@ -156,9 +157,10 @@ class Balance:
         change = self._change(self._values, leading, remainder)
         speed = norm(self._moved(self._values, leading) + self._alpha * change)
         rest = np.mean(speed < _REST * self._scale, axis=(1, 2, 3))
-        still = ~np.any(self._values[_VELOCITY], axis=(0, 2, 3, 4))
+        own = abs(self._values[_VELOCITY]).max(axis=(0, 2, 3, 4))
+        still = own <= _TURNING * self._scale
         rest[still] = 0.0  # all is at rest, no part of it sticks
-        fastest = 0.0 if still.all() and not self._slope else self._units.speed * float(speed.max())
+        fastest = 0.0 if not own.any() and not self._slope else self._units.speed * float(speed.max())
         return RigidMotion(self._full(leading), self._full(remainder), rest, fastest)
 
     def correction(self, leading: Array, remainder: Array) -> RigidMotion:
@@ -265,7 +267,7 @@ class Balance:
         flat = values.reshape(channels, count * cells, n, n)
         cells_now = graded(flat, owners, roughness, halvings)
         for crease in self._creases(motion):
-            cells_now = cut(cells_now, crease, _AREA, min(halvings // 3, _MOST_ASIDE))
+            cells_now = cut(cells_now, crease, _AREA, min(halvings // 4, _MOST_ASIDE))
         sums = cells_now.integrals(integrand(cells_now.values, cells_now.owners))
         unknowns = len(self._modes)
         return sums[:unknowns].T, sums[unknowns:].T.reshape(count, unknowns, unknowns)

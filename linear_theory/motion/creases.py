@@ -17,7 +17,7 @@ from linear_theory.motion.cells import Graded, gauss
 Array = NDArray[np.float64]
 Integers = NDArray[np.int64]
 
-NEWTON_STEPS = 4
+NEWTON_STEPS = 3
 """From the chord between neighbouring points, on lines where the level is nearly linear."""
 
 Level = Callable[[Array, Integers], Array]
@@ -38,20 +38,25 @@ def cut(cells: Graded, level: Level, area: int, halvings: int) -> Graded:
     at = at[crossed]
     across = abs(np.diff(at, axis=1)).sum((1, 2)) > abs(np.diff(at, axis=2)).sum((1, 2))
     inside.values[:, across] = inside.values[:, across].swapaxes(-1, -2)  # now along the last axis
+    ready = []
     for left_over in range(halvings, -1, -1):
-        at = level(inside.values, inside.owners)
-        met = _meets(at)
+        met = _meets(level(inside.values, inside.owners))
         some = met.any(1)
         leaving = some & ~met.all(1) & (left_over > 0)
         left.append(_some(inside, ~some))
-        left += _divided(_some(inside, some & ~leaving), at[some & ~leaving], area)
+        ready.append(_some(inside, some & ~leaving))
         if not leaving.any():
             break
         inside = _halved_aside(_some(inside, leaving))
+    whole = _joined(ready)
+    return _joined([*left, *_divided(whole, level(whole.values, whole.owners), area)])
+
+
+def _joined(parts: list[Graded]) -> Graded:
     return Graded(
-        np.concatenate([part.values for part in left], axis=1),
-        np.concatenate([part.owners for part in left]),
-        np.concatenate([part.shares for part in left]),
+        np.concatenate([part.values for part in parts], axis=1),
+        np.concatenate([part.owners for part in parts]),
+        np.concatenate([part.shares for part in parts]),
     )
 
 
