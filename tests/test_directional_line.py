@@ -38,7 +38,7 @@ def ratchet(r: float, form: FrictionLaw | None = None) -> Directional:
 @pytest.mark.parametrize("heading", [0.0, 0.7, -2.0])
 @pytest.mark.parametrize("sizes", [(0.4, 1.7, 0.8), (1.0, 1.0, 0.3), (3.0, 0.2, None)])
 def test_methods_agree(form: Isotropic, heading: float, sizes: tuple[float, ...]) -> None:
-    """Gradient, tangent, convexity, differences, scaling: the trial of laws, also of the reversed law."""
+    """Gradient, tangent, convexity, differences, scaling: the trial of laws; also reversed."""
     law = Directional(*sizes, heading=heading, form=form)
     for components in (1, 2, 3) if heading == 0 else (2, 3):
         check_law(law, components)
@@ -93,7 +93,7 @@ SINE = {(0.1, 0.5): 0.0752137, (0.3, 0.5): 0.2454053}
 
 @pytest.mark.parametrize(("alpha", "r"), SINE)
 def test_sine_wave(alpha: float, r: float) -> None:
-    """theta - alpha cos theta = (pi/2) r, V = (alpha/nT) sin theta; series alpha sin + alpha^2 cos^2."""
+    """theta - alpha cos theta = (pi/2) r, V = (alpha/nT) sin theta, and its series."""
     theta = brentq(lambda a: a - alpha * math.cos(a) - math.pi / 2 * r, -2, 2, xtol=1e-15)
     wave = SineWave(count=2, period=0.5)
     found = line_balance(wave, alpha, friction=ratchet(r))
@@ -176,7 +176,11 @@ def test_viscous_speed_is_the_variance_of_the_stretch() -> None:
     alpha = 0.3
     mean = quad(lambda a: math.exp(alpha * math.sin(a)) / (2 * math.pi), 0, 2 * math.pi)[0]
     square = quad(lambda a: math.exp(2 * alpha * math.sin(a)) / (2 * math.pi), 0, 2 * math.pi)[0]
-    for law in (Viscous(), Directional(1, 1, form=Viscous()), Directional(2, 2 + 1e-12, form=Viscous())):
+    for law in (
+        Viscous(),
+        Directional(1, 1, form=Viscous()),
+        Directional(2, 2 + 1e-12, form=Viscous()),
+    ):
         found = line_balance(SineWave(), alpha, friction=law, growth_law="exp")
         assert found.mean == pytest.approx(square / mean - mean, rel=1e-9)
 
@@ -188,7 +192,10 @@ def test_viscous_speed_is_the_variance_of_the_stretch() -> None:
         ({"forward": 1.0, "backward": 0.0}, "backward = 0: must be > 0"),
         ({"forward": 1.0, "backward": 1.0, "sideways": 1e60}, r"sideways = 1e\+60: must be from 1e-50"),
         ({"forward": 1.0, "backward": 1.0, "heading": 4.0}, "heading = 4: must be from -pi to pi"),
-        ({"forward": 1.0, "backward": 1.0, "fixed_to": "sky"}, "fixed_to = 'sky': must be one of 'body'"),
+        (
+            {"forward": 1.0, "backward": 1.0, "fixed_to": "sky"},
+            "fixed_to = 'sky': must be one of 'body'",
+        ),
         ({"forward": 1.0, "backward": 1.0, "form": "tanh"}, "form = 'tanh': must be an Isotropic"),
     ],
 )
@@ -198,5 +205,5 @@ def test_bad_input(arguments: dict[str, object], words: str) -> None:
 
 
 def test_a_heading_has_no_meaning_on_a_line() -> None:
-    with pytest.raises(ValueError, match="heading = 0.3: must be 0 on a line"):
+    with pytest.raises(ValueError, match=r"heading = 0\.3: must be 0 on a line"):
         line_balance(SineWave(), 0.1, friction=Directional(1, 2, heading=0.3))

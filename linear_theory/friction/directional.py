@@ -75,7 +75,7 @@ class Directional(FrictionLaw):
             raise ValueError(f"heading = {heading:g}: must be from -pi to pi, radians")
         self._set("heading", heading)
         self._set("fixed_to", FixedTo.named(self.fixed_to))
-        validation.instance("form", self.form, Isotropic)
+        validation.instance("form", self.form, Isotropic)  # type: ignore[type-abstract]
 
     def _set(self, name: str, value: object) -> None:
         object.__setattr__(self, name, value)
@@ -171,7 +171,7 @@ class Directional(FrictionLaw):
 
     def scaled(self, factor: float) -> "Directional":
         """See FrictionLaw."""
-        return replace(self, form=self.form.scaled(factor))
+        return replace(self, form=self.form.scaled(factor))  # type: ignore[arg-type]
 
     def gauge(self, v: Array) -> Array:
         """phi of velocities (components, ...), in their unit."""

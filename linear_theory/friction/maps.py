@@ -53,7 +53,10 @@ class FrictionMap(Value, ABC):
         """Its values, unchecked."""
 
     def values(self, x: ArrayLike, y: ArrayLike, t: ArrayLike = 0.0) -> Array:
-        """At points and times that broadcast. Raises ValueError, naming the place, unless all are > 0."""
+        """At points and times that broadcast.
+
+        Raises ValueError, naming the place, unless all are > 0.
+        """
         x, y = np.asarray(x, float), np.asarray(y, float)
         found = validation.real_array("map", self.mu(x, y, t))
         found = np.broadcast_to(found, np.broadcast_shapes(found.shape, x.shape, y.shape))
@@ -179,12 +182,12 @@ class Mapped(FrictionLaw):
     """
 
     law: FrictionLaw
-    map: FrictionMap
+    map: FrictionMap  # type: ignore[misc]  # None of laws without one, in their class
     name: ClassVar[str] = "mapped"
 
     def __post_init__(self) -> None:
-        validation.instance("law", self.law, FrictionLaw)
-        validation.instance("map", self.map, FrictionMap)
+        validation.instance("law", self.law, FrictionLaw)  # type: ignore[type-abstract]
+        validation.instance("map", self.map, FrictionMap)  # type: ignore[type-abstract]
         if self.law.map is not None:
             raise ValueError(f"law = {validation.shown(self.law)}: must be a law without a map")
 

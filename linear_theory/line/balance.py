@@ -108,7 +108,7 @@ def line_crawl(scene: Scene, tolerance: Tolerance, body: str) -> CrawlSpeed:
     """
     start, law, length = time.perf_counter(), scene.contact.friction, scene.sheet.length
     if not _integrable(law):
-        names = ", ".join(kind.__name__ for kind in (*FRICTION_LAWS.values(), Directional))
+        names = ", ".join([*(kind.__name__ for kind in FRICTION_LAWS.values()), "Directional"])
         raise ValueError(f"friction = {law!r}: must be one of {names} for a body on a line")
     law.potential(np.ones((1, 1)))  # raises ValueError for a heading, which a line has not
     if map_on_ground(scene):

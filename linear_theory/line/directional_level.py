@@ -40,9 +40,7 @@ def directional_level(body: Body, law: FrictionLaw, unit: float) -> Level:
     return Level(level, steep * (error + rounding) + 16 * EPS * abs(level) + body.noise)
 
 
-def _force(
-    body: Body, law: FrictionLaw, unit: float, rest: float, finer: float
-) -> tuple[float, float]:
+def _force(body: Body, law: FrictionLaw, unit: float, rest: float, finer: float) -> tuple[float, float]:
     """Integral of w f over the period, relative to the mean weight, and its derivative by m."""
     level = body.height(np.array(rest))
 

@@ -6,9 +6,10 @@ g = int_0^S s'(alpha c) c_t dS' less its mean; eq. 7 is balanced at every time b
     V(t) = -alpha m,   m the median of g over the body, weighted with s^p (see `growth`)   (dry)
 
 or by the root of a law with a width. Of friction with a direction m is the quantile at the share of the
-weight that must slip one way, mu_f/(mu_f + mu_b) for alpha > 0 (`line.share`). Here s' c_t is linear between equidistant points, as is g, and the
-weight constant there: every step after that is exact, so the error falls with the square of the
-spacing, and samples and times are doubled until the last change meets the tolerance.
+weight that must slip one way, mu_f/(mu_f + mu_b) for alpha > 0 (`line.share`). Here s' c_t is linear
+between equidistant points, as is g, and the weight constant there: every step after that is exact, so
+the error falls with the square of the spacing, and samples and times are doubled until the last change
+meets the tolerance.
 
 For small alpha g = g_1 + alpha s_2 g_2 + ..., g_1 = int c_t, g_2 = int 2 c c_t, both less their means.
 With m_0 the median of g_1, f its density there and E_0 the mean over the places where g_1 = m_0,

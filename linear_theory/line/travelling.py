@@ -6,8 +6,9 @@ dry friction balances with
     V = (alpha/nT) (z(m) - mean z),   m the median of g weighted with w,                 (dry, eq. 7)
 
 a constant. For friction with a direction m is the quantile at mu_b/(mu_f + mu_b) instead (for alpha/n
-> 0; see `share`). To leading order m is the plain median m0, and w = 1 + p alpha c adds a rise d of the level:
-twice the weight between m0 and m0 + d equals p alpha E|g - m0|. With s = 1 + alpha c + s_2 alpha^2 c^2,
+> 0; see `share`). To leading order m is the plain median m0, and w = 1 + p alpha c adds a rise d of the
+level: twice the weight between m0 and m0 + d equals p alpha E|g - m0|. With s = 1 + alpha c +
+s_2 alpha^2 c^2,
 
     nTV = alpha m0 + alpha^2 [p E|g - m0|/(2 f(m0)) + s_2 (M0^2 - E c^2)] + ...,
 
@@ -134,9 +135,7 @@ def _weighted_quantile(body: Body, share: float = 0.5) -> Level:
     return Level(base + float(height), 8 * EPS * (target / slope + float(height)) + coarse)
 
 
-def _coefficients(
-    body: Body, mean: float, law: FrictionLaw, share: float
-) -> tuple[float, float]:
+def _coefficients(body: Body, mean: float, law: FrictionLaw, share: float) -> tuple[float, float]:
     """nT times the coefficients of |alpha| and alpha^2 for the profile as it is signed, of that mean.
 
     For tanh at a fixed slip speed the limit of small alpha is the viscous one. NaN for the second

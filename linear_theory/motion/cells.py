@@ -42,7 +42,7 @@ def gauss(order: int) -> Rule:
         np.polynomial.legendre.legvander(places, order - 1) @ inverse
         for places in ((points - 1) / 2, (points + 1) / 2, np.concatenate([[-1], points, [1]]))
     )
-    return Rule(points, weights, (first, second), with_ends, inverse)
+    return Rule(points, weights, (first, second), with_ends, np.asarray(inverse, float))
 
 
 class Graded(NamedTuple):

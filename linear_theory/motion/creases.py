@@ -31,7 +31,7 @@ def cut(cells: Graded, level: Level, area: int, halvings: int) -> Graded:
     leaves by a side, so that what has a kink there is small.
     """
     at = level(cells.values, cells.owners)
-    crossed = (at.min((1, 2)) < 0) & (at.max((1, 2)) > 0)
+    crossed: NDArray[np.bool_] = np.asarray((at.min((1, 2)) < 0) & (at.max((1, 2)) > 0))
     if not crossed.any():
         return cells
     left, inside = [_some(cells, ~crossed)], _some(cells, crossed)

@@ -71,5 +71,9 @@ def map_on_ground(scene: Scene) -> str:
     return "a map of friction fixed to the ground, over which the sheet moves on"
 
 
-THEORY = Level("linear_theory", lambda effect, scene: effect.beyond_theory(scene), (_sloping, _cut, turns_on_ground, map_on_ground))
+THEORY = Level(
+    "linear_theory",
+    lambda effect, scene: effect.beyond_theory(scene),
+    (_sloping, _cut, turns_on_ground, map_on_ground),
+)
 """The theories of a flat rectangle that is not deformed by friction."""

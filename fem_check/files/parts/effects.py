@@ -34,6 +34,7 @@ EFFECTS = ("friction", "bending", "gravity", "ground", "inertia", "dead_load")
 
 STANDARD_GRAVITY = "9.80665 m/s^2"
 
+
 class Effects:
     """Makes effects of their tables."""
 

@@ -55,7 +55,10 @@ def _patches(table: FrictionMapTable, system: System) -> Patches:
 
 
 def entries_of(law: FrictionLaw) -> dict[str, Any]:
-    """What a file says of a law. Raises ValueError for one of one's own, and for a map by a function."""
+    """What a file says of a law.
+
+    Raises ValueError for a law of one's own, and for a map that is a function.
+    """
     if type(law) is Mapped:
         return {**entries_of(law.law), "map": _map_entries(law.map)}
     if type(law) is Directional:

@@ -15,8 +15,8 @@ def held_contact(scene: Scene) -> Contact:
     incline = sum(effect.incline for effect in scene.effects)
     if not incline:
         raise ValueError(
-            f"slope = {contact.slope:g}: friction cannot hold the sheet, must be between {steepest[0]:g} and "
-            f"{steepest[1]:g} for {contact.friction.words}"
+            f"slope = {contact.slope:g}: friction cannot hold the sheet, must be between "
+            f"{steepest[0]:g} and {steepest[1]:g} for {contact.friction.words}"
         )
     mu = math.tan(incline) / contact.slope
     low, high = (math.atan(mu * limit) for limit in steepest)

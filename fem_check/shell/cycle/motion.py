@@ -47,8 +47,9 @@ def is_mirrored(shapes: Shapes, axis: int = 0) -> bool:
 class CycleMotion:
     """Velocities and loads of shapes on the cells of their mesh.
 
-    load: see `Contact`; map: of the coefficient of friction, which multiplies the load; order: Gauss points per cell and direction; mirrored: whether the
-    motion is mirror symmetric. A rectangle is one cell, a triangle three.
+    load: see `Contact`; order: Gauss points per cell and direction; mirrored: whether the motion is
+    mirror symmetric; map: of the coefficient of friction, by which the load is multiplied. A rectangle
+    is one cell, a triangle three.
     """
 
     shapes: Shapes
@@ -72,7 +73,8 @@ class CycleMotion:
         load = self._load(times, values, position)
         _check_load(load, times)
         if self.map is not None:
-            load = load * self.map.values(*self.region.reference[0, :2], times[:, None])
+            x, y = self.region.reference[0, :2]
+            load = load * self.map.values(x, y, times[:, None])
         place, velocity = self._frame.seen(times, position[:2], velocity)
         shape = (times.size, -1, self.order, self.order)
         nothing = np.zeros(load.size).reshape(shape)

@@ -46,8 +46,8 @@ class Step(Shown):
     (components, points): places before the step, None unless a `Restraint` holds the sheet to them.
     heading: of the sheet as a whole, anticlockwise, radians, for friction whose axes turn with it.
 
-    load, area, normal and heading are those of the last state, since as functions of the position they would not
-    have a potential. The minimisation is repeated until they no longer change.
+    load, area, normal and heading are those of the last state, since as functions of the position they
+    would not have a potential. The minimisation is repeated until they no longer change.
     """
 
     velocity: Affine | None = None

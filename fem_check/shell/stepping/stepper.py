@@ -200,8 +200,8 @@ class Stepper:
         """Values of the map at the points, (points,)."""
         assert self.map is not None
         on_body = self.map.fixed_to is FixedTo.BODY
-        place = self.region.reference[0, :2] if on_body else state.position[:2]
-        return self.map.values(*place, t)
+        x, y = self.region.reference[0, :2] if on_body else state.position[:2]
+        return self.map.values(x, y, t)
 
     def heading(self, u: Array) -> float:
         """Of the sheet as a whole, if the axes of friction turn with it; else 0."""
