@@ -8,6 +8,7 @@ one that has at most a kink, where the curve leaves the cell by its side.
 """
 
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,7 +32,7 @@ def cut(cells: Graded, level: Level, area: int, halvings: int) -> Graded:
     leaves by a side, so that what has a kink there is small.
     """
     at = level(cells.values, cells.owners)
-    crossed: NDArray[np.bool_] = np.asarray((at.min((1, 2)) < 0) & (at.max((1, 2)) > 0))
+    crossed = np.logical_and(at.min((1, 2)) < 0, at.max((1, 2)) > 0)
     if not crossed.any():
         return cells
     left, inside = [_some(cells, ~crossed)], _some(cells, crossed)
@@ -60,7 +61,7 @@ def _joined(parts: list[Graded]) -> Graded:
     )
 
 
-def _some(cells: Graded, which: NDArray[np.bool_]) -> Graded:
+def _some(cells: Graded, which: Any) -> Graded:
     return Graded(cells.values[:, which], cells.owners[which], cells.shares[which])
 
 
