@@ -16,7 +16,7 @@ from linear_theory.friction.isotropic import Isotropic
 from linear_theory.friction.law import FrictionLaw
 from linear_theory.friction.laws import Coulomb, Tanh, Viscous
 from linear_theory.friction.load import Load
-from linear_theory.friction.maps import FixedTo, FrictionMap, GivenMap, Mapped, Patches
+from linear_theory.friction.maps import GivenMap, Mapped, Patches
 from linear_theory.growth.bilayer import bilayer
 from linear_theory.growth.growth import Growth
 from linear_theory.growth.laws import Exp, GrowthLaw, Linear, Metric
@@ -57,9 +57,7 @@ __all__ = [
     "Estimate",
     "Exp",
     "FieldWave",
-    "FixedTo",
     "FrictionLaw",
-    "FrictionMap",
     "GivenMap",
     "Growth",
     "GrowthLaw",

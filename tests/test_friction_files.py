@@ -1,4 +1,4 @@
-"""Friction with a direction and its maps: in scene files, as plain data, by the command, in the figure."""
+"""Friction with a direction and its maps: scene files, plain data, options, figure."""
 
 import math
 from pathlib import Path
@@ -92,7 +92,8 @@ def test_units_of_a_file(tmp_path: Path) -> None:
         ("forward = 0.5\nbackward = -1.0", "backward"),
         ('forward = 0.5\nbackward = 1.0\nfixed_to = "sky"', "fixed_to"),
         (
-            '[friction.map]\nx = [["0 mm", "1 mm"]]\ny = [["0 mm", "1 mm"]]\nmu = [1.0, 2.0]\nedge = "1 mm"',
+            '[friction.map]\nx = [["0 mm", "1 mm"]]\ny = [["0 mm", "1 mm"]]\nmu = [1.0, 2.0]\n'
+            'edge = "1 mm"',
             "must have one entry for each patch",
         ),
         (

@@ -5,8 +5,8 @@
 Left: V/alpha against r = (mu_b - mu_f)/(mu_b + mu_f) at alpha = 0.1, from the table of
 `figures.measure.directional`; lines are theory, symbols the nonlinear sheet, whose estimated errors are
 smaller. Right: the r at which both are equally fast, for a body on a line that grows by alpha with n
-waves on it, by the formulas theta - alpha cos theta = (pi/2) r, V = (alpha/nT) sin theta of the wave and
-2 r alpha/T of the breath (stretch 1 + alpha c).
+waves on it, by theta - alpha cos theta = (pi/2) r, V = (alpha/nT) sin theta for the wave and by
+2 r alpha/T for the breath (stretch 1 + alpha c).
 """
 
 import math

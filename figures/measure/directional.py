@@ -5,8 +5,8 @@
 Writes figures/data/directional.csv, which `figures.draw.directional` draws: a minute of computing. Dry
 friction with coefficients 1 - r forward, 1 + r backward and 1 sideways. "wave": one sine wave on the
 body; "breathing": c = sin(2 pi t/T) everywhere. The models: "line", a body on a line with stretch
-exp(alpha c); "theory", the 2:1 sheet of the paper at small strain (eqs 10 and 11); "nonlinear", the same
-sheet with growth exp(2 alpha c) of its area, by static shapes.
+exp(alpha c); "theory", the 2:1 sheet of the paper at small strain (eqs 10 and 11); "nonlinear", the
+same sheet with growth exp(2 alpha c) of its area, by static shapes.
 """
 
 from collections.abc import Callable, Sequence
@@ -51,7 +51,10 @@ DIGITS = 6
 
 @dataclass(frozen=True)
 class Row:
-    """V/alpha and its estimated numerical error in L/T; model, wave: see above; r: (mu_b - mu_f)/sum."""
+    """V/alpha and its estimated numerical error in L/T.
+
+    model, wave: see above. r: (backward - forward)/(backward + forward).
+    """
 
     model: str
     wave: str

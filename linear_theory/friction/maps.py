@@ -87,8 +87,8 @@ class Patches(FrictionMap):
     """Rectangular patches with soft edges.
 
     patches: of (x_min, x_max, y_min, y_max, mu) each, lengths; later ones lie over earlier ones.
-    outside: mu elsewhere. edge: length over which mu changes, > 0. fixed_to: "body" or "ground". Raises
-    ValueError for a patch without area and for a mu or an edge that is not positive.
+    outside: mu elsewhere. edge: length over which mu changes, > 0. fixed_to: "body" or "ground".
+    Raises ValueError for a patch without area and for a mu or an edge that is not positive.
 
     >>> from linear_theory import Coulomb, Mapped, Patches, Sheet, SineWave, crawl_speed
     >>> rear = Patches([(-1, 1, -1, -0.25, 3.0)], edge=0.02)
@@ -138,6 +138,10 @@ class Patches(FrictionMap):
 class GivenMap(FrictionMap):
     """Any function mu(x, y), or mu(x, y, t) if it is kinetic, of arrays that broadcast.
 
+    fixed_to: "body" or "ground", the latter for maps that are not kinetic. mirrored: whether mu(-x, y)
+    = mu(x, y), which halves the work for symmetric waves. A kinetic map has the period of the wave.
+    Raises ValueError for no function; and where it is used, with the place, unless mu > 0.
+
     >>> import numpy as np
     >>> from linear_theory import GivenMap
     >>> feet = GivenMap(lambda x, y, t: 1 + 0.5 * np.sin(2 * np.pi * (y - t)), kinetic=True)
@@ -178,7 +182,13 @@ def _patch(number: int, patch: Sequence[float]) -> tuple[float, ...]:
 class Mapped(FrictionLaw):
     """A law whose coefficient differs from place to place by a map.
 
-    law: any law but a mapped one; map: a `FrictionMap`. Raises ValueError for anything else.
+    law: any law but a mapped one; map: `Patches` or a `GivenMap`. Raises ValueError for anything else.
+    Its methods are those of the law, where the map is 1.
+
+    >>> from linear_theory import Coulomb, Directional, Mapped, Patches
+    >>> rear = Patches([(-0.3, 0.3, -0.5, 0.0, 2.0)], edge=0.02)
+    >>> print(Mapped(Directional(0.5, 1.5, form=Coulomb()), rear).words)
+    dry friction times 0.5 forward, 1.5 backward, 1 sideways, fixed to the body times a map on the body
     """
 
     law: FrictionLaw
