@@ -127,8 +127,14 @@ class Directional(FrictionLaw):
     @property
     def words(self) -> str:
         """See FrictionLaw."""
-        shares = f"{self.forward:g} forward, {self.backward:g} backward, {self.sideways:g} sideways"
-        return f"{self.form.words} times {shares}, fixed to the {self.fixed_to}"
+        return f"{self.form.words} times {self.details}, fixed to the {self.fixed_to}"
+
+    @property
+    def details(self) -> str:
+        """See FrictionLaw."""
+        turned = f", heading {self.heading:.3g}" if self.heading else ""
+        along = f"{self.forward:g} forward, {self.backward:g} backward"
+        return f"{along}, {self.sideways:g} sideways{turned}"
 
     @property
     def formula(self) -> str:

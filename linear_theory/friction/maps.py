@@ -247,6 +247,11 @@ class Mapped(FrictionLaw):
         return f"{self.law.words} times a map on the {self.map.fixed_to}"
 
     @property
+    def details(self) -> str:
+        """See FrictionLaw."""
+        return ", ".join(filter(None, [self.law.details, f"with a map on the {self.map.fixed_to}"]))
+
+    @property
     def formula(self) -> str:
         """See FrictionLaw."""
         return self.law.formula
