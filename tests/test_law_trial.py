@@ -203,10 +203,10 @@ def test_a_law_is_tried_once_and_those_with_names_never(monkeypatch: pytest.Monk
 
 
 def test_a_law_is_asked_for_slip_along_the_ground_alone() -> None:
-    """In space, too: a law that knows no height is fine there, one that is wrong in the plane is not."""
+    """In space, too: a law that knows no height is fine there, one wrong in the plane is not."""
 
     class Flat(Soft):
-        def at(self, v: Array, kept: slice = ALL) -> IsotropicResponse:
+        def at(self, v: np.ndarray, kept: slice = ALL) -> IsotropicResponse:
             assert len(v) == 2
             return super().at(v, kept)
 

@@ -3,8 +3,8 @@
 The force on a point that slides with velocity v is -mu N times the gradient of the potential, N its
 normal load. All is written over velocity vectors, so that a law may depend on direction: theory and
 shell ask for nothing else. A body on a line (`line_balance`) takes the laws that have names and
-`Directional` ones only, which it integrates exactly. The coefficient mu cancels in the balance of a sheet that friction does not
-deform.
+`Directional` ones only, which it integrates exactly. The coefficient mu cancels in the balance of a
+sheet that friction does not deform.
 """
 
 import math
@@ -29,14 +29,14 @@ class FrictionLaw(Value, ABC):
     """Potential, force and tangent of the velocity v, per unit of mu N: Coulomb, Tanh, Viscous, or a
     class of one's own.
 
-    v: (components, ...), length per time; 1 component on a line (y), 2 along the ground (x, y), which on
-    a slope are those of the level, tilted with it; the laws with names take 3, too. Directions are those
-    of x and y, which a sheet is taken not to turn away from by much unless `follows_body` or
-    `follows_ground` say what they belong to. At rest potential and force are 0, and the tangent of a law
-    that has a width is finite. A new law is a frozen dataclass that inherits from this class, or from
-    `Isotropic`. name: by which it is called. Where a scene takes it in, its methods are compared with
-    each other (see `trial`), so that none is wrong unnoticed: a ValueError names the method and its
-    numbers. Raises ValueError for a slip speed that is not positive.
+    v: (components, ...), length per time; 1 component on a line (y), 2 along the ground (x, y), which
+    on a slope are those of the level, tilted with it; the laws with names take 3, too. Directions are
+    those of x and y, which a sheet is taken not to turn away from by much unless `follows_body` or
+    `follows_ground` say what they belong to. At rest potential and force are 0, and the tangent of a
+    law that has a width is finite. A new law is a frozen dataclass that inherits from this class, or
+    from `Isotropic`. name: by which it is called. Where a scene takes it in, its methods are compared
+    with each other (see `trial`), so that none is wrong unnoticed: a ValueError names the method and
+    its numbers. Raises ValueError for a slip speed that is not positive.
 
     >>> import numpy as np
     >>> from linear_theory import Coulomb, FrictionLaw, Tanh, Viscous
