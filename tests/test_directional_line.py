@@ -165,10 +165,10 @@ def test_reciprocal_motion_goes_nowhere_dry_and_somewhere_by_tanh() -> None:
     wave = FieldWave(uneven, period=1.0)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        still = line_balance(wave, 0.2, length=1.0, load="material", rtol=1e-3, atol=1e-6)
+        still = line_balance(wave, 0.2, length=1.0, load="material", rtol=1e-2, atol=1e-5)
         moves = line_balance(wave, 0.2, length=1.0, friction=ratchet(0.0, Tanh(0.2)), rtol=1e-2)
     assert abs(still.mean) <= still.error + 1e-9
-    assert math.isfinite(moves.mean)
+    assert moves.mean > max(2e-3, 10 * moves.error)  # 4e-3 in a trial elsewhere of another motion
 
 
 def test_viscous_speed_is_the_variance_of_the_stretch() -> None:
