@@ -50,6 +50,7 @@ figures: $(STAMP)
 	$(RUN) -m figures.draw.reach $(FIGURE_OUT)
 	$(RUN) -m figures.draw.cost $(FIGURE_OUT)
 	$(RUN) -m figures.draw.regimes $(FIGURE_OUT)
+	$(RUN) -m figures.draw.directional $(FIGURE_OUT)
 	$(RUN) -m figures.draw.excitable $(FIGURE_OUT)
 	$(RUN) -m figures.draw.fig2 $(FIGURE_OUT)
 	$(RUN) -m figures.draw.fig4 $(FIGURE_OUT)
@@ -101,6 +102,7 @@ tables: $(STAMP)
 	$(RUN) -m figures.measure.nonlinear
 	$(RUN) -m figures.measure.reach
 	$(RUN) -m figures.measure.regimes
+	$(RUN) -m figures.measure.directional
 	$(RUN) -m figures.measure.schemes
 	$(RUN) -m figures.measure.turning
 	$(RUN) -m figures.measure.excitable

@@ -11,10 +11,12 @@ from linear_theory.common.version import current_version
 from linear_theory.deformation.airy import AirySeries, airy_series
 from linear_theory.deformation.ritz import RitzField, ritz_field
 from linear_theory.friction.contact import Contact
+from linear_theory.friction.directional import Directional
 from linear_theory.friction.isotropic import Isotropic
 from linear_theory.friction.law import FrictionLaw
 from linear_theory.friction.laws import Coulomb, Tanh, Viscous
 from linear_theory.friction.load import Load
+from linear_theory.friction.maps import GivenMap, Mapped, Patches
 from linear_theory.growth.bilayer import bilayer
 from linear_theory.growth.growth import Growth
 from linear_theory.growth.laws import Exp, GrowthLaw, Linear, Metric
@@ -52,17 +54,21 @@ __all__ = [
     "Contact",
     "Coulomb",
     "CrawlSpeed",
+    "Directional",
     "Estimate",
     "Exp",
     "FieldWave",
     "FrictionLaw",
+    "GivenMap",
     "Growth",
     "GrowthLaw",
     "Isotropic",
     "Linear",
     "Load",
+    "Mapped",
     "Metric",
     "NotConvergedError",
+    "Patches",
     "RitzField",
     "SampledWave",
     "Scale",

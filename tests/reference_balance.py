@@ -46,3 +46,22 @@ def dissipation(field, alpha, t, motion, points=(200, 400)):
     v_x, v_y, omega = motion
     speed = np.hypot(v[0] + v_x - omega * y, v[1] + v_y + omega * x)
     return float(np.mean((1 + alpha * (strain[0] + strain[1])) * speed))
+
+
+def gauge(law, v_x, v_y):
+    """phi(v) of forward, backward, sideways friction whose forward axis is turned by `heading`."""
+    cosine, sine = np.cos(law.heading), np.sin(law.heading)
+    aside, ahead = cosine * v_x + sine * v_y, cosine * v_y - sine * v_x
+    own = np.where(ahead < 0, law.backward, law.forward)
+    return np.sqrt((law.sideways * aside) ** 2 + (own * ahead) ** 2)
+
+
+def directional_dissipation(field, alpha, t, law, motion, points=(200, 400), share=None):
+    """Integral of mu(x, y, t) (1 + alpha tr eps) phi(v + V + Omega x r) over the sheet."""
+    x, y = np.broadcast_arrays(*grid(field.sheet, *points))
+    v = alpha * field.velocity(x, y, t)
+    strain = field.strain(x, y, t)
+    v_x, v_y, omega = motion
+    phi = gauge(law, v[0] + v_x - omega * y, v[1] + v_y + omega * x)
+    weight = 1.0 if share is None else share(x, y, t)
+    return float(np.mean(weight * (1 + alpha * (strain[0] + strain[1])) * phi))

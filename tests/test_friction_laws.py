@@ -489,6 +489,7 @@ SPECIAL = {
     "linear_theory/deformation/airy/special.py": "coth of the series",
     "linear_theory/line/closed_form.py": "the balance of tanh and a sine in closed form",
     "fem_check/excitable/starts.py": "the smooth step of a start",
+    "linear_theory/friction/maps.py": "the soft edges of patches",
     "linear_theory/line/finite.py": "the quadrature with double exponential weights",
 }
 """Files that may use hyperbolic functions for other ends than the law of friction."""

@@ -22,6 +22,8 @@ from linear_theory import (
     crawl_speed,
     line_balance,
 )
+from linear_theory.friction.isotropic import IsotropicResponse
+from linear_theory.friction.law import ALL
 from linear_theory.friction.trial import check_law
 from tests.test_friction_laws import ElliptTanh
 from tests.test_scene import SPACE
@@ -200,21 +202,26 @@ def test_a_law_is_tried_once_and_those_with_names_never(monkeypatch: pytest.Monk
     Contact("grown", Tanh(0.1))
 
 
-def test_a_law_wrong_in_space_is_refused_there() -> None:
-    """It forgets the height, which a sheet in the plane does not have."""
-    flat = wrong(
-        force=lambda self, v: Soft.force(self, v) * np.array([1, 1, 0.0])[: len(v), None, None]
-    )
-    assert Friction(0.3, law=flat).law is flat
+def test_a_law_is_asked_for_slip_along_the_ground_alone() -> None:
+    """In space, too: a law that knows no height is fine there, one wrong in the plane is not."""
+
+    class Flat(Soft):
+        def at(self, v: np.ndarray, kept: slice = ALL) -> IsotropicResponse:
+            assert len(v) == 2
+            return super().at(v, kept)
+
+    effects = (*SPACE[:3], Ground(0.5), Friction(0.3, law=Flat(0.1)))
+    scene = Scene(Sheet(), SineWave(), 0.1, effects=effects)
+    assert scene.contact.friction == Flat(0.1)
     with pytest.raises(ValueError, match=r"^law = .*as differences of the potential give it"):
-        Scene(Sheet(), SineWave(), 0.1, effects=(*SPACE[:3], Ground(0.5), Friction(0.3, law=flat)))
+        Friction(0.3, law=wrong(force=lambda self, v: 2 * Soft.force(self, v)))
 
 
 def test_a_line_takes_the_laws_with_names_only() -> None:
     """A subclass may have changed anything."""
     for law in (Soft(0.1), type("Mine", (Tanh,), {})(0.1)):
         with pytest.raises(
-            ValueError, match="must be one of Coulomb, Tanh, Viscous for a body on a line"
+            ValueError, match="must be one of Coulomb, Tanh, Viscous, Directional for a body on a line"
         ):
             line_balance(SineWave(), 0.1, friction=law)
 

@@ -203,6 +203,11 @@ MADE = {
     "HeightMap": lambda: fem_check.HeightMap(np.zeros((9, 9)), 1.0, 2.0),
     "Growth": lambda: linear_theory.Growth(0.25),
     "Inertia": lambda: fem_check.Inertia(1.0, MATERIAL),
+    "Directional": lambda: linear_theory.Directional(0.5, 1.5, 0.7, 0.2),
+    "DirectionalResponse": lambda: linear_theory.Directional(0.5, 1.5).at(np.ones((2, 3))),
+    "GivenMap": lambda: linear_theory.GivenMap(lambda x, y: 1.0),
+    "Mapped": lambda: linear_theory.Mapped(linear_theory.Coulomb(), patches()),
+    "Patches": lambda: patches(),
     "IsotropicResponse": lambda: linear_theory.Tanh(0.1).at(np.ones((2, 3))),
     "Limit": lambda: sunk().limit,
     "Linear": linear_theory.Linear,
@@ -292,6 +297,10 @@ def functions_of(kind):
         function = function or getattr(member, "__func__", member)
         if not name.startswith("_") and inspect.isfunction(function):
             yield function
+
+
+def patches():
+    return linear_theory.Patches([(-0.3, 0.3, -0.5, 0.0, 2.0)], edge=0.02)
 
 
 def public_types():

@@ -36,6 +36,7 @@ HOWTO = {
     "own_sheet": "A sheet in millimetres",
     "own_wave": "A wave of your own",
     "own_friction_law": "A friction law of your own",
+    "friction_direction": "Friction with a direction",
     "outline": "Another outline",
     "slope": "A slope",
     "scene_file": "A scene in a file",

@@ -173,6 +173,7 @@ def _assumed(found: "Prediction", units: Units, hints: tuple[str, str]) -> Itera
 def _friction(found: "Prediction", units: Units) -> str:
     """The friction regime and its meaning."""
     regime, law = found.speed.regime, found.scene.contact.friction
+    name = f"{regime}, {law.details}" if law.details else regime
     sticks = "; part of the sheet sticks at times" if found.speed.sticks else ""
     where = ""
     if law.regularised and math.isfinite(found.speed.slip_ratio):
@@ -180,14 +181,14 @@ def _friction(found: "Prediction", units: Units) -> str:
         where = f" (slip speed {plain(units.of_speed(law.width))} {units.speed}, {share})"
     felt = next((effect.mu for effect in found.scene.effects if effect.mu), None)
     if felt is not None and found.level == STEPPED:
-        return f"{regime}: coefficient {plain(felt)}, which deforms the sheet, too{where}{sticks}"
+        return f"{name}: coefficient {plain(felt)}, which deforms the sheet, too{where}{sticks}"
     means = {
         "dry": "the speed does not depend on the coefficient while the sheet is stiff",
         "mixed": "between dry and viscous, the speed depends on the slip speed",
         "viscous": "force proportional to the sliding velocity; the coefficient does not matter",
         "none": "no friction acts",
     }
-    return f"{regime}: {means[regime]}{where}{sticks}"
+    return f"{name}: {means[regime]}{where}{sticks}"
 
 
 def _seconds(spent: float) -> str:

@@ -62,6 +62,12 @@ class Options:
     """Friction law: dry, dry but regularised at small slip, or proportional to the slip."""
     slip_speed: Annotated[str | None, In(group=MODEL)] = None
     """Slip speed of tanh friction, e.g. "0.1 mm/s"."""
+    forward: Annotated[float | None, In(group=MODEL)] = None
+    """Friction against slip towards +y, for friction with a direction, over the coefficient."""
+    backward: Annotated[float | None, In(group=MODEL)] = None
+    """Likewise towards -y; both or none."""
+    sideways: Annotated[float | None, In(group=MODEL)] = None
+    """Likewise across; the mean of both unless given."""
 
     rtol: Annotated[str, In(group=COST)] = "1e-2"
     """Relative tolerance for the numerical plus model error, e.g. "1 %"."""

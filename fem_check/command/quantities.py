@@ -10,6 +10,10 @@ from fem_check.answer.units import Units
 from fem_check.command.options import Options
 from fem_check.files.quantities import KINDS, Quantity, read
 from linear_theory.friction.contact import Contact
+from linear_theory.friction.directional import Directional
+from linear_theory.friction.isotropic import Isotropic
+from linear_theory.friction.law import FrictionLaw
+from linear_theory.friction.laws import friction_law
 from linear_theory.scene.scene import Scene
 from linear_theory.sheet.rectangle import Sheet
 from linear_theory.wave.measured import SampledWave
@@ -58,10 +62,23 @@ def asked(options: Options) -> Asked:
     sheet = _sheet(numbers, names is not None, options.poisson)
     wave = _wave(options, numbers.get("period"))
     alpha, law = _alpha(options, wave, sheet), options.growth_law
-    contact = Contact.named(options.load, options.friction, numbers.get("slip_speed"))
+    contact = Contact(options.load, _friction(options, numbers.get("slip_speed")))
     scene = Scene(sheet, wave, alpha, growth_law=law, area=options.area, contact=contact)
     units = None if names is None else Units(f"{names[0]:~P}", f"{names[1]:~P}")
     return Asked(scene, share("rtol", options.rtol), numbers.get("atol"), units)
+
+
+def _friction(options: Options, slip_speed: float | None) -> FrictionLaw:
+    """The law, with a direction where the options give one."""
+    form = friction_law(options.friction, slip_speed)
+    forward, backward = options.forward, options.backward
+    if forward is None and backward is None and options.sideways is None:
+        return form
+    if forward is None or backward is None:
+        lacking = "--forward" if forward is None else "--backward"
+        raise ValueError(f"{lacking}: must be given for friction with a direction")
+    assert isinstance(form, Isotropic)
+    return Directional(forward, backward, options.sideways, form=form)
 
 
 def quantity(name: str, text: str, kind: str) -> Quantity:

@@ -16,6 +16,7 @@ from fem_check.files.fields import (
     Curvature,
     Damping,
     Density,
+    Length,
     Natural,
     Poisson,
     Positive,
@@ -30,6 +31,7 @@ from fem_check.files.fields import (
     Time,
 )
 
+Span = Annotated[list[Length], Field(min_length=2, max_length=2)]
 Weight = Literal["current", "grown", "material"]
 Cells = Annotated[list[Natural], Field(min_length=2, max_length=2)]
 
@@ -131,6 +133,23 @@ class GrowthTable(Table):
     """The metric that the rest curvature goes with."""
 
 
+class FrictionMapTable(Table):
+    """Patches of other friction, rectangles with soft edges; the last one wins."""
+
+    x: Annotated[list[Span], Field(min_length=1)]
+    """Of each patch its ends across, e.g. [["-5 mm", "5 mm"]]."""
+    y: Annotated[list[Span], Field(min_length=1)]
+    """Likewise along."""
+    mu: list[Positive]
+    """Of each patch, over the coefficient elsewhere."""
+    edge: Size
+    """Length over which friction changes at the edges of patches."""
+    outside: Positive = 1.0
+    """The same outside of all patches."""
+    fixed_to: Literal["body", "ground"] = "body"
+    """What x and y belong to: the undeformed sheet, or the ground, from where its middle starts."""
+
+
 class FrictionTable(Table):
     """Friction with the ground."""
 
@@ -146,6 +165,18 @@ class FrictionTable(Table):
     "current" or the "grown" area, or stays with the "material"."""
     slope: float | None = None
     """Of the ground over the friction coefficient, where no effects say it."""
+    forward: Positive | None = None
+    """Over the coefficient, against slip towards +y, for friction with a direction."""
+    backward: Positive | None = None
+    """Likewise towards -y; both or none."""
+    sideways: Positive | None = None
+    """Likewise across; the mean of both unless given."""
+    heading: Angle | None = None
+    """Where forward is, anticlockwise from +y, e.g. "20 deg"; plain in radians."""
+    fixed_to: Literal["body", "ground"] = "body"
+    """What the direction turns with."""
+    map: FrictionMapTable | None = None
+    """Patches with other friction."""
 
 
 class BendingTable(Table):

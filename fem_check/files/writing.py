@@ -7,8 +7,7 @@ from typing import Any
 from fem_check.choice.settings import RunSettings
 from fem_check.excitable.excitation import Excitation
 from fem_check.excitable.periodic.wave import PeriodicExcitation
-from fem_check.files.parts.effects import LAWS
-from fem_check.files.parts.excitable import entries_of
+from fem_check.files.parts import excitable, friction
 from fem_check.files.reading import parsed
 from fem_check.files.toml import text_of
 from fem_check.output.files import replacing
@@ -93,7 +92,7 @@ def _wave(wave: Any) -> Entries:
     if type(wave) is SampledWave:
         return _measured(wave)
     if isinstance(wave, Excitation | PeriodicExcitation):
-        return entries_of(wave)
+        return excitable.entries_of(wave)
     if type(wave) is not TravellingWave:
         kind = type(wave).__name__
         raise ValueError(f"wave: a {kind} cannot be written to a scene file, which holds no functions")
@@ -125,11 +124,7 @@ def _contact(scene: Scene) -> Entries:
     own, contact = contact_of(scene.effects, scene.components, None), scene.contact
     entries: Entries = {}
     if contact.friction != own.friction:
-        if contact.friction.name not in LAWS:
-            raise ValueError(f"friction = {contact.friction!r}: has no name in a scene file")
-        entries["law"] = LAWS[contact.friction.name]
-        if contact.friction.regularised:
-            entries["slip_speed"] = contact.friction.width
+        entries |= _without_defaults(friction.entries_of(contact.friction))
     if contact.load != own.load:
         entries["load"] = str(contact.load)
     if repr(contact.slope) != repr(own.slope):
@@ -171,7 +166,7 @@ TABLES_OF: dict[type, tuple[str, Callable[[Any], Entries]]] = {
     Ground: ("ground", _ground),
     Friction: (
         "friction",
-        lambda effect: {"coefficient": effect.coefficient, "slip_speed": effect.slip_speed},
+        lambda effect: {"coefficient": effect.coefficient, **friction.entries_of(effect.law)},
     ),
     Inertia: ("inertia", lambda effect: {"density": effect.density}),
     DeadLoad: ("dead_load", lambda effect: {"force": list(effect.force)}),
@@ -180,6 +175,9 @@ TABLES_OF: dict[type, tuple[str, Callable[[Any], Entries]]] = {
 
 DEFAULTS = {
     "incline": 0.0,
+    "heading": 0.0,
+    "fixed_to": "body",
+    "outside": 1.0,
     "damping": 0.0,
     "form": "clipped",
     "curvature_coupling": 0.0,

@@ -17,6 +17,7 @@ from fem_check.shell.kinematics.rates import Step
 from fem_check.shell.kinematics.region import Region
 from fem_check.shell.kinematics.rest_state import RestState
 from fem_check.shell.stepping.trajectory import Trajectory
+from linear_theory.friction.maps import FixedTo
 from linear_theory.speed.result import CrawlSpeed
 
 Array = NDArray[np.float64]
@@ -93,8 +94,10 @@ class Simulated:
             return np.zeros((2, region.size))
         before, after = self._within(t - AROUND * self.period), self._within(t + AROUND * self.period)
         moved = self._place(region, after)[:2] - self._place(region, before)[:2]
-        law = self._scene.contact.friction
-        return np.asarray(-self._load(region, t) * law.force(moved / (after - before)))
+        law, slip = self._scene.contact.friction, moved / (after - before)
+        angle = self._frame(region, points, t).heading if law.follows_body else 0.0
+        force = turned(law.force(turned(slip, -angle)), angle)
+        return np.asarray(-self._load(region, t) * force)
 
     def ground(self, x: Array, y: Array) -> Array:
         """See Moving."""
@@ -114,7 +117,13 @@ class Simulated:
         u, rest = self._trajectory.shape(t, None), self._rest(region, t)
         area = PointState(region, u, (1, 2)).area
         state = PointState(region, u, (0,), rest, Step(area=area))
-        return np.asarray(bearer.normal_load(state) / self._model.find(Gravity).weight)
+        found = bearer.normal_load(state) / self._model.find(Gravity).weight
+        friction = self._scene.contact.friction
+        if friction.map is None:
+            return np.asarray(found)
+        on_body = friction.map.fixed_to is FixedTo.BODY
+        place = region.reference[0, :2] if on_body else state.position[:2]
+        return np.asarray(found * friction.map.values(*place, t))
 
     def _rest(self, region: Region, t: float) -> RestState:
         return self._model.rest(t, self._trajectory.amplitude(t), region)

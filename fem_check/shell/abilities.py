@@ -8,7 +8,7 @@ from fem_check.shell.effects.gravity import Gravity
 from fem_check.shell.effects.ground import Ground
 from fem_check.shell.effects.inertia import Inertia
 from fem_check.shell.effects.koiter import Bending
-from linear_theory.scene.level import THEORY, Level, acted_on
+from linear_theory.scene.level import THEORY, Level, acted_on, map_on_ground, turns_on_ground
 from linear_theory.scene.scene import Scene
 
 
@@ -27,13 +27,20 @@ def _moves_in_time(scene: Scene) -> str:
     return ""
 
 
+def _map_on_slope(scene: Scene) -> str:
+    sloping = scene.contact.friction.map is not None and scene.contact.slope
+    return "a map of friction on a slope" if sloping else ""
+
+
 def _rests_otherwise(scene: Scene) -> str:
     if scene.states_contact and not any(effect.law for effect in scene.effects):
         return "a contact that is not given by the effects Friction and Gravity or Ground"
     return ""
 
 
-CYCLE = Level("cycle_speed(scene)", _of_a_cycle, (acted_on,))
+CYCLE = Level(
+    "cycle_speed(scene)", _of_a_cycle, (acted_on, turns_on_ground, map_on_ground, _map_on_slope)
+)
 
 STEPPED = Level("simulate(scene)", _of_a_step, (_moves_in_time, _rests_otherwise))
 

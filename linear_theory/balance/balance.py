@@ -30,7 +30,8 @@ from linear_theory.balance.newton import damped_newton, guarded_newton
 from linear_theory.common.units import power_of_two
 from linear_theory.friction.isotropic import norm
 from linear_theory.friction.law import ALL, FrictionLaw
-from linear_theory.motion.cells import Graded, Integers, gauss, graded
+from linear_theory.motion.cells import Graded, Integers, graded
+from linear_theory.motion.creases import cut
 from linear_theory.motion.motion import Motion
 
 Array = NDArray[np.float64]
@@ -41,9 +42,11 @@ Residual = Callable[..., tuple[Array, Array]]
 
 _COARSE_HALVINGS = 8
 _MARGIN = 1.5  # mean over variation of w on a cell, above which Gauss quadrature sees it as smooth
+_MOST_ASIDE = 5  # halvings of a cell that a crease leaves by a side; the error falls like 8^-k
 _LINEAR = 1e-8  # alpha below which q_1 is the zero of a linear function
 _NEAR = 0.3  # after a Newton step s the error is some s^2 over the speed of the sheet: 10 would do
 _REST = 1e-6  # speeds below this share of the mean speed count as rest
+_TURNING = 1e-12  # the same for a whole sheet, where a reciprocal motion turns, but for rounding
 _VISCOUS = 1e150  # a width as good as infinite, whose square is a number
 _VELOCITY, _AREA, _RATE, _ARMS = slice(0, 2), 2, 3, slice(4, 6)
 """Channels of the values at a point: v_x, v_y, area, e; x, y from the centre if the sheet may turn;
@@ -126,7 +129,8 @@ class Balance:
         rest: float | None = None,
         work_halvings: int = 0,
     ) -> None:
-        self._rest, self._work_halvings = rest, work_halvings
+        self._rest = motion.whole_area if rest is None else rest
+        self._work_halvings = work_halvings
         units = self._units = Units.of(motion)
         self._alpha, self._law, self._slope = alpha, law.scaled(units.speed), slope
         self._modes = _ALONG if motion.mirrored else _ALL
@@ -162,9 +166,10 @@ class Balance:
         change = self._change(self._values, leading, remainder)
         speed = norm(self._moved(self._values, leading) + self._alpha * change)
         rest = np.mean(speed < _REST * self._scale, axis=(1, 2, 3))
-        still = ~np.any(self._values[_VELOCITY], axis=(0, 2, 3, 4))
+        own = abs(self._values[_VELOCITY]).max(axis=(0, 2, 3, 4))
+        still = own <= _TURNING * self._scale
         rest[still] = 0.0  # all is at rest, no part of it sticks
-        fastest = 0.0 if still.all() and not self._slope else self._units.speed * float(speed.max())
+        fastest = 0.0 if not own.any() and not self._slope else self._units.speed * float(speed.max())
         works = self.works(leading, remainder)
         return RigidMotion(self._full(leading), self._full(remainder), rest, fastest, works)
 
@@ -191,8 +196,7 @@ class Balance:
             after = law.dissipation(w + alpha * self._change(values, q, remainder[found.owners]))
             more = ((1 + alpha * values[_RATE]) * after - first) / alpha
         sums = found.integrals(values[_AREA] * np.stack([first, more, lift])).T
-        rest = self._rest or self._units.area * self._area()
-        return np.asarray(sums * (self._units.area * self._units.speed / rest))
+        return np.asarray(sums * (self._units.area * self._units.speed / self._rest))
 
     def _work_cells(self, leading: Array) -> Graded:
         """Cells of all times, halved a few times towards points at rest if so asked."""
@@ -208,11 +212,6 @@ class Balance:
             return self._roughness(self._moved(sample, leading[owners])[None])
 
         return graded(flat, owners, roughness, self._work_halvings)
-
-    def _area(self) -> float:
-        """Of the sheet, in units of areas."""
-        weights = gauss(self._values.shape[-1]).weights
-        return float((self._values[_AREA, 0] @ weights @ weights).sum())
 
     @cached_property
     def _has_second(self) -> bool:
@@ -254,7 +253,7 @@ class Balance:
         along = self._values[1].reshape(self._values.shape[1], -1)
         margin = 0.1 * np.ptp(along, axis=1) + self._scale  # the polynomials exceed these values
         if self._slope:  # at which friction carries the weight down the slope
-            margin = margin + self._law.speed_at(abs(self._slope))
+            margin = margin + abs(self._law.creep(-self._slope))
         return (-along.max(1) - margin)[:, None], (-along.min(1) + margin)[:, None]
 
     def _leading(self, q: Array, times: Integers, halvings: int) -> tuple[Array, Array]:
@@ -316,9 +315,24 @@ class Balance:
 
         flat = values.reshape(channels, count * cells, n, n)
         cells_now = graded(flat, owners, roughness, halvings)
+        for crease in self._creases(motion):
+            cells_now = cut(cells_now, crease, _AREA, min(halvings // 4, _MOST_ASIDE))
         sums = cells_now.integrals(integrand(cells_now.values, cells_now.owners))
         unknowns = len(self._modes)
         return sums[:unknowns].T, sums[unknowns:].T.reshape(count, unknowns, unknowns)
+
+    def _creases(self, motion: Velocities) -> list[Callable[[Array, Integers], Array]]:
+        """Functions that vanish where the tangent of the law jumps, for each of the velocities."""
+        normal = self._law.crease
+        if normal is None:
+            return []
+        count = len(motion(self._values[:, 0, :1], np.zeros(1, int)))
+
+        def level(k: int, values: Array, owners: Integers) -> Array:
+            v = motion(values, owners)[k]
+            return np.asarray(normal[0] * v[0] + normal[1] * v[1])
+
+        return [partial(level, k) for k in range(count)]
 
     def _moved(self, values: Array, q: Array, at: Array | None = None) -> Array:
         """Velocity against the ground, (2, ...), of points that move with values[:2]; q (..., J)."""

@@ -94,12 +94,12 @@ class Crawl:
     @property
     def starts_at_second_order(self) -> bool:
         """Whether c(t + T/2) = -c(t), so that the leading q_0 has exactly no mean."""
-        return self.drive.changes_sign and self.contact.friction.even
+        return self.drive.changes_sign and self.contact.friction.reversible
 
     @property
     def mirrored(self) -> bool:
         """Whether motion and friction are mirror symmetric in x."""
-        return self.field.mirrored and self.contact.friction.even
+        return self.field.mirrored and self.contact.friction.mirrored
 
     @property
     def counts_leading(self) -> bool:
@@ -125,7 +125,8 @@ class Crawl:
     @property
     def reversal_time(self) -> float | None:
         """t_0 with V(t_0 - t) = V(t), where the wave and the sheet have that symmetry."""
-        return self.drive.reversal_time if self.mirrored else None
+        alike = self.mirrored and self.contact.friction.map is None
+        return self.drive.reversal_time if alike else None
 
     @cached_property
     def work(self) -> int:
@@ -199,5 +200,8 @@ class Crawl:
         motion, r = self._motion(times), self.resolution
         rate = self.contact.load.rate(motion.dilation, motion.growth)
         check_load(motion, rate, self.alpha)
-        law = self.contact.friction.scaled(abs(self.alpha))
-        return Balance(motion, rate, self.alpha, law, r.halvings, r.tolerance)
+        law, rest = self.contact.friction.per(self.alpha), motion.whole_area
+        if law.map is not None:
+            share = law.map.values(*motion.position, np.reshape(times, (-1, 1, 1, 1)))
+            motion = replace(motion, area=motion.area * share)
+        return Balance(motion, rate, self.alpha, law, r.halvings, r.tolerance, rest=rest)

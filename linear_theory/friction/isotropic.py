@@ -75,7 +75,11 @@ class Isotropic(FrictionLaw):
 
     @abstractmethod
     def rise(
-        self, before: "IsotropicResponse", after: "IsotropicResponse", change: Array, step: float
+        self,
+        before: "IsotropicResponse",
+        after: "IsotropicResponse",
+        change: Array,
+        step: float | Array,
     ) -> Array:
         """[f(r') - f(r)]/step without cancellation, for r' = r + step change after and r before."""
 
@@ -157,11 +161,15 @@ class IsotropicResponse(Response):
         f' n' - f n = (f' - f) n + f' (n' - n) with n = v/|v|, and |v'| - |v| = step * `drift`.
         """
         after = self.law.at(self.v + step * change, self.kept)
+        return after, self.difference(after, change, step)
+
+    def difference(self, after: "IsotropicResponse", change: Array, step: float | Array) -> Array:
+        """(force after - force)/step for the law at v + step change, `after`."""
         middle = (self.v + after.v) / (self.speed + after.speed)
         drift = (middle * change).sum(0)
         rise = self.law.rise(self, after, drift, step)
         turn = change[self.kept] - drift * self.direction
-        return after, np.asarray(rise * self.direction + after.across * turn)
+        return np.asarray(rise * self.direction + after.across * turn)
 
 
 def norm(v: Array) -> Array:

@@ -2,14 +2,15 @@
 
 The force on a point that slides with velocity v is -mu N times the gradient of the potential, N its
 normal load. All is written over velocity vectors, so that a law may depend on direction: theory and
-shell ask for nothing else. A body on a line (`line_balance`) takes the laws that have names only, which
-it integrates exactly. The coefficient mu cancels in the balance of a sheet that friction does not
-deform.
+shell ask for nothing else. A body on a line (`line_balance`) takes the laws that have names and
+`Directional` ones only, which it integrates exactly. The coefficient mu cancels in the balance of a
+sheet that friction does not deform.
 """
 
 import math
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, ClassVar
 
@@ -28,13 +29,14 @@ class FrictionLaw(Value, ABC):
     """Potential, force and tangent of the velocity v, per unit of mu N: Coulomb, Tanh, Viscous, or a
     class of one's own.
 
-    v: (components, ...), length per time; 1 component on a line (y), 2 in the plane (x, y), 3 in space,
-    along the ground. Directions are those of x and y, which a sheet is taken not to turn away from by
-    much. At rest potential and force are 0, and the tangent of a law that has a width is finite. A new
-    law is a frozen dataclass that inherits from this class, or from `Isotropic`. name: by which it is
-    called. Where a scene takes it in, its methods are compared with each other (see `trial`), so that
-    none is wrong unnoticed: a ValueError names the method and its numbers. Raises ValueError for a slip
-    speed that is not positive.
+    v: (components, ...), length per time; 1 component on a line (y), 2 along the ground (x, y), which
+    on a slope are those of the level, tilted with it; the laws with names take 3, too. Directions are
+    those of x and y, which a sheet is taken not to turn away from by much unless `follows_body` or
+    `follows_ground` say what they belong to. At rest potential and force are 0, and the tangent of a
+    law that has a width is finite. A new law is a frozen dataclass that inherits from this class, or
+    from `Isotropic`. name: by which it is called. Where a scene takes it in, its methods are compared
+    with each other (see `trial`), so that none is wrong unnoticed: a ValueError names the method and
+    its numbers. Raises ValueError for a slip speed that is not positive.
 
     >>> import numpy as np
     >>> from linear_theory import Coulomb, FrictionLaw, Tanh, Viscous
@@ -49,6 +51,8 @@ class FrictionLaw(Value, ABC):
     """
 
     name: ClassVar[str]
+    map: ClassVar[Any] = None
+    """Of the coefficient, a `maps.FrictionMap`; None where it is the same everywhere."""
 
     def __str__(self) -> str:
         return self.name
@@ -60,6 +64,31 @@ class FrictionLaw(Value, ABC):
         Then mirrored motions have mirrored forces and opposite ones opposite forces. Of a law that does
         not say so no symmetry is assumed.
         """
+        return False
+
+    @property
+    def mirrored(self) -> bool:
+        """Whether the potential is the same for (-v_x, v_y): mirrored motions have mirrored forces."""
+        return self.even
+
+    @property
+    def reversible(self) -> bool:
+        """Whether the potential is the same for -v: opposite motions have opposite forces."""
+        return self.even
+
+    @property
+    def crease(self) -> tuple[float, float] | None:
+        """n of the line n . v = 0 across which the tangent jumps; None if it does so at rest alone."""
+        return None
+
+    @property
+    def follows_body(self) -> bool:
+        """Whether it has axes that turn with the sheet."""
+        return False
+
+    @property
+    def follows_ground(self) -> bool:
+        """Whether it has axes that stay with the ground where the sheet turns."""
         return False
 
     @property
@@ -78,9 +107,24 @@ class FrictionLaw(Value, ABC):
         return self.width < math.inf
 
     @property
+    def limits(self) -> tuple[float, float]:
+        """Largest force against slip towards -y and towards +y, over mu N; infinite if unlimited."""
+        largest = 1.0 if self.limited else math.inf
+        return largest, largest
+
+    def creep(self, force: float) -> float:
+        """Speed along y, signed, of a point that is pulled along y by that force, signed, over mu N."""
+        return math.copysign(self.speed_at(abs(force)), force) if force else 0.0
+
+    @property
     def words(self) -> str:
         """What kind of friction it is, for people."""
         return f"{self.name} friction"
+
+    @property
+    def details(self) -> str:
+        """Its direction and its map, for people; empty if it has neither."""
+        return ""
 
     @property
     def formula(self) -> str:
@@ -128,6 +172,15 @@ class FrictionLaw(Value, ABC):
         """
         return np.asarray((self.force(v) * v).sum(0))
 
+    @property
+    def opposite(self) -> "FrictionLaw":
+        """The law whose potential at v is that of this one at -v."""
+        return self if self.reversible else Opposite(self)
+
+    def per(self, alpha: float) -> "FrictionLaw":
+        """The law for velocities divided by alpha, of either sign; itself for 0."""
+        return (self.opposite if alpha < 0 else self).scaled(abs(alpha) or 1.0)
+
     def at(self, v: Array, kept: slice = ALL) -> "Response":
         """The law at given velocities; kept: the components of forces that are asked for."""
         return Response(self, v, kept)
@@ -160,3 +213,80 @@ class Response(Shown):
         """The law at v + step change, and the difference of the forces over the step."""
         after = self.law.at(self.v + step * change, self.kept)
         return after, self.law.force_difference(self.v, change, step)[self.kept]
+
+
+@dataclass(frozen=True)
+class Opposite(FrictionLaw):
+    """The law of opposite velocities, for one that is not `reversible`."""
+
+    law: FrictionLaw
+    name: ClassVar[str] = "opposite"
+
+    @property
+    def mirrored(self) -> bool:
+        """See FrictionLaw."""
+        return self.law.mirrored
+
+    @property
+    def crease(self) -> tuple[float, float] | None:
+        """See FrictionLaw."""
+        return self.law.crease
+
+    @property
+    def follows_body(self) -> bool:
+        """See FrictionLaw."""
+        return self.law.follows_body
+
+    @property
+    def follows_ground(self) -> bool:
+        """See FrictionLaw."""
+        return self.law.follows_ground
+
+    @property
+    def width(self) -> float:
+        """See FrictionLaw."""
+        return self.law.width
+
+    @property
+    def words(self) -> str:
+        """See FrictionLaw."""
+        return f"{self.law.words}, reversed"
+
+    @property
+    def opposite(self) -> FrictionLaw:
+        """See FrictionLaw."""
+        return self.law
+
+    @property
+    def limits(self) -> tuple[float, float]:
+        """See FrictionLaw."""
+        backward, forward = self.law.limits
+        return forward, backward
+
+    def potential(self, v: Array) -> Array:
+        """See FrictionLaw."""
+        return self.law.potential(-v)
+
+    def force(self, v: Array) -> Array:
+        """See FrictionLaw."""
+        return -self.law.force(-v)
+
+    def tangent(self, v: Array) -> Array:
+        """See FrictionLaw."""
+        return self.law.tangent(-v)
+
+    def force_difference(self, v: Array, change: Array, step: float) -> Array:
+        """See FrictionLaw."""
+        return -self.law.force_difference(-v, -change, step)
+
+    def scaled(self, factor: float) -> "Opposite":
+        """See FrictionLaw."""
+        return Opposite(self.law.scaled(factor))
+
+    def creep(self, force: float) -> float:
+        """See FrictionLaw."""
+        return -self.law.creep(-force)
+
+    def speed_at(self, share: float) -> float:
+        """See FrictionLaw."""
+        return self.creep(share)

@@ -47,7 +47,11 @@ class Coulomb(Isotropic):
         return np.zeros_like(r)
 
     def rise(
-        self, before: IsotropicResponse, after: IsotropicResponse, change: Array, step: float
+        self,
+        before: IsotropicResponse,
+        after: IsotropicResponse,
+        change: Array,
+        step: float | Array,
     ) -> Array:
         """See Isotropic."""
         return np.zeros_like(change)
@@ -110,7 +114,11 @@ class Tanh(Isotropic):
         return np.asarray(4 * decay / (1 + decay) ** 2 / self.width)
 
     def rise(
-        self, before: IsotropicResponse, after: IsotropicResponse, change: Array, step: float
+        self,
+        before: IsotropicResponse,
+        after: IsotropicResponse,
+        change: Array,
+        step: float | Array,
     ) -> Array:
         """See Isotropic. By tanh b - tanh a = tanh(b - a) (1 - tanh a tanh b)."""
         a, b = self._decay(before.speed), self._decay(after.speed)
@@ -165,7 +173,11 @@ class Viscous(Isotropic):
         return np.full_like(r, 1 / self.speed)
 
     def rise(
-        self, before: IsotropicResponse, after: IsotropicResponse, change: Array, step: float
+        self,
+        before: IsotropicResponse,
+        after: IsotropicResponse,
+        change: Array,
+        step: float | Array,
     ) -> Array:
         """See Isotropic."""
         return np.asarray(change / self.speed)

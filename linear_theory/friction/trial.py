@@ -231,17 +231,22 @@ def _scales(trial: Trial) -> None:
             )
 
 
-def _is_even(trial: Trial) -> None:
-    """A law that says so has the same potential for (+-v_x, +-v_y)."""
-    if not trial.law.even:
-        return
+def _is_symmetric(trial: Trial) -> None:
+    """A law that says so has the same potential for (+-v_x, +-v_y), (-v_x, v_y) or -v."""
+    law, flips = trial.law, []
+    if law.even:
+        flips += [(f"mirrored in component {c}", "even", [c]) for c in range(trial.components)]
+    if law.mirrored and trial.components > 1:
+        flips += [("mirrored in component 0", "mirrored", [0])]
+    if law.reversible:
+        flips += [("reversed", "reversible", list(range(trial.components)))]
     potential = trial.asked("potential", trial.v)
     speed = np.sqrt((trial.v**2).sum(0))
-    for component in range(trial.components):
-        mirrored = trial.v.copy()
-        mirrored[component] *= -1
-        found = trial.asked("potential", mirrored) / speed
-        why = f"as at the v mirrored in component {component}, for a law that says that it is even"
+    for words, name, components in flips:
+        other = trial.v.copy()
+        other[components] *= -1
+        found = trial.asked("potential", other) / speed
+        why = f"as at the v {words}, for a law that says that it is {name}"
         trial.compare("potential/|v|", found, potential / speed, why, EXACT)
 
 
@@ -305,5 +310,5 @@ def _responds(trial: Trial) -> None:
 
 CHECKS: tuple[Callable[[Trial], None], ...] = (
     *(_rests, _has_potential, _has_tangent, _is_convex, _has_differences),
-    *(_scales, _is_even, _has_that_width, _has_speeds, _responds),
+    *(_scales, _is_symmetric, _has_that_width, _has_speeds, _responds),
 )

@@ -10,9 +10,11 @@ from linear_theory.common.threads import one_blas_thread
 from linear_theory.common.tolerance import Tolerance
 from linear_theory.energy.energy import Energy
 from linear_theory.friction.contact import Contact
+from linear_theory.friction.directional import Directional
 from linear_theory.friction.law import FrictionLaw
 from linear_theory.friction.laws import FRICTION_LAWS
 from linear_theory.friction.load import Load
+from linear_theory.friction.maps import Mapped
 from linear_theory.friction.regime import warn_if_viscous
 from linear_theory.growth.laws import GrowthLaw
 from linear_theory.line.piece import Piece
@@ -20,6 +22,7 @@ from linear_theory.line.result import LineMotion
 from linear_theory.line.samples import coarse_means, sampled_balance
 from linear_theory.line.travelling import travelling_balance
 from linear_theory.motion.rigid import RigidNorm
+from linear_theory.scene.level import map_on_ground
 from linear_theory.scene.scene import Scene
 from linear_theory.sheet.rectangle import Sheet
 from linear_theory.speed.result import CrawlSpeed, Estimate
@@ -58,7 +61,7 @@ def line_balance(
     1 + alpha c (eq. 5) or "metric" (1 + 2 alpha c)^(1/2), without expansion in alpha.
     body: "line", with the weight per length, or "strip", narrow and growing in both directions, with
     the weight per area; load: "current", "grown" (the same here) or "material" (weight conserved).
-    friction: "coulomb", "tanh" with its `slip_speed` in length/time, or "viscous".
+    friction: "coulomb", "tanh" with its `slip_speed` in length/time, "viscous", or a `Directional`.
     rtol, atol: `converged` says whether error <= max(rtol |mean|, atol), atol =
     1e-3 rtol alpha^2 length/period unless given (length/time).
 
@@ -102,12 +105,16 @@ def line_balance(
 def line_crawl(scene: Scene, tolerance: Tolerance, body: str) -> CrawlSpeed:
     """`line_balance` of a body as long as the sheet of a scene, without its warning.
 
-    Raises ValueError for a law of friction without a name, which may depend on direction.
+    Raises ValueError for a law of friction of one's own.
     """
     start, law, length = time.perf_counter(), scene.contact.friction, scene.sheet.length
-    if type(law) not in FRICTION_LAWS.values():  # a subclass may have changed anything
-        names = ", ".join(kind.__name__ for kind in FRICTION_LAWS.values())
+    if not _integrable(law):
+        names = ", ".join([*(kind.__name__ for kind in FRICTION_LAWS.values()), "Directional"])
         raise ValueError(f"friction = {law!r}: must be one of {names} for a body on a line")
+    law.potential(np.ones((1, 1)))  # raises ValueError for a heading, which a line has not
+    if map_on_ground(scene):
+        shown = validation.shown(law)
+        raise ValueError(f"friction = {shown}: must have no map on the ground for a body on a line")
     piece = Piece.of(scene.growth.law, scene.contact.load, body)
     tolerance = tolerance.of_speed(scene.alpha, scene.unit)
     error = _wave_error(scene, piece)
@@ -130,6 +137,14 @@ def line_crawl(scene: Scene, tolerance: Tolerance, body: str) -> CrawlSpeed:
     )
     found = found if error is None else error.joins(found, tolerance, ALONG)
     return doubted(found, scene.wave)
+
+
+def _integrable(law: FrictionLaw) -> bool:
+    """Whether a law is one of those here; a subclass may have changed anything."""
+    known = tuple(FRICTION_LAWS.values())
+    if type(law) is Mapped:
+        law = law.law
+    return type(law) in known or (type(law) is Directional and type(law.form) in known)
 
 
 def _wave_error(scene: Scene, piece: Piece) -> WaveError | None:
@@ -163,7 +178,7 @@ def _checked_length(length: float | None, wave: Wave) -> float:
 def _in_lengths(scene: Scene, piece: Piece, tolerance: Tolerance) -> LineMotion:
     """The balance in units of the length of the body, as for the tolerance."""
     law, series = scene.contact.friction.scaled(scene.sheet.length), scene.drive.series
-    if series is not None:
+    if series is not None and law.map is None:
         return travelling_balance(series, scene.alpha, law, piece)
     on_line = drive(scene.wave, scene.sheet, on_axis(scene.sheet.length))
     return sampled_balance(on_line, scene.alpha, law, piece, tolerance)

@@ -195,15 +195,15 @@ class Profile:
         base = max(level - tolerance, float(self.values.min()))
         return self.anchored(base).rise(base, level + tolerance - base).part
 
-    def median(self) -> float:
-        """The level below which g lies for half of the period."""
-        if self.symmetric:
+    def quantile(self, share: float = 0.5) -> float:
+        """The level below which g lies for a share of the period: by default the median."""
+        if self.symmetric and share == 0.5:
             return 0.0
         lower, upper = float(self.values.min()), float(self.values.max())
 
         def excess(height: Array) -> tuple[Array, Array]:
             rise = self.rise(lower, float(height))
-            return np.array(rise.part - 0.5), np.array(rise.part_rate)
+            return np.array(rise.part - share), np.array(rise.part_rate)
 
         return lower + float(
             bracketed_newton(excess, 0.0, upper - lower, -lower, atol=4 * EPS * self.scale)

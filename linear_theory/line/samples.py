@@ -5,14 +5,16 @@ g = int_0^S s'(alpha c) c_t dS' less its mean; eq. 7 is balanced at every time b
 
     V(t) = -alpha m,   m the median of g over the body, weighted with s^p (see `growth`)   (dry)
 
-or by the root of the tanh law. Here s' c_t is linear between equidistant points, as is g, and the
-weight constant there: every step after that is exact, so the error falls with the square of the
-spacing, and samples and times are doubled until the last change meets the tolerance.
+or by the root of a law with a width. Of friction with a direction m is the quantile at the share of the
+weight that must slip one way, mu_f/(mu_f + mu_b) for alpha > 0 (`line.share`). Here s' c_t is linear
+between equidistant points, as is g, and the weight constant there: every step after that is exact, so
+the error falls with the square of the spacing, and samples and times are doubled until the last change
+meets the tolerance.
 
 For small alpha g = g_1 + alpha s_2 g_2 + ..., g_1 = int c_t, g_2 = int 2 c c_t, both less their means.
 With m_0 the median of g_1, f its density there and E_0 the mean over the places where g_1 = m_0,
 
-    V = -alpha m_0 + alpha^2 (p E[c sgn(m_0 - g_1)]/(2 f) - s_2 E_0[g_2]) + ...
+    V = -alpha m_0 + alpha^2 (p E[c (1(g_1 < m_0) - share)]/f - s_2 E_0[g_2]) + ...
 """
 
 import math
@@ -27,11 +29,13 @@ from linear_theory.common import validation
 from linear_theory.common.estimate import Estimate
 from linear_theory.common.tolerance import Tolerance
 from linear_theory.friction.law import FrictionLaw
-from linear_theory.friction.laws import Tanh
+from linear_theory.friction.laws import Viscous
+from linear_theory.friction.maps import Mapped
 from linear_theory.line.piece import Piece
 from linear_theory.line.result import REST_PART, REST_SPEED, LineMotion
 from linear_theory.line.roots import EPS, bracketed_newton
-from linear_theory.line.tanh_level import NARROWEST, SATURATED
+from linear_theory.line.share import share_slower
+from linear_theory.line.tanh_level import NARROWEST, SATURATED, not_narrower
 from linear_theory.line.work import sampled_power
 from linear_theory.wave.protocol import Drive
 
@@ -212,21 +216,31 @@ def _snapshot(
     _check_strain(alpha, c, times, y, growth)
     g = _less_mean(growth.slope(alpha * c) * rate)
     weight = (1 + _middle(growth.gain(alpha * c))) / cells
+    if law.map is not None:
+        weight = weight * _middle(np.broadcast_to(law.map.values(0.0, place, times), g.shape))
     if law.width == 0:
-        level, _ = _weighted_median(g, weight)
+        share = share_slower(law, alpha)
+        level, _ = _weighted_quantile(g, weight, share)
         velocity = -alpha * level
-        first, second = _dry_coefficients(c, rate, growth)
+        first, second = _dry_coefficients(c, rate, growth, share)
     else:
         velocity = -alpha * np.sum(weight * _middle(g), axis=1) / weight.sum(axis=1)
         first, second = np.zeros(times.size), _viscous_coefficient(c, rate, growth)
-        if isinstance(law, Tanh):
+        if not is_viscous(law):
             velocity = _regularised_speed(alpha * g, weight, law, velocity)
+    if law.map is not None or (law.width > 0 and not law.reversible):
+        first = second = np.full(times.size, math.nan)
     slip = velocity[:, None] + alpha * g
     tolerance = REST_SPEED * np.ptp(slip, axis=1, keepdims=True)
     ends = _Ends.of(slip)
     rest = np.mean(ends.part_below(tolerance) - ends.part_below(-tolerance), axis=1)
     power = sampled_power(slip, weight, law)
     return Snapshot(velocity, first, second, abs(slip).max(axis=1), rest, power)
+
+
+def is_viscous(law: FrictionLaw) -> bool:
+    """Whether it is linear, so that no equation is to be solved."""
+    return type(law.law if isinstance(law, Mapped) else law) is Viscous
 
 
 def _on_grid(values: Array, times: Array, y: Array) -> Array:
@@ -282,18 +296,18 @@ class _Ends(NamedTuple):
         return np.einsum("tc,tc->t", weight, self.part_below(level[:, None]))
 
 
-def _weighted_median(g: Array, weight: Array) -> tuple[Array, Array]:
-    """Level, and part of each cell below it, for every time.
+def _weighted_quantile(g: Array, weight: Array, share: float = 0.5) -> tuple[Array, Array]:
+    """Level with that share of the weight below, and part of each cell below it, for every time.
 
     The weight below a level is linear between neighbours of the sorted samples: bisect for the
     neighbours, then interpolate. It jumps where a cell is flat.
     """
     rows, ends = np.arange(g.shape[0]), _Ends.of(g)
-    ordered, half = np.sort(g, axis=1), weight.sum(axis=1) / 2
+    ordered, wanted = np.sort(g, axis=1), share * weight.sum(axis=1)
     below, above = np.zeros(rows.size, int), np.full(rows.size, g.shape[1] - 1)
     while np.any(above - below > 1):
         middle = (below + above) // 2
-        enough = ends.weight_below(ordered[rows, middle], weight) >= half
+        enough = ends.weight_below(ordered[rows, middle], weight) >= wanted
         below, above = np.where(enough, below, middle), np.where(enough, middle, above)
     low, high = ordered[rows, below], ordered[rows, above]
     at_low = ends.weight_below(low, weight)
@@ -302,8 +316,8 @@ def _weighted_median(g: Array, weight: Array) -> tuple[Array, Array]:
     )
     at_high = ends.weight_below(high, sloping)
     gain = np.where(at_high > at_low, at_high - at_low, np.inf)
-    level = low + (high - low) * np.clip((half - at_low) / gain, 0, 1)
-    level = np.where((at_low < half) & (half < at_high), level, high)
+    level = low + (high - low) * np.clip((wanted - at_low) / gain, 0, 1)
+    level = np.where((at_low < wanted) & (wanted < at_high), level, high)
     return level, ends.part_below(level[:, None])
 
 
@@ -316,12 +330,13 @@ def _at_level(g: Array, level: Array) -> Array:
         return np.where(there, 1 / (high - low), 0) / low.shape[1]
 
 
-def _dry_coefficients(c: Array, rate: Array, growth: Piece) -> tuple[Array, Array]:
+def _dry_coefficients(c: Array, rate: Array, growth: Piece, share: float) -> tuple[Array, Array]:
     """Of V = V1 alpha + V2 alpha^2, as in the module's head, each (times,)."""
     g, mean_growth = _less_mean(rate), _middle(c)
-    level, below = _weighted_median(g, np.full(mean_growth.shape, 1 / mean_growth.shape[1]))
+    even = np.full(mean_growth.shape, 1 / mean_growth.shape[1])
+    level, below = _weighted_quantile(g, even, share)
     density = _at_level(g, level)
-    weighed = np.mean(mean_growth * (2 * below - 1), axis=1) / (2 * density.sum(axis=1))
+    weighed = np.mean(mean_growth * (below - share), axis=1) / density.sum(axis=1)
     second = growth.power * weighed
     if growth.curvature:
         second = second - growth.curvature * _mean_at(_less_mean(2 * c * rate), g, level, density)
@@ -343,10 +358,10 @@ def _viscous_coefficient(c: Array, rate: Array, growth: Piece) -> Array:
     return np.asarray(-growth.power * np.mean(_middle(c) * _middle(_less_mean(rate)), axis=1))
 
 
-def _regularised_speed(velocity: Array, weight: Array, law: Tanh, guess: Array) -> Array:
+def _regularised_speed(velocity: Array, weight: Array, law: FrictionLaw, guess: Array) -> Array:
     """V with int w f(V + v) = 0, f the force of the law, v = `velocity` linear on each cell."""
     fastest = abs(velocity).max(axis=1)
-    law = Tanh(max(law.width, NARROWEST * float(fastest.max())))
+    law = not_narrower(law, NARROWEST * float(fastest.max()))
 
     def balance(speed: Array) -> tuple[Array, Array]:
         slip = speed[:, None] + velocity
@@ -356,15 +371,18 @@ def _regularised_speed(velocity: Array, weight: Array, law: Tanh, guess: Array) 
     return bracketed_newton(balance, -fastest, fastest, guess, atol=EPS * float(fastest.max()))
 
 
-def _means(law: Tanh, slip: Array) -> Array:
+def _means(law: FrictionLaw, slip: Array) -> Array:
     """Means of force and tangent over cells on which the velocity is linear, (2, times, cells).
 
     slip: at their ends, (times, cells + 1). Differences of their integrals; means of two Gauss points
     where these would cancel.
     """
     a, b = slip[:, :-1], slip[:, 1:]
-    dry = (np.sign(a) == np.sign(b)) & (np.minimum(abs(a), abs(b)) > SATURATED * law.width)
-    close = dry | (abs(b - a) < CLOSE * law.width)
+    one_way = np.sign(a) == np.sign(b)
+    dry = one_way & (np.minimum(abs(a), abs(b)) > SATURATED * law.width)
+    # across rest the tangent may jump; there nothing cancels, as potential and force are 0 there
+    close = dry | (abs(b - a) < CLOSE * law.width) & (one_way | law.reversible)
+    close |= a == b
     with np.errstate(divide="ignore", invalid="ignore"):
         means = np.diff([law.potential(slip[None]), law.force(slip[None])[0]]) / (b - a)
     middle, offset = (a[close] + b[close]) / 2, (b[close] - a[close]) / math.sqrt(12)

@@ -16,6 +16,7 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
+from linear_theory.friction.law import FrictionLaw
 from linear_theory.friction.laws import Tanh
 from linear_theory.line.body import Body
 from linear_theory.line.profile import GAUSS_NODES, GAUSS_WEIGHTS, MOST_HALVINGS, Profile, polynomial
@@ -33,6 +34,11 @@ UNIT = Tanh(1.0)
 NARROWEST = 1e-290
 """Least slip speed, relative to the range of speeds: by a smaller one, or a subnormal one, a division
 would overflow. It changes q by as much at most."""
+
+
+def not_narrower(law: FrictionLaw, width: float) -> FrictionLaw:
+    """The law, or that of its kind with this width where its own is smaller."""
+    return law if law.width >= width else law.scaled(law.width / width)
 
 
 def tanh_level(body: Body, width: float, guess: float) -> Level:
@@ -66,7 +72,7 @@ def _balance(body: Body, level: float, width: float, finer: float) -> tuple[Arra
         shift = level + body.mean_height - body.bent(g)
         return np.stack([shift - body.straight(g), -body.straight(g), shift]) / width
 
-    measure, g = quadrature(body.profile, arguments, finer)
+    measure, g = quadrature(body.profile, lambda g: arguments(g)[:2], finer)
     (x, y, gap), gain = arguments(g)[:, None], body.gain(g)
     symmetric = body.profile.symmetric
     met, moved = UNIT.at(y).moved(gap, 1.0) if symmetric else (UNIT.at(x), None)
@@ -79,7 +85,7 @@ def quadrature(
     profile: Profile, arguments: Callable[[Array], Array], finer: float
 ) -> tuple[Array, Array]:
     """Weights (of the period) and values of g at Gauss points that resolve tanh of the arguments."""
-    node, left, right = _panels(profile, lambda g: arguments(g)[:2], finer)
+    node, left, right = _panels(profile, arguments, finer)
     half = (right - left) / 2
     distance = left + half + half * GAUSS_NODES[:, None]
     values = polynomial(profile.taylor[:, node], distance)

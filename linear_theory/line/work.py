@@ -63,7 +63,8 @@ def sampled_power(slip: Array, weight: Array, law: FrictionLaw) -> Array:
     """Power (times,) of velocities (times, cells + 1) linear on each cell, weights (times, cells)."""
     a, b = slip[:, :-1], slip[:, 1:]
     if law.width == 0:
-        return np.sum(weight * _mean_size(a, b), axis=1)
+        (back, forth), size, mean = law.limits, _mean_size(a, b), (a + b) / 2
+        return np.sum(weight * (forth * (size + mean) + back * (size - mean)) / 2, axis=1)
     nodes, weights = gauss_legendre(POINTS)
     inside = (law.dissipation(((a + b) / 2 + (b - a) / 2 * node)[None]) for node in nodes)
     return np.asarray(

@@ -23,13 +23,14 @@ class Rule(NamedTuple):
     """Gauss points and weights of one direction, and interpolation of n values from there.
 
     halves: to the Gauss points of the two halves, (n, n) each; with_ends: to -1, the points and 1,
-    (n + 2, n).
+    (n + 2, n); inverse: values at the points to coefficients of Legendre polynomials, (n, n).
     """
 
     points: Array
     weights: Array
     halves: tuple[Array, Array]
     with_ends: Array
+    inverse: Array
 
 
 @lru_cache
@@ -41,7 +42,7 @@ def gauss(order: int) -> Rule:
         np.polynomial.legendre.legvander(places, order - 1) @ inverse
         for places in ((points - 1) / 2, (points + 1) / 2, np.concatenate([[-1], points, [1]]))
     )
-    return Rule(points, weights, (first, second), with_ends)
+    return Rule(points, weights, (first, second), with_ends, np.asarray(inverse, float))
 
 
 class Graded(NamedTuple):

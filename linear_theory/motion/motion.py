@@ -47,6 +47,13 @@ class Motion(Shown):
     centre: tuple[float, float] = (0.0, 0.0)
 
     @property
+    def whole_area(self) -> float:
+        """Integral of `area` over the cells, at the first time."""
+        area = self.area.reshape(-1, *self.area.shape[-3:])[0]
+        _, weights = gauss_legendre(area.shape[-1])
+        return float((area @ weights @ weights).sum())
+
+    @property
     def arms(self) -> Array:
         """Positions from the centre of mass, about which the sheet turns; shape of `position`."""
         return self.position - np.reshape(self.centre, (2, *(1,) * (self.position.ndim - 1)))

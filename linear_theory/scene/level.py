@@ -10,6 +10,7 @@ from importlib import import_module
 from typing import Any
 
 from linear_theory.common.shown import Shown
+from linear_theory.friction.maps import FixedTo
 from linear_theory.scene.scene import Scene
 
 LEVELS = "fem_check.shell.abilities"
@@ -59,7 +60,25 @@ def acted_on(scene: Scene) -> str:
     return "a wave that the strain acts back on (StrainFeedback)" if scene.drive.has_state else ""
 
 
+def turns_on_ground(scene: Scene) -> str:
+    """A direction of friction fixed to the ground, where the sheet may turn on it."""
+    law = scene.contact.friction
+    if not law.follows_ground or (scene.drive.mirrored and law.mirrored):
+        return ""
+    return f"a direction of friction fixed to the ground below a sheet that may turn ({law.words})"
+
+
+def map_on_ground(scene: Scene) -> str:
+    """A map of friction on the ground, under which a motion does not repeat."""
+    found = scene.contact.friction.map
+    if found is None or found.fixed_to is FixedTo.BODY:
+        return ""
+    return "a map of friction fixed to the ground, over which the sheet moves on"
+
+
 THEORY = Level(
-    "linear_theory", lambda effect, scene: effect.beyond_theory(scene), (_sloping, _cut, acted_on)
+    "linear_theory",
+    lambda effect, scene: effect.beyond_theory(scene),
+    (_sloping, _cut, acted_on, turns_on_ground, map_on_ground),
 )
 """The theories of a flat rectangle that is not deformed by friction."""

@@ -357,6 +357,11 @@ class Scene(Shown):
                 )
         for effect in self.effects:
             effect.check_scene(self)
+        if self.contact.friction.map is not None:
+            x, y = np.linspace(-0.5, 0.5, 9)[:, None], np.linspace(-0.5, 0.5, 33)
+            x, y = self.sheet.width * x, self.sheet.length * y
+            self.contact.friction.map.values(x, y)
+            self.contact.friction.map.check_period(self.period, x, y)
         if self.curvature_coupling and not any(effect.bends for effect in self.effects):
             raise ValueError(
                 f"curvature_coupling = {self.curvature_coupling:g}: must be 0 without the effect "

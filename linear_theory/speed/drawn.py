@@ -126,7 +126,10 @@ class LinearDeformation(Shown):
         field, (x, y) = self.field, points
         dilation = field.strain(x, y, t)[:2].sum(0)
         rate = self._load.rate(dilation, self.growth(points, np.array([t]))[0])
-        return Touch(self.alpha * field.velocity(x, y, t), 1 + self.alpha * rate)
+        weight = 1 + self.alpha * rate
+        if self.law.map is not None:
+            weight = weight * self.law.map.values(x, y, t)
+        return Touch(self.alpha * field.velocity(x, y, t), weight)
 
     def stress(self, points: Array, t: float) -> Array:
         """See Deformation."""

@@ -73,6 +73,8 @@ def _friction_field(
     growth = field.drive.value(x, y, t)
     rate = contact.load.rate(field.strain(x, y, t)[:2].sum(0), growth)
     weight = 1 + alpha * rate
+    if contact.friction.map is not None:
+        weight = weight * contact.friction.map.values(x, y, t)
     return FrictionField(-weight * contact.friction.force(slip), slip, weight)
 
 

@@ -197,7 +197,7 @@ def _per_alpha(scene: Scene) -> Contact:
         raise ValueError(
             f"alpha = 0: must not be 0 for {law.words}, whose slip speed counts per unit |alpha|"
         )
-    return replace(scene.contact, friction=law.scaled(abs(scene.alpha) or 1.0))
+    return replace(scene.contact, friction=law.per(scene.alpha))
 
 
 def field_tolerance(rtol: float) -> float:
@@ -247,9 +247,9 @@ def field_errors(field: SecondOrderField, period: Period, contact: Contact) -> A
     0 where the motion vanishes by symmetry.
     """
     fastest = period.fastest / TINY_ALPHA
-    even = contact.friction.even
-    first = 0.0 if field.drive.changes_sign and even else FIRST_SHARE * field.error * fastest
-    norm = RigidNorm(field.gyration, field.mirrored and even)
+    law = contact.friction
+    first = 0.0 if field.drive.changes_sign and law.reversible else FIRST_SHARE * field.error * fastest
+    norm = RigidNorm(field.gyration, field.mirrored and law.mirrored)
     return np.stack([norm.each(first), norm.each(_second_field_error(field, fastest))])
 
 
@@ -267,13 +267,13 @@ def second_order_speed(scene: Scene, tolerance: Tolerance) -> CrawlSpeed:
     """V_1 alpha + V_2 alpha^2 for a planar scene; result and errors as in `crawl_speed`."""
     start, alpha, contact = time.perf_counter(), scene.alpha, scene.contact
     tolerance, law = tolerance.of_speed(alpha, scene.unit), contact.friction
-    per_alpha = replace(contact, friction=law.scaled(abs(alpha) or 1.0))
+    per_alpha = replace(contact, friction=law.per(alpha))
     rtol = tolerance.rtol
     field = second_order_field(scene.sheet, scene.wave, scene.growth, field_tolerance(rtol))
     scene.growth.law.check(alpha, scene.drive.growths(*_points(scene.sheet)))
     period = leading_period(field, per_alpha, rtol)
     both = coefficients(field, period, contact, start)
-    mirrored = field.mirrored and law.even
+    mirrored = field.mirrored and law.mirrored
     norm = RigidNorm(field.gyration, mirrored)
     fastest = abs(alpha) * period.fastest / TINY_ALPHA
     found = replace(

@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import Any
 
 from fem_check.files.mistakes import Mistakes
+from fem_check.files.parts.friction import TANH, law_of
 from fem_check.files.parts.made import Made
 from fem_check.files.parts.terrains import terrain_of
 from fem_check.files.quantities import registry
@@ -24,8 +25,6 @@ from fem_check.shell.effects.koiter import Bending, Membrane
 from fem_check.shell.effects.loads import DeadLoad
 from fem_check.shell.material import Material
 from linear_theory.friction.contact import Contact
-from linear_theory.friction.law import FrictionLaw
-from linear_theory.friction.laws import Coulomb, Tanh, Viscous
 from linear_theory.friction.load import Load
 from linear_theory.scene.scene import Scene
 from linear_theory.sheet.rectangle import Sheet
@@ -34,11 +33,6 @@ EFFECTS = ("friction", "bending", "gravity", "ground", "inertia", "dead_load")
 """Tables that are effects; [friction] is one where it has a coefficient."""
 
 STANDARD_GRAVITY = "9.80665 m/s^2"
-
-LAWS = {Coulomb.name: "dry", Tanh.name: "tanh", Viscous.name: "viscous"}
-"""What a file calls the laws of friction."""
-
-TANH = LAWS[Tanh.name]
 
 
 class Effects:
@@ -81,7 +75,7 @@ class Effects:
         if table.slip_speed is None:
             raise ValueError("slip_speed: must be given with a coefficient, such as '0.1 mm/s'")
         assert table.coefficient is not None
-        return Friction(table.coefficient, self.system.number(table.slip_speed))
+        return Friction(table.coefficient, law=law_of(table, self.system))
 
     def _gravity(self, table: GravityTable) -> Gravity:
         if (table.weight is None) == (table.density is None):
@@ -148,17 +142,7 @@ def with_contact(scene: Scene, table: FrictionTable | None, system: System) -> S
     """The scene with what a file says of load and friction, where no effect says it."""
     if table is None or table.coefficient is not None:
         return scene
-    law = _law(table, system)
+    law = law_of(table, system)
     load = scene.contact.load if table.load is None else Load(table.load)
     slope = scene.contact.slope if table.slope is None else table.slope
     return scene.but(contact=Contact(load, law, slope))
-
-
-def _law(table: FrictionTable, system: System) -> FrictionLaw:
-    name = table.law or (LAWS[Coulomb.name] if table.slip_speed is None else TANH)
-    if (table.slip_speed is None) == (name == TANH):
-        must = "given for" if table.slip_speed is None else "left out but for"
-        raise ValueError(f"slip_speed: must be {must} law = {TANH!r}")
-    if table.slip_speed is not None:
-        return Tanh(system.number(table.slip_speed))
-    return Coulomb() if name == LAWS[Coulomb.name] else Viscous()

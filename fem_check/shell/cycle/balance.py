@@ -123,7 +123,7 @@ class CycleBalance:
         velocity along y at (y, t) is that at (-y, t_0 - t).
         """
         reversal = self.shapes.scene.drive.reversal_time
-        if reversal is None or not self.mirrored:
+        if reversal is None or not self.mirrored or self.contact.friction.map is not None:
             return None
         return reversal if is_mirrored(self.shapes, axis=1) else None
 
@@ -131,7 +131,7 @@ class CycleBalance:
     def speed_per_rate(self) -> float:
         """Largest mean V for dc/dt of root mean square 1."""
         scene = self.shapes.scene
-        opposed = scene.drive.changes_sign and self.contact.friction.even
+        opposed = scene.drive.changes_sign and self.contact.friction.reversible
         return scene.speed_per_rate(self.contact.slope != 0 or not opposed)
 
     def on(self, shapes: Shapes) -> "CycleBalance":
@@ -249,7 +249,10 @@ class CycleBalance:
 
     @cached_property
     def _motion(self) -> CycleMotion:
-        return CycleMotion(self.shapes, self.contact.load, self.order, self.mirrored)
+        contact = self.contact
+        return CycleMotion(
+            self.shapes, contact.load, self.order, self.mirrored, map=contact.friction.map
+        )
 
     def _balance(self, times: Array) -> Balance:
         motion, law, slope = self._motion.at(times), self.contact.friction, self.contact.slope
@@ -260,7 +263,7 @@ class CycleBalance:
 
 def _mirrored(shapes: Shapes, contact: Contact) -> bool:
     """Whether motion and friction are mirror symmetric in x."""
-    return is_mirrored(shapes) and contact.friction.even
+    return is_mirrored(shapes) and contact.friction.mirrored
 
 
 def _paired(leading: Array) -> Array:

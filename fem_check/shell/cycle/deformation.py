@@ -97,7 +97,7 @@ class CycleDeformation(Shown):
 
     def _motion_of(self, points: bytes) -> "_AtPoints":
         there = np.frombuffer(points).reshape(2, -1)
-        return _AtPoints(self.shapes, self._load, 1, mirrored=False, points=there)
+        return _AtPoints(self.shapes, self._load, 1, mirrored=False, points=there, map=self.law.map)
 
 
 @dataclass(frozen=True, eq=False)

@@ -17,25 +17,12 @@ from numpy.typing import NDArray
 
 from fem_check.shell.cycle.shapes import Shapes, harmonics, time_factors
 from fem_check.shell.kinematics.discretisation import Discretisation
+from fem_check.shell.kinematics.heading import moments
 from linear_theory.common.shown import Shown
 from linear_theory.motion.rigid import centre_and_gyration
 from linear_theory.speed.path import Poses
 
 Array = NDArray[np.float64]
-
-
-def moments(discretisation: Discretisation, states: Array) -> Array:
-    """Means of x, y, F_xx + F_yy and F_yx - F_xy for states (n, size), (n, 4).
-
-    By quadrature over the whole sheet.
-    """
-    region = discretisation.interior
-    mass = region.measure / region.measure.sum()
-    found = []
-    for state in states:
-        place, along_x, along_y = region.position(state, (0, 1, 2))[:, :2] @ mass
-        found.append([*place, along_x[0] + along_y[1], along_x[1] - along_y[0]])
-    return np.array(found)
 
 
 def gyration(discretisation: Discretisation) -> float:

@@ -1,6 +1,6 @@
 """The motion of a cycle of shapes at Gauss points, in the form read by the friction balance."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
@@ -19,6 +19,7 @@ from fem_check.shell.kinematics.region import Region
 from linear_theory.common.errors import SheetcrawlError
 from linear_theory.common.quadrature import gauss_legendre
 from linear_theory.friction.load import Load
+from linear_theory.friction.maps import FrictionMap
 from linear_theory.motion.cells import gauss
 from linear_theory.motion.motion import Motion
 
@@ -48,14 +49,16 @@ def is_mirrored(shapes: Shapes, axis: int = 0) -> bool:
 class CycleMotion:
     """Velocities and loads of shapes on the cells of their mesh.
 
-    load: see `Contact`; order: Gauss points per cell and direction; mirrored: whether the
-    motion is mirror symmetric. A rectangle is one cell, a triangle three.
+    load: see `Contact`; order: Gauss points per cell and direction; mirrored: whether the motion is
+    mirror symmetric; map: of the coefficient of friction, by which the load is multiplied. A rectangle
+    is one cell, a triangle three.
     """
 
     shapes: Shapes
     load: Load
     order: int
     mirrored: bool
+    map: FrictionMap | None = field(default=None, kw_only=True)
 
     def at(self, times: Array) -> Motion:
         """Motion at times (T,), with velocities in length per time and the load as `area`.
@@ -71,6 +74,9 @@ class CycleMotion:
         velocity = np.tensordot(slopes, self._jets[:, 0, :2], 1).swapaxes(0, 1)
         load = self._load(times, values, position)
         _check_load(load, times)
+        if self.map is not None:
+            x, y = self.region.reference[0, :2]
+            load = load * self.map.values(x, y, times[:, None])
         place, velocity = self._frame.seen(times, position[:2], velocity)
         shape = (times.size, -1, self.order, self.order)
         nothing = np.zeros(load.size).reshape(shape)

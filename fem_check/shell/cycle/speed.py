@@ -302,8 +302,8 @@ def _is_target(scene: Scene) -> bool:
 
 def _starts_at_second_order(scene: Scene, contact: Contact) -> bool:
     """Whether c(t + T/2) = -c(t), on level ground: the first order then has no mean."""
-    drive, even = scene.drive, contact.slope == 0 and contact.friction.even
-    return even and drive.series is not None and drive.changes_sign
+    drive, opposed = scene.drive, contact.slope == 0 and contact.friction.reversible
+    return opposed and drive.series is not None and drive.changes_sign
 
 
 def _words(scene: Scene, contact: Contact, shapes: Shapes | None = None) -> str:

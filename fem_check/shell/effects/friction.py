@@ -13,7 +13,7 @@ from fem_check.shell.kinematics.point_state import PointState, dot, once_per_sta
 from fem_check.shell.kinematics.rates import Step
 from fem_check.shell.kinematics.region import Entries
 from linear_theory.common import validation
-from linear_theory.common.pairs import outer, pairs_among, product
+from linear_theory.common.pairs import PAIRS, pairs_among
 from linear_theory.common.shown import Value
 from linear_theory.friction.law import FrictionLaw, Response
 from linear_theory.friction.laws import Tanh, checked_law, friction_law
@@ -86,9 +86,12 @@ class Friction(Value, Effect):
         """See Effect."""
         return self.coefficient
 
-    def velocity(self, state: PointState) -> Array:
-        """Velocity along the ground, (components, points)."""
-        return _along(state, state.step.moving(state.position))
+    def slip(self, state: PointState) -> Array:
+        """Velocity along the ground in the axes of the law, (2, points)."""
+        axes, rule = slip_axes(state), state.step.moving
+        if axes is None:  # two of three components, at less cost
+            return np.asarray(rule.rate * (state.position[:2] - rule.base[:2]))
+        return _inward(axes, rule(state.position))
 
     def force(self, state: PointState) -> Array:
         """Force of the ground on each point, (components, points)."""
@@ -101,27 +104,19 @@ class Friction(Value, Effect):
 
     def gradient(self, state: PointState) -> Array:
         """See Effect."""
-        limit, force = self._limit(state), self._met(state).force
-        if not _is_level(state):
-            return np.asarray(limit * _along(state, force))[None]
-        out = np.zeros((1, 3, limit.size))
-        np.multiply(limit, force, out=out[0, :2])
-        return out
+        force = self._limit(state) * self._met(state).force
+        return _outward(slip_axes(state), force, state.components)[None]
 
     def hessian(self, state: PointState) -> Array:
         """See Effect."""
         scale, tangent = self._limit(state) * state.step.moving.rate, self._met(state).tangent
-        if _is_level(state):
-            return _spread(scale * tangent)[None, None]
-        return np.asarray(scale * _tangent_along(state, tangent))[None, None]
+        axes = slip_axes(state)
+        return _tangent_outward(axes, scale * tangent, state.components)[None, None]
 
     @once_per_state
     def _met(self, state: PointState) -> Response:
-        """The law at the velocities; on level ground at those in the plane, at half the cost."""
-        if not _is_level(state):
-            return self.law.at(self.velocity(state))
-        rule = state.step.moving
-        return self.law.at(rule.rate * (state.position[:2] - rule.base[:2]))
+        """The law at the slip; on level ground only velocities in the plane are asked for."""
+        return self.law.at(self.slip(state))
 
     def _limit(self, state: PointState) -> Array:
         """mu N, (points,)."""
@@ -129,7 +124,7 @@ class Friction(Value, Effect):
 
     def check_scene(self, scene: Scene) -> None:
         """Raise ValueError for friction without load, and for a law that is wrong in space."""
-        checked_law(self.law, scene.components, "law")
+        checked_law(self.law, 2, "law")
         if not any(effect.pressed_by(scene.components) for effect in scene.effects):
             kind, where = ("Gravity", "in the plane") if scene.planar else ("Ground", "in space")
             raise ValueError(f"effects: Friction must come with {kind}, its load {where}")
@@ -167,33 +162,50 @@ def _law(slip_speed: float | None, law: FrictionLaw | str | None) -> FrictionLaw
     return found
 
 
-def _is_level(state: PointState) -> bool:
-    """Whether the sheet is in space on level ground, so that vectors along it lie in the plane."""
-    return state.components == 3 and state.step.normal is None
+def slip_axes(state: PointState) -> Array | None:
+    """The x and y of the law at each point, (2, components, points or 1); None for those of the ground.
+
+    On uneven ground those of the level, tilted with it by the shortest rotation; turned by the heading
+    of the body for a law that is fixed to it.
+    """
+    step, heading = state.step, state.step.heading
+    if step.normal is None and heading == 0:
+        return None
+    if step.normal is None:
+        axes = np.zeros((2, state.components, 1))
+        axes[0, 0] = axes[1, 1] = 1.0
+    else:
+        n_x, n_y, n_z = step.normal
+        x, y = n_x / (1 + n_z), n_y / (1 + n_z)
+        axes = np.stack([[1 - n_x * x, -n_y * x, -n_x], [-n_x * y, 1 - n_y * y, -n_y]])
+    cosine, sine = np.cos(heading), np.sin(heading)
+    return np.stack([cosine * axes[0] + sine * axes[1], cosine * axes[1] - sine * axes[0]])
 
 
-def _along(state: PointState, vector: Array) -> Array:
-    """The part along the ground of vectors (components, points)."""
-    if state.components == 2:
+def _inward(axes: Array, vector: Array) -> Array:
+    """Components of vectors (components, points) along the axes, (2, points)."""
+    return np.stack([dot(axis, vector) for axis in axes])
+
+
+def _outward(axes: Array | None, vector: Array, components: int) -> Array:
+    """Vectors (2, points) along the axes, as (components, points)."""
+    if axes is not None:
+        return np.asarray(axes[0] * vector[0] + axes[1] * vector[1])
+    if components == 2:
         return vector
-    if state.step.normal is None:
-        return np.stack([vector[0], vector[1], np.zeros_like(vector[0])])
-    normal = state.step.normal
-    return np.asarray(vector - normal * dot(normal, vector))
+    return np.stack([vector[0], vector[1], np.zeros_like(vector[0])])
 
 
-def _tangent_along(state: PointState, tangent: Array) -> Array:
-    """P K P of symmetric tensors K (pairs, points), P = 1 - n n along the ground."""
-    normal = state.step.normal
-    if normal is None:
+def _tangent_outward(axes: Array | None, tangent: Array, components: int) -> Array:
+    """Tensors (xx, xy, yy) along the axes, as those of the components, (pairs, points)."""
+    if axes is not None:
+        xx, xy, yy = tangent
+        x, y = axes
+        first, second = (np.asarray(index) for index in PAIRS[components])
+        mixed = x[first] * y[second] + y[first] * x[second]
+        return np.asarray(xx * x[first] * x[second] + xy * mixed + yy * y[first] * y[second])
+    if components == 2:
         return tangent
-    across = product(tangent, normal)
-    both = outer(normal, across) + outer(across, normal)
-    return np.asarray(tangent - both + dot(normal, across) * outer(normal, normal))
-
-
-def _spread(tangent: Array) -> Array:
-    """Tensors of the plane, (3, points), as those of space, (6, points)."""
     out = np.zeros((6, *tangent.shape[1:]))
     out[pairs_among(3, slice(0, 2))] = tangent
     return out

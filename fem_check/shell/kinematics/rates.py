@@ -44,9 +44,10 @@ class Step(Shown):
     is proportional. area (points,): quadrature weight times current area, for "current" loads.
     normal (3, points): unit normal of the ground under each point, None if it is e_z. anchor
     (components, points): places before the step, None unless a `Restraint` holds the sheet to them.
+    heading: of the sheet as a whole, anticlockwise, radians, for friction whose axes turn with it.
 
-    load, area and normal are those of the last state, since as functions of the position they would not
-    have a potential. The minimisation is repeated until they no longer change.
+    load, area, normal and heading are those of the last state, since as functions of the position they
+    would not have a potential. The minimisation is repeated until they no longer change.
     """
 
     velocity: Affine | None = None
@@ -55,6 +56,7 @@ class Step(Shown):
     area: Array | None = None
     normal: Array | None = None
     anchor: Array | None = None
+    heading: float = 0.0
 
     @property
     def moving(self) -> Affine:
@@ -88,7 +90,7 @@ class Step(Shown):
         velocity, acceleration = (
             None if r is None else r.part(points) for r in (self.velocity, self.acceleration)
         )
-        return Step(velocity, acceleration, load, area, normal, anchor)
+        return Step(velocity, acceleration, load, area, normal, anchor, self.heading)
 
 
 def _held(value: T | None, name: str) -> T:

@@ -236,7 +236,7 @@ class Run:
         moving = history.velocity
         velocity = np.zeros_like(history.state) if moving is None else moving
         rule = self.stepper.at_points(Affine(1.0, history.state - velocity))
-        step = self.stepper.held(Step(rule), history.state, rest)
+        step = self.stepper.held(Step(rule), history.state, rest, 0.0)
         nothing = Works(*(np.zeros(()) for _ in Works._fields))
         still = Sliding(0.0, 0.0, np.zeros(2), np.zeros(2))
         self._note(history.state, nothing, still)

@@ -37,7 +37,7 @@ class Sliding(NamedTuple):
 
 def sliding(friction: Friction, state: PointState, error: Array, measure: Array) -> Sliding:
     """error: estimated (exact - computed) velocity of the points, (components, points)."""
-    velocity, load = friction.velocity(state)[:2], state.step.pressed
+    velocity, load = friction.slip(state), state.step.pressed
     speed, law = norm(velocity), friction.law
     total = load.sum()
     share = load[speed < law.width].sum() / total if total > 0 else 0.0
@@ -45,7 +45,8 @@ def sliding(friction: Friction, state: PointState, error: Array, measure: Array)
     pairs = tangent[[0, 1, 3]] if state.components == 3 else tangent
     # Of a velocity error the mean over the sheet is seen directly, and the rest through friction.
     step = rigid(pairs, error[:2]) + error[:2] @ measure / measure.sum()
-    return Sliding(float(speed.max()), float(share), step, _slip_change(law, velocity, load))
+    slip = turned(_slip_change(law, velocity, load), state.step.heading)
+    return Sliding(float(speed.max()), float(share), step, slip)
 
 
 def rigid(tangent: Array, change: Array) -> Array:
@@ -53,6 +54,12 @@ def rigid(tangent: Array, change: Array) -> Array:
     xx, xy, yy = tangent
     force = np.array([xx @ change[0] + xy @ change[1], xy @ change[0] + yy @ change[1]])
     return -_solve(tangent, force)
+
+
+def turned(vector: Array, angle: float) -> Array:
+    """A vector (2, ...) turned anticlockwise."""
+    cosine, sine, (x, y) = np.cos(angle), np.sin(angle), vector
+    return np.stack([cosine * x - sine * y, sine * x + cosine * y])
 
 
 def _solve(tangent: Array, force: Array) -> Array:

@@ -81,7 +81,7 @@ def first_acceleration(stepper: Stepper, state: Array, velocity: Array) -> Array
     # Any rate works: v = rate (x - base) with the base that gives the velocity at this x.
     moving = stepper.at_points(Affine(1.0, state - velocity))
     at_rest = stepper.at_points(Affine(1.0, state))
-    step = stepper.held(Step(moving, at_rest), state, rest)
+    step = stepper.held(Step(moving, at_rest), state, rest, 0.0)
     model = stepper.model
     force = -model.potential(rest, step).gradient(state)
     inertia = tuple(effect for effect in model.effects if effect.areal_mass)

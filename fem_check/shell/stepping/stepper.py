@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from fem_check.shell.abilities import STEPPED
 from fem_check.shell.effects.effect import Effect
 from fem_check.shell.effects.restraint import Restraint
+from fem_check.shell.kinematics.heading import heading
 from fem_check.shell.kinematics.point_state import PointState
 from fem_check.shell.kinematics.rates import Affine, Step
 from fem_check.shell.kinematics.rest_state import RestState
@@ -27,6 +28,7 @@ from fem_check.shell.statics.ramp import follow_mode
 from fem_check.shell.stepping.lagged import Mixing, change
 from fem_check.shell.stepping.schemes import History
 from linear_theory.friction.load import Load
+from linear_theory.friction.maps import FixedTo, FrictionMap
 
 Array = NDArray[np.float64]
 
@@ -105,7 +107,12 @@ class Stepper:
     @property
     def shape_changes_load(self) -> bool:
         """Whether load, area or normals depend on the position of the sheet."""
-        return self.holds_area or (self.bearer is not None and self.bearer.load_follows_shape)
+        return self.holds_area or self._load_follows_shape
+
+    @property
+    def _load_follows_shape(self) -> bool:
+        on_ground = self.map is not None and self.map.fixed_to is FixedTo.GROUND
+        return self.bearer is not None and (self.bearer.load_follows_shape or on_ground)
 
     def amplitude(self, t: float) -> float:
         """Fraction of the growth at time t, a ramp with two continuous derivatives."""
@@ -137,11 +144,11 @@ class Stepper:
             effects = (*effects, Restraint(restraint))
             moving = replace(moving, anchor=self.region.position(history.state, (0,))[0])
         guess = history.state if restraint > 0 else self._start(history, dt)
-        step, count, mixing = self.held(moving, guess, rest), 0, Mixing()
+        step, count, mixing = self.held(moving, guess, rest, t), 0, Mixing()
         for repeat in range(1, MOST_REPEATS + 1):
             result = self._minimum(self.model.potential(rest, step, effects), guess)
             count, guess = count + result.iterations, result.state
-            after = self.held(moving, guess, rest)
+            after = self.held(moving, guess, rest, t)
             moved = change(step, after) if self.shape_changes_load else 0.0
             if moved <= LOAD_TOLERANCE:
                 buckled = self.minimiser.shifts > shifts
@@ -169,15 +176,38 @@ class Stepper:
         base = self.region.displacement(rule.base, (0,))[0]
         return Affine(rule.rate, base + self.region.reference[0])
 
-    def held(self, moving: Step, u: Array, rest: RestState) -> Step:
-        """Quantities held fixed in a step, for the sheet at u: rules with area, load and normals."""
+    def held(self, moving: Step, u: Array, rest: RestState, t: float) -> Step:
+        """Quantities held fixed in a step to time t, for the sheet at u: rules, area, load, normals.
+
+        The load is that of friction: with the map of its coefficient, if it has one.
+        """
         area = self.area(u) if self.holds_area else None
         step = replace(moving, area=area)
         if self.bearer is None:
             return step
         state = PointState(self.region, u, (0,), rest, step)
         load, normal = self.bearer.normal_load(state), self.bearer.ground_normal(state)
-        return replace(step, load=load, normal=normal)
+        if self.map is not None:
+            load = load * self.map_at(state, t)
+        return replace(step, load=load, normal=normal, heading=self.heading(u))
+
+    @property
+    def map(self) -> FrictionMap | None:
+        """Of the coefficient of friction, if it differs from place to place."""
+        return next((effect.law.map for effect in self.model.effects if effect.law), None)
+
+    def map_at(self, state: PointState, t: float) -> Array:
+        """Values of the map at the points, (points,)."""
+        assert self.map is not None
+        on_body = self.map.fixed_to is FixedTo.BODY
+        x, y = self.region.reference[0, :2] if on_body else state.position[:2]
+        return self.map.values(x, y, t)
+
+    def heading(self, u: Array) -> float:
+        """Of the sheet as a whole, if the axes of friction turn with it; else 0."""
+        if not any(effect.law.follows_body for effect in self.model.effects if effect.law):
+            return 0.0
+        return heading(self.model.discretisation, u)
 
     def area(self, u: Array) -> Array:
         """Quadrature weight times current area, (points,)."""

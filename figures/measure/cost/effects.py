@@ -194,7 +194,8 @@ class Named:
         history = first_history(stepper, dt, None)
         velocity, acceleration = history.rules(dt)
         moving = Step(stepper.at_points(velocity), acceleration and stepper.at_points(acceleration))
-        return model.potential(rest, stepper.held(moving, history.state, rest)), history.state
+        step = stepper.held(moving, history.state, rest, history.time)
+        return model.potential(rest, step), history.state
 
     def run(self) -> tuple[int, int]:
         """Make the steps; their number and that of their iterations."""

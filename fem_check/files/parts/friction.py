@@ -1,0 +1,80 @@
+"""The law of friction of a scene file: its form, its direction and its map, to and fro."""
+
+from typing import Any
+
+from fem_check.files.system import System
+from fem_check.files.tables import FrictionMapTable, FrictionTable
+from linear_theory.common import validation
+from linear_theory.friction.directional import Directional
+from linear_theory.friction.isotropic import Isotropic
+from linear_theory.friction.law import FrictionLaw
+from linear_theory.friction.laws import FRICTION_LAWS, Coulomb, Tanh, Viscous
+from linear_theory.friction.maps import Mapped, Patches
+
+LAWS = {Coulomb.name: "dry", Tanh.name: "tanh", Viscous.name: "viscous"}
+"""What a file calls the laws of friction."""
+
+TANH = LAWS[Tanh.name]
+
+
+def law_of(table: FrictionTable, system: System) -> FrictionLaw:
+    """The law. Raises ValueError, naming the key, for keys that do not go together."""
+    law = _directed(table, system, _form(table, system))
+    return law if table.map is None else Mapped(law, _patches(table.map, system))
+
+
+def _form(table: FrictionTable, system: System) -> Isotropic:
+    name = table.law or (LAWS[Coulomb.name] if table.slip_speed is None else TANH)
+    if (table.slip_speed is None) == (name == TANH):
+        must = "given for" if table.slip_speed is None else "left out but for"
+        raise ValueError(f"slip_speed: must be {must} law = {TANH!r}")
+    if table.slip_speed is not None:
+        return Tanh(system.number(table.slip_speed))
+    return Coulomb() if name == LAWS[Coulomb.name] else Viscous()
+
+
+def _directed(table: FrictionTable, system: System, form: Isotropic) -> FrictionLaw:
+    forward, backward = table.forward, table.backward
+    if forward is None or backward is None:
+        for name in ("forward", "backward", "sideways", "heading", "fixed_to"):
+            if name in table.model_fields_set:
+                lacking = "forward" if forward is None else "backward"
+                raise ValueError(f"{lacking}: must be given beside {name}")
+        return form
+    heading = 0.0 if table.heading is None else system.number(table.heading)
+    return Directional(forward, backward, table.sideways, heading, table.fixed_to, form)  # type: ignore[arg-type]
+
+
+def _patches(table: FrictionMapTable, system: System) -> Patches:
+    if not len(table.x) == len(table.y) == len(table.mu):
+        counts = f"{len(table.x)}, {len(table.y)} and {len(table.mu)}"
+        raise ValueError(f"map: x, y and mu must have one entry for each patch, and have {counts}")
+    rows = zip(table.x, table.y, table.mu, strict=True)
+    patches = [[*map(system.number, x), *map(system.number, y), mu] for x, y, mu in rows]
+    return Patches(patches, system.number(table.edge), table.outside, table.fixed_to)
+
+
+def entries_of(law: FrictionLaw) -> dict[str, Any]:
+    """What a file says of a law.
+
+    Raises ValueError for a law of one's own, and for a map that is a function.
+    """
+    if type(law) is Mapped:
+        return {**entries_of(law.law), "map": _map_entries(law.map)}
+    if type(law) is Directional:
+        names = ("forward", "backward", "sideways", "heading")
+        own = {name: getattr(law, name) for name in names}
+        return {**entries_of(law.form), **own, "fixed_to": str(law.fixed_to)}
+    if type(law) not in FRICTION_LAWS.values():
+        raise ValueError(f"friction = {validation.shown(law)}: has no name in a scene file")
+    entries = {"law": LAWS[law.name]}
+    return {**entries, "slip_speed": law.width} if law.regularised else entries
+
+
+def _map_entries(found: Any) -> dict[str, Any]:
+    if type(found) is not Patches:
+        shown = validation.shown(found)
+        raise ValueError(f"map = {shown}: a scene file holds no functions, must be Patches")
+    x, y = ([list(patch[i : i + 2]) for patch in found.patches] for i in (0, 2))
+    sizes = {"edge": found.edge, "outside": found.outside, "fixed_to": str(found.fixed_to)}
+    return {"x": x, "y": y, "mu": [patch[4] for patch in found.patches], **sizes}

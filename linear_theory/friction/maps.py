@@ -1,0 +1,294 @@
+"""Friction that differs from place to place: maps of mu on the body or on the ground.
+
+A map multiplies the coefficient of a law, and hence its potential, at each point: at the material point
+(x, y) of the undeformed sheet for a map fixed to the body, at the place on the ground for one fixed to
+that. "Static" maps stay as they are; "kinetic" ones, on the body, also change with the wave, as feet
+that grip in turn do.
+"""
+
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from enum import StrEnum
+from typing import Any, ClassVar
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from linear_theory.common import validation
+from linear_theory.common.shown import Value
+from linear_theory.friction.law import ALL, FrictionLaw, Response
+
+Array = NDArray[np.float64]
+
+REPEATS = 1e-9
+"""Relative difference up to which a kinetic map is the same after a period."""
+
+
+class FixedTo(StrEnum):
+    """What the axes of a law, or a map of friction, move with."""
+
+    BODY = "body"
+    GROUND = "ground"
+
+    @classmethod
+    def named(cls, value: object) -> "FixedTo":
+        """That of a name. Raises ValueError for another one."""
+        return cls(validation.choice("fixed_to", value, tuple(cls)))
+
+
+class FrictionMap(Value, ABC):
+    """mu(x, y), or mu(x, y, t), over the mu of a law.
+
+    fixed_to: what x and y belong to. kinetic: whether it depends on t, with the period of the wave.
+    mirrored: whether mu(-x, y) = mu(x, y), which is not assumed otherwise.
+    """
+
+    fixed_to: FixedTo
+    kinetic: bool = False
+    mirrored: bool = False
+
+    @abstractmethod
+    def mu(self, x: Array, y: Array, t: ArrayLike) -> Array:
+        """Its values, unchecked."""
+
+    def values(self, x: ArrayLike, y: ArrayLike, t: ArrayLike = 0.0) -> Array:
+        """At points and times that broadcast.
+
+        Raises ValueError, naming the place, unless all are > 0.
+        """
+        x, y = np.asarray(x, float), np.asarray(y, float)
+        found = validation.real_array("map", self.mu(x, y, t))
+        found = np.broadcast_to(found, np.broadcast_shapes(found.shape, x.shape, y.shape))
+        if found.size and found.min() <= 0:
+            worst = np.unravel_index(found.argmin(), found.shape)
+            at_x, at_y = (np.broadcast_to(p, found.shape)[worst] for p in (x, y))
+            raise ValueError(
+                f"map = {validation.shown(self)}: mu = {found[worst]:.4g} at x = {at_x:.4g}, y = "
+                f"{at_y:.4g}; must be > 0 everywhere"
+            )
+        return found
+
+    def check_period(self, period: float, x: Array, y: Array) -> None:
+        """Raise ValueError for a kinetic map that is not the same one period of the wave later."""
+        if not self.kinetic:
+            return
+        for t in (0.13 * period, 0.61 * period):
+            now, later = self.values(x, y, t), self.values(x, y, t + period)
+            if abs(later - now).max() > REPEATS * now.max():
+                raise ValueError(
+                    f"map = {validation.shown(self)}: must be the same after the period of the wave, "
+                    f"{period:g}, and differs by {abs(later - now).max():.2g} at t = {t:.3g}"
+                )
+
+
+@dataclass(frozen=True)
+class Patches(FrictionMap):
+    """Rectangular patches with soft edges.
+
+    patches: of (x_min, x_max, y_min, y_max, mu) each, lengths; later ones lie over earlier ones.
+    outside: mu elsewhere. edge: length over which mu changes, > 0. fixed_to: "body" or "ground".
+    Raises ValueError for a patch without area and for a mu or an edge that is not positive.
+
+    >>> from linear_theory import Coulomb, Mapped, Patches, Sheet, SineWave, crawl_speed
+    >>> rear = Patches([(-1, 1, -1, -0.25, 3.0)], edge=0.02)
+    >>> found = crawl_speed(Sheet(), SineWave(), 0.1, friction=Mapped(Coulomb(), rear), rtol=1e-2)
+    >>> print(f"V = {found.mean:.3f} L/T")
+    V = 0.013 L/T
+    """
+
+    patches: tuple[tuple[float, ...], ...]
+    edge: float
+    outside: float = 1.0
+    fixed_to: FixedTo = FixedTo.BODY
+
+    def __init__(
+        self,
+        patches: Sequence[Sequence[float]],
+        edge: float,
+        outside: float = 1.0,
+        fixed_to: FixedTo | str = FixedTo.BODY,
+    ) -> None:
+        checked = tuple(_patch(i, patch) for i, patch in enumerate(patches))
+        object.__setattr__(self, "patches", checked)
+        for name, value in {"edge": edge, "outside": outside}.items():
+            object.__setattr__(self, name, validation.positive(name, value))
+        object.__setattr__(self, "fixed_to", FixedTo.named(fixed_to))
+
+    @property
+    def mirrored(self) -> bool:  # type: ignore[override]
+        """Whether each patch is its own mirror image."""
+        return all(patch[0] == -patch[1] for patch in self.patches)
+
+    def mu(self, x: Array, y: Array, t: ArrayLike) -> Array:
+        """See FrictionMap."""
+        found = np.full(np.broadcast_shapes(x.shape, y.shape), self.outside)
+        for x_min, x_max, y_min, y_max, mu in self.patches:
+            inside = self._between(x, x_min, x_max) * self._between(y, y_min, y_max)
+            found = found + (mu - found) * inside
+        return found
+
+    def _between(self, place: Array, low: float, high: float) -> Array:
+        """1 inside, 0 outside."""
+        first, last = (np.tanh(2 * (place - end) / self.edge) for end in (low, high))
+        return np.asarray((first - last) / 2)
+
+
+@dataclass(frozen=True)
+class GivenMap(FrictionMap):
+    """Any function mu(x, y), or mu(x, y, t) if it is kinetic, of arrays that broadcast.
+
+    fixed_to: "body" or "ground", the latter for maps that are not kinetic. mirrored: whether mu(-x, y)
+    = mu(x, y), which halves the work for symmetric waves. A kinetic map has the period of the wave.
+    Raises ValueError for no function; and where it is used, with the place, unless mu > 0.
+
+    >>> import numpy as np
+    >>> from linear_theory import GivenMap
+    >>> feet = GivenMap(lambda x, y, t: 1 + 0.5 * np.sin(2 * np.pi * (y - t)), kinetic=True)
+    >>> print(feet.values(0.0, [0.0, 0.25], 0.0))
+    [1.  1.5]
+    """
+
+    function: Callable[..., Any]
+    fixed_to: FixedTo = FixedTo.BODY
+    kinetic: bool = False
+    mirrored: bool = False
+
+    def __post_init__(self) -> None:
+        if not callable(self.function):
+            raise ValueError(f"function = {validation.shown(self.function)}: must be mu(x, y)")
+        object.__setattr__(self, "fixed_to", FixedTo.named(self.fixed_to))
+        if self.kinetic and self.fixed_to is FixedTo.GROUND:
+            raise ValueError("kinetic = True: must be False for a map that is fixed to the ground")
+
+    def mu(self, x: Array, y: Array, t: ArrayLike) -> Array:
+        """See FrictionMap."""
+        return np.asarray(self.function(x, y, t) if self.kinetic else self.function(x, y))
+
+
+def _patch(number: int, patch: Sequence[float]) -> tuple[float, ...]:
+    name = f"patches[{number}]"
+    found = validation.real_array(name, np.asarray(patch))
+    if found.shape != (5,):
+        raise ValueError(f"{name} = {validation.shown(patch)}: must be x_min, x_max, y_min, y_max, mu")
+    if not (found[0] < found[1] and found[2] < found[3]):
+        raise ValueError(f"{name} = {validation.shown(patch)}: must have x_min < x_max, y_min < y_max")
+    if not found[4] > 0:
+        raise ValueError(f"{name} = {validation.shown(patch)}: mu must be > 0")
+    return tuple(found.tolist())
+
+
+@dataclass(frozen=True)
+class Mapped(FrictionLaw):
+    """A law whose coefficient differs from place to place by a map.
+
+    law: any law but a mapped one; map: `Patches` or a `GivenMap`. Raises ValueError for anything else.
+    Its methods are those of the law, where the map is 1.
+
+    >>> from linear_theory import Coulomb, Directional, Mapped, Patches
+    >>> rear = Patches([(-0.3, 0.3, -0.5, 0.0, 2.0)], edge=0.02)
+    >>> print(Mapped(Directional(0.5, 1.5, form=Coulomb()), rear).words)
+    dry friction times 0.5 forward, 1.5 backward, 1 sideways, fixed to the body times a map on the body
+    """
+
+    law: FrictionLaw
+    map: FrictionMap  # type: ignore[misc]  # None of laws without one, in their class
+    name: ClassVar[str] = "mapped"
+
+    def __post_init__(self) -> None:
+        validation.instance("law", self.law, FrictionLaw)  # type: ignore[type-abstract]
+        validation.instance("map", self.map, FrictionMap)  # type: ignore[type-abstract]
+        if self.law.map is not None:
+            raise ValueError(f"law = {validation.shown(self.law)}: must be a law without a map")
+
+    @property
+    def even(self) -> bool:
+        """See FrictionLaw; of the law at a point."""
+        return self.law.even
+
+    @property
+    def mirrored(self) -> bool:
+        """See FrictionLaw; law and map."""
+        return self.law.mirrored and self.map.mirrored
+
+    @property
+    def reversible(self) -> bool:
+        """See FrictionLaw; not if the map is kinetic, as the other half of the period has another."""
+        return self.law.reversible and not self.map.kinetic
+
+    @property
+    def crease(self) -> tuple[float, float] | None:
+        """See FrictionLaw."""
+        return self.law.crease
+
+    @property
+    def follows_body(self) -> bool:
+        """See FrictionLaw."""
+        return self.law.follows_body
+
+    @property
+    def follows_ground(self) -> bool:
+        """See FrictionLaw."""
+        return self.law.follows_ground
+
+    @property
+    def width(self) -> float:
+        """See FrictionLaw."""
+        return self.law.width
+
+    @property
+    def limits(self) -> tuple[float, float]:
+        """See FrictionLaw; where the map is 1."""
+        return self.law.limits
+
+    @property
+    def words(self) -> str:
+        """See FrictionLaw."""
+        return f"{self.law.words} times a map on the {self.map.fixed_to}"
+
+    @property
+    def details(self) -> str:
+        """See FrictionLaw."""
+        return ", ".join(filter(None, [self.law.details, f"with a map on the {self.map.fixed_to}"]))
+
+    @property
+    def formula(self) -> str:
+        """See FrictionLaw."""
+        return self.law.formula
+
+    @property
+    def opposite(self) -> "Mapped":
+        """See FrictionLaw."""
+        return Mapped(self.law.opposite, self.map)
+
+    def scaled(self, factor: float) -> "Mapped":
+        """See FrictionLaw."""
+        return Mapped(self.law.scaled(factor), self.map)
+
+    def potential(self, v: Array) -> Array:
+        """See FrictionLaw; where the map is 1."""
+        return self.law.potential(v)
+
+    def force(self, v: Array) -> Array:
+        """See FrictionLaw; where the map is 1."""
+        return self.law.force(v)
+
+    def tangent(self, v: Array) -> Array:
+        """See FrictionLaw; where the map is 1."""
+        return self.law.tangent(v)
+
+    def force_difference(self, v: Array, change: Array, step: float) -> Array:
+        """See FrictionLaw; where the map is 1."""
+        return self.law.force_difference(v, change, step)
+
+    def creep(self, force: float) -> float:
+        """See FrictionLaw; where the map is 1."""
+        return self.law.creep(force)
+
+    def speed_at(self, share: float) -> float:
+        """See FrictionLaw; where the map is 1."""
+        return self.law.speed_at(share)
+
+    def at(self, v: Array, kept: slice = ALL) -> Response:
+        """See FrictionLaw; where the map is 1."""
+        return self.law.at(v, kept)

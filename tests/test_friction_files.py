@@ -1,0 +1,128 @@
+"""Friction with a direction and its maps: scene files, plain data, options, figure."""
+
+import math
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from fem_check import Friction, Gravity, Material, Membrane, Scene
+from fem_check.command.options import Options
+from fem_check.command.quantities import asked
+from fem_check.files import read
+from figures.draw import directional as figure
+from figures.measure import directional as table
+from linear_theory import (
+    Contact,
+    Coulomb,
+    Directional,
+    FrictionLaw,
+    GivenMap,
+    Mapped,
+    Patches,
+    Sheet,
+    SineWave,
+    Tanh,
+    Viscous,
+    line_balance,
+)
+
+PATCHES = Patches([(-1, 1, -1, -0.25, 3.0), (-0.1, 0.1, 0, 0.2, 0.5)], 0.1, 0.8, fixed_to="ground")
+LAWS: dict[str, FrictionLaw] = {
+    "direction": Directional(0.5, 1.5, form=Tanh(1e-3)),
+    "all": Mapped(Directional(0.5, 1.5, 2, 0.3, "ground", Tanh(1e-3)), PATCHES),  # type: ignore[arg-type]
+    "map": Mapped(Tanh(0.01), Patches([(0, 1, 0, 1, 2.0)], 0.1)),
+}
+
+
+@pytest.mark.parametrize("name", LAWS)
+def test_scenes_come_back(name: str, tmp_path: Path) -> None:
+    """From files and from data, with the effect or with the contact alone."""
+    effects = [Membrane(Material(0.03, 0.5)), Gravity(3e-6), Friction(1.0, law=LAWS[name])]
+    for scene in (
+        Scene(Sheet(), SineWave(), 0.1, effects=effects),
+        Scene(Sheet(), SineWave(), 0.1, contact=Contact(friction=LAWS[name])),
+    ):
+        assert Scene.from_toml(scene.to_toml(tmp_path / "scene.toml")) == scene
+        assert Scene.from_dict(scene.to_dict()) == scene
+        other = scene.but(alpha=0.2)
+        assert other.contact.friction == LAWS[name]
+
+
+def test_laws_that_no_file_holds(tmp_path: Path) -> None:
+    law = Mapped(Coulomb(), GivenMap(lambda x, y: 1 + 0 * x * y))
+    scene = Scene(Sheet(), SineWave(), 0.1, contact=Contact(friction=law))
+    with pytest.raises(ValueError, match="a scene file holds no functions, must be Patches"):
+        scene.to_toml(tmp_path / "scene.toml")
+
+
+FILE = """
+[sheet]
+length = "40 mm"
+[wave]
+period = "8 s"
+[growth]
+swelling = "12 %"
+[friction]
+"""
+
+
+def law_of(text: str, tmp_path: Path) -> Any:
+    path = tmp_path / "scene.toml"
+    path.write_text(FILE + text)
+    return read(path).scene.contact.friction
+
+
+def test_units_of_a_file(tmp_path: Path) -> None:
+    found = law_of(
+        'forward = 0.5\nbackward = 1.5\nheading = "90 deg"\nlaw = "viscous"\n'
+        '[friction.map]\nx = [["-1 cm", "10 mm"]]\ny = [["0 mm", "2 cm"]]\nmu = [3.0]\nedge = "2 mm"',
+        tmp_path,
+    )
+    assert found.law == Directional(0.5, 1.5, 1.0, heading=math.pi / 2, form=Viscous())
+    assert found.map.patches[0] == pytest.approx((-10, 10, 0, 20, 3))
+    assert found.map.edge == pytest.approx(2.0)
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("forward = 0.5", "backward: must be given beside forward"),
+        ("sideways = 0.5", "forward: must be given beside sideways"),
+        ("forward = 0.5\nbackward = -1.0", "backward"),
+        ('forward = 0.5\nbackward = 1.0\nfixed_to = "sky"', "fixed_to"),
+        (
+            '[friction.map]\nx = [["0 mm", "1 mm"]]\ny = [["0 mm", "1 mm"]]\nmu = [1.0, 2.0]\n'
+            'edge = "1 mm"',
+            "must have one entry for each patch",
+        ),
+        (
+            '[friction.map]\nx = [["2 mm", "1 mm"]]\ny = [["0 mm", "1 mm"]]\nmu = [1.0]\nedge = "1 mm"',
+            "x_min < x_max",
+        ),
+    ],
+)
+def test_mistakes_in_files(text: str, words: str, tmp_path: Path) -> None:
+    with pytest.raises(ValueError, match=words):
+        law_of(text, tmp_path)
+
+
+def test_options_of_the_command() -> None:
+    question = asked(Options(alpha=0.1, forward=0.5, backward=1.5, sideways=0.7))
+    assert question.scene.contact.friction == Directional(0.5, 1.5, 0.7)
+    with pytest.raises(ValueError, match="--backward: must be given"):
+        asked(Options(alpha=0.1, forward=0.5))
+
+
+def test_figure_agrees_with_formulas_and_its_table_with_the_code() -> None:
+    rows = table.TABLE.read()
+    r, speed = figure.select(rows, "line", "breathing")
+    for one, found in zip(r, speed, strict=True):  # r Delta, by exp(alpha c)
+        assert found == pytest.approx(2 * one * math.sinh(0.1) / 0.1, abs=4e-3)
+    _, nonlinear = figure.select(rows, "nonlinear", "breathing")
+    assert nonlinear == pytest.approx(speed[::4], abs=5e-3)
+    border = figure.equal_at(0.1, 1)
+    wave = line_balance(SineWave(), 0.1, friction=table.law(border))
+    assert wave.mean == pytest.approx(2 * border * 0.1)
+    assert border == pytest.approx(0.19, abs=0.005)  # as the page says
+    assert figure.numbers_shown(rows)["alpha"] == 0.1
