@@ -8,7 +8,7 @@ from fem_check.shell.effects.gravity import Gravity
 from fem_check.shell.effects.ground import Ground
 from fem_check.shell.effects.inertia import Inertia
 from fem_check.shell.effects.koiter import Bending
-from linear_theory.scene.level import THEORY, Level
+from linear_theory.scene.level import PLATE, THEORY, Level
 from linear_theory.scene.scene import Scene
 
 
@@ -37,7 +37,7 @@ CYCLE = Level("cycle_speed(scene)", _of_a_cycle)
 
 STEPPED = Level("simulate(scene)", _of_a_step, (_moves_in_time, _rests_otherwise))
 
-LEVELS = (THEORY, CYCLE, STEPPED)
+LEVELS = (THEORY, PLATE, CYCLE, STEPPED)
 
 WORDS: Mapping[type, str] = {
     Bending: "bending and buckling (hence the thickness)",

@@ -9,10 +9,6 @@ from linear_theory.common import validation
 from linear_theory.common.shown import Value
 from linear_theory.friction.load import Load
 
-NEEDED = {"rigidity": "Bending", "weight": "Gravity", "stiffness": "Ground"}
-"""Numbers that effects give by `plate_numbers`, and the effect that has them."""
-
-
 @dataclass(frozen=True)
 class Foundation(Value):
     """A plate that rests on a ground with pressure stiffness * depth^2 (eq. 2).
@@ -33,7 +29,7 @@ class Foundation(Value):
     load: Load = Load.GROWN
 
     def __post_init__(self) -> None:
-        for name in NEEDED:
+        for name in ("rigidity", "weight", "stiffness"):
             object.__setattr__(self, name, validation.positive(name, getattr(self, name)))
         object.__setattr__(self, "load", Load.named(self.load))
 
@@ -54,13 +50,8 @@ class Foundation(Value):
 
 
 def foundation(effects: Iterable[Any]) -> Foundation:
-    """That of the effects of a scene. Raises ValueError, naming the effects that it lacks."""
+    """That of the effects of a scene that the level PLATE accepts, from their `plate_numbers`."""
     found: dict[str, Any] = {}
     for effect in effects:
         found |= getattr(effect, "plate_numbers", {})
-    missing = [effect for name, effect in NEEDED.items() if name not in found]
-    if missing:
-        raise ValueError(
-            f"effects: must name {' and '.join(missing)}, else there is no plate on a ground"
-        )
     return Foundation(**found)
