@@ -171,8 +171,17 @@ def row(name: str, wave: str, law: str) -> Row:
         for way in (by_cycle, by_steps)
     )
     seconds = time.process_time() - begin - theory_seconds
-    numbers = [float(n) for n in (*(e.value for e in theory), *(e.error for e in theory))]
-    return Row(name, wave, law, beta, *numbers, *map(float, (*cycle, *stepper)), theory_seconds, seconds)
+    numbers = {
+        f"{kind}_{part}": float(value)
+        for kind, values in {
+            "theory": [e.value for e in theory],
+            "error": [e.error for e in theory],
+            "cycle": list(cycle),
+            "stepper": list(stepper),
+        }.items()
+        for part, value in zip(("aa", "ab", "bb"), values, strict=True)
+    }
+    return Row(name, wave, law, beta, **numbers, theory_seconds=theory_seconds, seconds=seconds)
 
 
 def main(arguments: Sequence[str] | None = None) -> None:

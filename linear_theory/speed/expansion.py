@@ -97,5 +97,3 @@ def second_field_error(field: SecondOrderField, fastest: float) -> float:
     0.1 L to 2 L, one and two waves, all loads); most are below 0.1.
     """
     return SECOND_SHARE * (field.error * fastest + field.second_error * field.second_speed)
-
-

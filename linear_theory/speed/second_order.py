@@ -45,7 +45,13 @@ from linear_theory.motion.rigid import RigidNorm
 from linear_theory.scene.level import PLATE, THEORY
 from linear_theory.scene.scene import Scene
 from linear_theory.sheet.rectangle import Sheet
-from linear_theory.speed.expansion import POINTS, TINY_ALPHA, field_errors, field_tolerance, leading_period
+from linear_theory.speed.expansion import (
+    POINTS,
+    TINY_ALPHA,
+    field_errors,
+    field_tolerance,
+    leading_period,
+)
 from linear_theory.speed.plate import WORDS, mixed_coefficients, plate_speed
 from linear_theory.speed.plate_terms import PlateTerms
 from linear_theory.speed.quadratic_form import NOTHING, QuadraticForm

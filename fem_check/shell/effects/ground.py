@@ -173,7 +173,9 @@ class Ground(Value, Effect):
         """Uneven or damped ground, or one with pressure per another area than that of the weight."""
         gravity = scene.find(Gravity)
         other = gravity is not None and gravity.load is not self.load
-        return self._beyond({f"load = '{self.load}', Gravity has '{gravity.load}'": True} if other else {})
+        return self._beyond(
+            {f"load = '{self.load}', Gravity has '{gravity.load}'": True} if other else {}
+        )
 
     @property
     def plate_numbers(self) -> Mapping[str, float | Load]:

@@ -9,6 +9,7 @@ from linear_theory.common import validation
 from linear_theory.common.shown import Value
 from linear_theory.friction.load import Load
 
+
 @dataclass(frozen=True)
 class Foundation(Value):
     """A plate that rests on a ground with pressure stiffness * depth^2 (eq. 2).

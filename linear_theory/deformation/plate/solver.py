@@ -86,7 +86,9 @@ class PlateSolver(Shown):
         mixed = np.kron(x.mixed, y.mixed.T)
         bent = np.kron(x.curvatures, y.values) * (half_y / half_x**3)
         bent += np.kron(x.values, y.curvatures) * (half_x / half_y**3)
-        bent += (nu * (mixed + mixed.T) + 2 * (1 - nu) * np.kron(x.slopes, y.slopes)) / (half_x * half_y)
+        bent += (nu * (mixed + mixed.T) + 2 * (1 - nu) * np.kron(x.slopes, y.slopes)) / (
+            half_x * half_y
+        )
         pressed = np.kron(x.values, y.values) * (half_x * half_y)
         return np.asarray(self.foundation.rigidity * bent + self.foundation.spring * pressed)
 

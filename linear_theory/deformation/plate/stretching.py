@@ -80,9 +80,7 @@ class BendingSource:
         strain = np.stack([slope[0] ** 2, slope[1] ** 2, slope[0] * slope[1]]) / 2
         stress = -hooke.stress(strain, np.zeros_like(c), nu)
         trace = nu * (bent[0] + bent[1])
-        moment = np.stack(
-            [(1 - nu) * bent[0] + trace, (1 - nu) * bent[1] + trace, (1 - nu) * bent[2]]
-        )
+        moment = np.stack([(1 - nu) * bent[0] + trace, (1 - nu) * bent[1] + trace, (1 - nu) * bent[2]])
         return self._against_first(grid, stress) + self._against_second(grid, moment, slope)
 
     def _against_first(self, grid: GaussGrid, stress: Array) -> Array:
