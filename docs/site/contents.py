@@ -51,6 +51,7 @@ HOWTO = {
 REFERENCE = {
     "conventions": "Conventions",
     "equations": "Equations of the paper",
+    "saddle": "V in growth and curvature",
     "hard_cases": "Hard cases",
     "gaits": "The paper's gaits",
     "sweeps": "Sweeps: kills and overhead",

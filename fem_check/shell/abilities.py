@@ -8,7 +8,7 @@ from fem_check.shell.effects.gravity import Gravity
 from fem_check.shell.effects.ground import Ground
 from fem_check.shell.effects.inertia import Inertia
 from fem_check.shell.effects.koiter import Bending
-from linear_theory.scene.level import THEORY, Level, acted_on, map_on_ground, turns_on_ground
+from linear_theory.scene.level import PLATE, THEORY, Level, acted_on, map_on_ground, turns_on_ground
 from linear_theory.scene.scene import Scene
 
 
@@ -44,7 +44,7 @@ CYCLE = Level(
 
 STEPPED = Level("simulate(scene)", _of_a_step, (_moves_in_time, _rests_otherwise))
 
-LEVELS = (THEORY, CYCLE, STEPPED)
+LEVELS = (THEORY, PLATE, CYCLE, STEPPED)
 
 WORDS: Mapping[type, str] = {
     Bending: "bending and buckling (hence the thickness)",

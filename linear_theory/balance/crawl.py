@@ -196,9 +196,13 @@ class Crawl:
         grid = CellGrid.graded(field.sheet, along, r.density, self.mirrored, across)
         return field.motion(times, grid, r.order)
 
+    def _rate(self, times: Array, motion: Motion) -> Array:
+        """e of the load 1 + alpha e, (times, cells, n, n)."""
+        return self.contact.load.rate(motion.dilation, motion.growth)
+
     def _balance(self, times: Array) -> Balance:
         motion, r = self._motion(times), self.resolution
-        rate = self.contact.load.rate(motion.dilation, motion.growth)
+        rate = self._rate(times, motion)
         check_load(motion, rate, self.alpha)
         law, rest = self.contact.friction.per(self.alpha), motion.whole_area
         if law.map is not None:

@@ -13,6 +13,9 @@ from linear_theory.common.shown import Shown
 from linear_theory.friction.maps import FixedTo
 from linear_theory.scene.scene import Scene
 
+PLATE_NUMBERS = {"rigidity": "Bending", "weight": "Gravity", "stiffness": "Ground"}
+"""Numbers of a plate on its ground, and the effects that give them (`plate_numbers`)."""
+
 LEVELS = "fem_check.shell.abilities"
 """The module that lists all levels, imported by name if one of them refuses a scene."""
 
@@ -82,3 +85,24 @@ THEORY = Level(
     (_sloping, _cut, acted_on, turns_on_ground, map_on_ground),
 )
 """The theories of a flat rectangle that is not deformed by friction."""
+
+
+def _on_plate(effect: Any, scene: Scene) -> str:
+    judge = getattr(effect, "beyond_plate", effect.beyond_theory)
+    return str(judge(scene))
+
+
+def _groundless(scene: Scene) -> str:
+    known: set[str] = set()
+    for effect in scene.effects:
+        known |= set(getattr(effect, "plate_numbers", {}))
+    missing = [effect for name, effect in PLATE_NUMBERS.items() if name not in known]
+    return f"a sheet without {' and '.join(missing)}" if missing and not scene.planar else ""
+
+
+PLATE = Level(
+    "crawl_speed(scene, order=2)",
+    _on_plate,
+    (_sloping, _cut, acted_on, turns_on_ground, map_on_ground, _groundless),
+)
+"""The theory of a plate in full contact with its ground, to second order in alpha and beta."""

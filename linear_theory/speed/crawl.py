@@ -16,6 +16,7 @@ from linear_theory.common.threads import one_blas_thread
 from linear_theory.common.tolerance import Tolerance
 from linear_theory.deformation.airy import airy_series
 from linear_theory.deformation.field import LinearField, checked_field
+from linear_theory.deformation.plate import foundation
 from linear_theory.deformation.ritz import ritz_field
 from linear_theory.energy.energy import Energy
 from linear_theory.friction.contact import Contact
@@ -25,7 +26,7 @@ from linear_theory.friction.regime import warn_if_viscous
 from linear_theory.growth.growth import Reference
 from linear_theory.growth.laws import GrowthLaw
 from linear_theory.motion.motion import CellGrid
-from linear_theory.scene.level import THEORY
+from linear_theory.scene.level import PLATE, THEORY
 from linear_theory.scene.scene import Scene
 from linear_theory.sheet.rectangle import Sheet
 from linear_theory.speed.drawn import LinearDeformation
@@ -114,7 +115,7 @@ def theory_speed(
     scene: Scene, tolerance: Tolerance, order: int = 1, method: str = "auto"
 ) -> CrawlSpeed:
     """`crawl_speed` for a scene, without its warnings."""
-    THEORY.require(scene)
+    (PLATE if order == 2 and not scene.planar else THEORY).require(scene)
     if validation.integer("order", order) not in ORDERS:
         raise ValueError(f"order = {order}: must be one of {', '.join(map(str, ORDERS))}")
     validation.choice("method", method, METHODS if order == 1 else ("auto", "ritz"))
@@ -123,8 +124,8 @@ def theory_speed(
     found = with_wave_error(scene, tolerance, solve)
     # Computed again for drawing, so that a speed does not keep a solution and its tables in memory.
     deformation = drawn_deformation(scene, method)
-    distance = model_error(LEVELS[order], scene)
-    found = with_power_error(found, LEVELS[order], scene)
+    distance = model_error(LEVELS[order], scene) if scene.planar else math.nan
+    found = with_power_error(found, LEVELS[order], scene) if scene.planar else found
     return replace(found, model_error=distance, deformation=deformation)
 
 
@@ -135,7 +136,10 @@ def _first(scene: Scene, method: str, tolerance: Tolerance) -> CrawlSpeed:
 
 def drawn_deformation(scene: Scene, method: str = "ritz") -> LinearDeformation:
     """The small-strain deformation of the sheet of a scene, for pictures."""
-    return LinearDeformation(partial(_field, scene, SHOWN_RTOL, method), scene.alpha, scene.contact)
+    contact = scene.contact
+    if not scene.planar:
+        contact = replace(contact, load=foundation(scene.effects).load)
+    return LinearDeformation(partial(_field, scene, SHOWN_RTOL, method), scene.alpha, contact)
 
 
 def field_speed(

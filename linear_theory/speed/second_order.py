@@ -24,15 +24,13 @@ means of q_0 and q_1.
 
 import math
 import time
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from linear_theory.balance.balance import RigidMotion
-from linear_theory.balance.crawl import Crawl, first_resolution
-from linear_theory.balance.period import Period, average
+from linear_theory.balance.period import Period
 from linear_theory.common import validation
 from linear_theory.common.shown import Shown, with_error
 from linear_theory.common.threads import one_blas_thread
@@ -45,31 +43,25 @@ from linear_theory.friction.load import Load
 from linear_theory.growth.growth import Reference
 from linear_theory.growth.laws import GrowthLaw
 from linear_theory.motion.rigid import RigidNorm
-from linear_theory.scene.level import THEORY
+from linear_theory.scene.level import PLATE, THEORY
 from linear_theory.scene.scene import Scene
 from linear_theory.sheet.rectangle import Sheet
+from linear_theory.speed.expansion import (
+    POINTS,
+    TINY_ALPHA,
+    field_errors,
+    field_tolerance,
+    leading_period,
+)
+from linear_theory.speed.plate import WORDS, mixed_coefficients, plate_speed
+from linear_theory.speed.plate_terms import PlateTerms
+from linear_theory.speed.quadratic_form import NOTHING, QuadraticForm
 from linear_theory.speed.reach import judged, too_large_growth, too_large_term
-from linear_theory.speed.result import CrawlSpeed, RigidSpeed
+from linear_theory.speed.result import CrawlSpeed, Estimate, RigidSpeed
 from linear_theory.speed.words import model_words
 from linear_theory.wave.protocol import Wave
 
 Array = NDArray[np.float64]
-
-TINY_ALPHA = 1e-9
-"""The alpha at which the balance is solved; neglected terms are of this relative size."""
-
-MORE_HALVINGS = 8
-"""Additional halvings of cells compared with an alpha that is not tiny: cells too coarse at a
-stagnation point make q_1(t) rough, and the mean over time would then be refined in vain."""
-
-POINTS = 33
-"""Points per direction at which growth of any form is checked."""
-
-FIELD_SHARE = 0.1
-"""Fraction of rtol allotted to the deformation, small because accuracy is cheap there."""
-
-FIRST_SHARE, SECOND_SHARE = 0.02, 1.2
-"""Bounds of the errors of V_1 (see `Crawl.field_error`) and V_2 relative to that of the velocity."""
 
 
 class _Orders(NamedTuple):
@@ -83,6 +75,9 @@ class _Orders(NamedTuple):
     rigid_second: Array
     rigid_first_error: Array
     rigid_second_error: Array
+    mixed: Estimate = NOTHING
+    bending: Estimate = NOTHING
+    lift_off: tuple[float, float] = (-math.inf, math.inf)
 
 
 class SecondOrder(Shown, _Orders):
@@ -95,6 +90,8 @@ class SecondOrder(Shown, _Orders):
     and of Omega (1/time, anticlockwise), in the frame of the body, see the module docstring;
     rigid_first_error, rigid_second_error (3,): their errors. For mirror-symmetric motions V_x and Omega
     are 0.
+    mixed, bending: V_ab and V_bb of a sheet that bends on its ground; lift_off: the curvature couplings
+    at which it lifts off. `coefficients` has all four as estimates.
 
     >>> from linear_theory import Sheet, SineWave, second_order
     >>> found = second_order(Sheet(), SineWave(), rtol=1e-2)
@@ -107,6 +104,13 @@ class SecondOrder(Shown, _Orders):
         second = with_error(self.second, self.second_error)
         return f"SecondOrder: V = ({first}) alpha + ({second}) alpha^2, length/time"
 
+    @property
+    def coefficients(self) -> QuadraticForm:
+        """V as a quadratic form of alpha and the curvature coupling beta."""
+        first = Estimate(self.first, self.first_error)
+        second = Estimate(self.second, self.second_error)
+        return QuadraticForm(first, second, self.mixed, self.bending, self.lift_off)
+
     def rigid_mean(self, alpha: float) -> Array:
         """Means of V_x, V_y, Omega at a given alpha, (3,)."""
         return np.asarray(alpha * self.rigid_first + alpha**2 * self.rigid_second)
@@ -114,27 +118,6 @@ class SecondOrder(Shown, _Orders):
     def rigid_error(self, alpha: float) -> Array:
         """Errors of `rigid_mean`, (3,)."""
         return np.asarray(abs(alpha) * self.rigid_first_error + alpha**2 * self.rigid_second_error)
-
-
-@dataclass(frozen=True)
-class _Coefficients(Crawl):
-    """The balance with q_1 alone as counted motion."""
-
-    field: SecondOrderField
-
-    @property
-    def counts_leading(self) -> bool:
-        """Never."""
-        return False
-
-    def field_error(self, motion: RigidMotion) -> float:
-        """Error of V_2 due to the errors of u_1 and u_2."""
-        return self.alpha**2 * _second_field_error(self.field, motion.fastest)
-
-    def work_errors(self, motion: RigidMotion) -> Array:
-        """See Crawl."""
-        second = _second_field_error(self.field, motion.fastest)
-        return np.array([self.field.error * motion.fastest, 2 * second])
 
 
 @one_blas_thread
@@ -179,12 +162,30 @@ def second_order(
     scene = Scene.stated(
         sheet, wave, alpha, load, friction, slip_speed, growth_law=growth_law, area=area
     )
-    THEORY.require(scene)
+    (THEORY if scene.planar else PLATE).require(scene)
     rtol = validation.tolerance(rtol)
-    field = second_order_field(scene.sheet, scene.wave, scene.growth, field_tolerance(rtol))
     own = isinstance(sheet, Scene) and friction is None and slip_speed is None
     contact = _per_alpha(scene) if own else scene.contact
+    if not scene.planar:
+        return _of_plate(scene, contact, rtol, start)
+    field = second_order_field(scene.sheet, scene.wave, scene.growth, field_tolerance(rtol))
     return coefficients(field, leading_period(field, contact, rtol), contact, start)
+
+
+def _of_plate(scene: Scene, contact: Contact, rtol: float, start: float) -> SecondOrder:
+    """All coefficients of a bending scene; contact: with a friction law per unit alpha."""
+    terms = PlateTerms.of(scene, rtol)
+    contact = replace(contact, load=terms.plate.foundation.load)
+    period = leading_period(terms.plane, contact, rtol)
+    found = coefficients(terms.plane, period, contact, start)
+    mixed, bending = mixed_coefficients(terms, period.fastest / TINY_ALPHA, contact, rtol)
+    return found._replace(
+        mixed=mixed,
+        bending=bending,
+        lift_off=terms.lift_off,
+        seconds=time.perf_counter() - start,
+        model=model_words(WORDS, scene.growth, contact),
+    )
 
 
 def _per_alpha(scene: Scene) -> Contact:
@@ -198,25 +199,6 @@ def _per_alpha(scene: Scene) -> Contact:
             f"alpha = 0: must not be 0 for {law.words}, whose slip speed counts per unit |alpha|"
         )
     return replace(scene.contact, friction=law.per(scene.alpha))
-
-
-def field_tolerance(rtol: float) -> float:
-    """Tolerance of the deformation, so that its error is a small part of that of V_2."""
-    return max(FIELD_SHARE * rtol, validation.SMALLEST_RTOL)
-
-
-def leading_period(field: SecondOrderField, contact: Contact, rtol: float) -> Period:
-    """A period of motion at TINY_ALPHA, with the mean and error of second order alone.
-
-    contact: with a friction law for speeds per unit alpha.
-    """
-    unit = field.sheet.length / field.drive.period
-    tolerance = Tolerance(rtol, 1e-2 * rtol * TINY_ALPHA**2 * unit)
-    resolution = first_resolution(rtol)
-    resolution = replace(resolution, halvings=resolution.halvings + MORE_HALVINGS)
-    law = contact.friction.scaled(1 / TINY_ALPHA)
-    crawl = _Coefficients(field, TINY_ALPHA, replace(contact, friction=law), resolution)
-    return average(crawl, tolerance)
 
 
 def coefficients(
@@ -241,30 +223,12 @@ def coefficients(
     )
 
 
-def field_errors(field: SecondOrderField, period: Period, contact: Contact) -> Array:
-    """What the errors of u_1 and u_2 do to V_x, V_y, Omega of first and second order, (2, 3).
-
-    0 where the motion vanishes by symmetry.
-    """
-    fastest = period.fastest / TINY_ALPHA
-    law = contact.friction
-    first = 0.0 if field.drive.changes_sign and law.reversible else FIRST_SHARE * field.error * fastest
-    norm = RigidNorm(field.gyration, field.mirrored and law.mirrored)
-    return np.stack([norm.each(first), norm.each(_second_field_error(field, fastest))])
-
-
-def _second_field_error(field: SecondOrderField, fastest: float) -> float:
-    """Error of V_2 due to the errors of u_1 and u_2.
-
-    The factors measured at single times are at most 1.1, against SECOND_SHARE used here (widths from
-    0.1 L to 2 L, one and two waves, all loads); most are below 0.1.
-    """
-    return SECOND_SHARE * (field.error * fastest + field.second_error * field.second_speed)
-
-
 @one_blas_thread
 def second_order_speed(scene: Scene, tolerance: Tolerance) -> CrawlSpeed:
-    """V_1 alpha + V_2 alpha^2 for a planar scene; result and errors as in `crawl_speed`."""
+    """V_1 alpha + V_2 alpha^2 for a planar scene, with terms in beta for one that bends on its ground;
+    result and errors as in `crawl_speed`."""
+    if not scene.planar:
+        return plate_speed(scene, tolerance)
     start, alpha, contact = time.perf_counter(), scene.alpha, scene.contact
     tolerance, law = tolerance.of_speed(alpha, scene.unit), contact.friction
     per_alpha = replace(contact, friction=law.per(alpha))

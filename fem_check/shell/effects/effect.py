@@ -11,6 +11,7 @@ the order of `pairs.PAIRS`: block [k, l, (c, d)] belongs to component c of entry
 """
 
 from abc import ABC, abstractmethod
+from collections.abc import Mapping
 from typing import ClassVar, Self
 
 import numpy as np
@@ -103,6 +104,15 @@ class Effect(ABC):
     def beyond_theory(self, scene: Scene) -> str:
         """The part that theories of a flat rectangle cannot represent, in words; empty if none."""
         return type(self).__name__
+
+    def beyond_plate(self, scene: Scene) -> str:
+        """The part that the theory of a plate on its ground cannot represent; empty if none."""
+        return self.beyond_theory(scene)
+
+    @property
+    def plate_numbers(self) -> Mapping[str, float | Load]:
+        """Numbers that it contributes to `linear_theory`'s `Foundation` of a plate."""
+        return {}
 
     def beyond_cycle(self, scene: Scene) -> str:
         """The part that a cycle of static shapes cannot represent, in words; empty if none."""

@@ -1,5 +1,6 @@
 """Weight."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -108,6 +109,15 @@ class Gravity(Value, Effect):
     def beyond_theory(self, scene: Scene) -> str:
         """Nothing in the plane on level ground, where it is the normal load of friction."""
         return "" if scene.planar and not self.incline else type(self).__name__
+
+    def beyond_plate(self, scene: Scene) -> str:
+        """An incline."""
+        return f"Gravity(incline = {self.incline:g})" if self.incline else ""
+
+    @property
+    def plate_numbers(self) -> Mapping[str, float | Load]:
+        """See Effect."""
+        return {"weight": self.weight, "load": self.load}
 
     def beyond_cycle(self, scene: Scene) -> str:
         """An incline in space, or one without friction; current areas in space."""

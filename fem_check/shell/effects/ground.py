@@ -1,5 +1,6 @@
 """The ground: a repulsion proportional to the square of the penetration, and contact damping."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any, ClassVar
 
@@ -188,12 +189,29 @@ class Ground(Value, Effect):
                 f"effects = {names}: Ground must come with Gravity, else there is no contact"
             )
 
+    def beyond_plate(self, scene: Scene) -> str:
+        """Uneven or damped ground, or one with pressure per another area than that of the weight."""
+        gravity = scene.find(Gravity)
+        other = gravity is not None and gravity.load is not self.load
+        return self._beyond(
+            {f"load = '{self.load}', Gravity has '{gravity.load}'": True} if other else {}
+        )
+
+    @property
+    def plate_numbers(self) -> Mapping[str, float | Load]:
+        """See Effect."""
+        return {"stiffness": self.stiffness}
+
     def beyond_cycle(self, scene: Scene) -> str:
         """Uneven or damped ground, or one with pressure per current area."""
+        return self._beyond({"load = 'current'": self.load is Load.CURRENT})
+
+    def _beyond(self, more: Mapping[str, bool]) -> str:
+        """Height, damping and `more` where they are there, in words."""
         beyond = {
             "height": self.height is not None,
             f"damping = {self.damping:g}": self.damping != 0,
-            "load = 'current'": self.load is Load.CURRENT,
+            **more,
         }
         named = [words for words, there in beyond.items() if there]
         return f"Ground({', '.join(named)})" if named else ""

@@ -12,6 +12,7 @@ a_a = x_a, n the unit normal, a^c the dual base and Gamma^c_ab = a^c . x_ab the 
                      - b_ab a^cd (n . d1 a_c)(n . d2 a_d)
 """
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -26,6 +27,7 @@ from fem_check.shell.material import Material, check_materials
 from linear_theory.common import validation
 from linear_theory.common.pairs import identity, outer
 from linear_theory.common.shown import Value
+from linear_theory.friction.load import Load
 from linear_theory.scene.scene import Scene
 
 Array = NDArray[np.float64]
@@ -188,6 +190,15 @@ class Bending(Value, Effect):
     def check_scene(self, scene: Scene) -> None:
         """See Effect."""
         check_materials(scene)
+
+    def beyond_plate(self, scene: Scene) -> str:
+        """Nothing."""
+        return ""
+
+    @property
+    def plate_numbers(self) -> Mapping[str, float | Load]:
+        """See Effect."""
+        return {"rigidity": self.material.bending}
 
     def check(self, components: int, step: Step | None) -> None:
         """Raise ValueError in the plane, where nothing bends."""

@@ -18,12 +18,12 @@ from numpy.typing import NDArray
 
 from linear_theory.common import validation
 from linear_theory.common.errors import NotConvergedError
-from linear_theory.common.quadrature import gauss_legendre
 from linear_theory.common.threads import one_blas_thread
 from linear_theory.deformation.field import LinearField
 from linear_theory.deformation.load_cases import Harmonics, LoadCases, Snapshots, load_cases
 from linear_theory.deformation.ritz import error as ritz_error
 from linear_theory.deformation.ritz import legendre
+from linear_theory.deformation.ritz.moments import gauss_moments
 from linear_theory.deformation.ritz.solver import RitzSolver, matrix_size
 from linear_theory.sheet.rectangle import Sheet
 from linear_theory.wave import arguments
@@ -182,11 +182,7 @@ class RitzField(LinearField):
 
     def _moments_by(self, counts: Pair, growths: Callable[[Array, Array], Array]) -> Array:
         """Moments of any growth fields with `counts` Gauss points, (growths, *counts)."""
-        (x, weights_x), (y, weights_y) = (gauss_legendre(count) for count in counts)
-        across = legendre.orthonormal(counts[0], x) * weights_x[:, None]
-        along = legendre.orthonormal(counts[1], y) * weights_y[:, None]
-        growth = growths(x[:, None] * self.sheet.width / 2, y * self.sheet.length / 2)
-        return np.asarray(across.T @ growth @ along)
+        return gauss_moments(self.sheet, counts, growths)
 
     def _moments_of_harmonics(self, cases: Harmonics) -> Array:
         orders = cases.series.orders

@@ -126,7 +126,15 @@ class RitzSolver(Shown):
         values, slopes = legendre.against_values, legendre.against_slopes
         along = values(slopes(moments[:, :, 0], 2), 3) * (self.sheet.length / 2)
         across = slopes(values(moments[:, :, 1], 2), 3) * (self.sheet.width / 2)
-        load, solution = along + across, np.zeros_like(along)
+        return self.solve_work(along + across, mirrored)
+
+    def solve_work(self, load: Array, mirrored: bool) -> Array:
+        """Coefficients for the virtual work `load` on each test function, length^2 per stress.
+
+        load: (cases, 2, degree x + 1, degree y + 1), of no net force or torque; mirrored, and what is
+        returned: as for `solve_stress`.
+        """
+        solution = np.zeros_like(load)
         for parity in PARITIES[:2] if mirrored else PARITIES:
             solution += self._solve_parity(load, parity)
         return self._without_rigid_motion(solution)

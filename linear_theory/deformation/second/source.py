@@ -83,12 +83,12 @@ class Source:
         turned = np.einsum("kiab,ijab->kjab", slope, stress)
         return np.asarray(resting - self.weight * growth * stress - turned)
 
-    def _grid(self) -> "_GaussGrid":
+    def _grid(self) -> "GaussGrid":
         across, along = self.gradients.shape[-2:]
-        return _GaussGrid(self.drive.sheet, (across - 1, along - 1), 1.5 if self.finer else 1.0)
+        return GaussGrid(self.drive.sheet, (across - 1, along - 1), 1.5 if self.finer else 1.0)
 
 
-class _GaussGrid:
+class GaussGrid:
     """Gauss points for products of three polynomials of these degrees (across, along), times `more`."""
 
     def __init__(self, sheet: Sheet, degree: tuple[int, int], more: float) -> None:

@@ -10,7 +10,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linear_theory.deformation.load_cases import Harmonics, LoadCases, Snapshots
-from linear_theory.deformation.second.source import Source
 from linear_theory.wave.travelling import TravellingWave
 
 Array = NDArray[np.float64]
@@ -25,6 +24,16 @@ class FirstOrder(Protocol):
     def _amplitudes(self, t: Array) -> Array: ...
 
     def _amplitude_rates(self, t: Array) -> Array: ...
+
+
+class Source(Protocol):
+    """A quadratic source of second order at given times."""
+
+    def moments(self, times: Array, amplitudes: Array) -> Array:
+        """Its moments at times (T,), (T, ...); amplitudes: of the load cases, (cases, T)."""
+
+    def moment_rates(self, times: Array, amplitudes: Array, rates: Array) -> Array:
+        """Time derivatives of `moments`; rates: of the amplitudes."""
 
 
 class SecondTimes(Protocol):

@@ -1,0 +1,153 @@
+"""The speed of a bending sheet on its ground to second order in (alpha, beta).
+
+    V = V_a alpha + V_aa alpha^2 + V_ab alpha beta + V_bb beta^2
+
+for a sheet in full contact, see `plate_terms`. Friction acts on the mid-surface, as in the paper and in
+the shell.
+"""
+
+import math
+import time
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linear_theory.balance.crawl import first_resolution
+from linear_theory.balance.period import Period, average
+from linear_theory.common.tolerance import Tolerance
+from linear_theory.friction.contact import Contact
+from linear_theory.motion.rigid import RigidNorm
+from linear_theory.scene.scene import Scene
+from linear_theory.speed.expansion import POINTS, TINY_ALPHA, field_errors, fine_cells, tiny
+from linear_theory.speed.plate_terms import (
+    BendingAlone,
+    PlateCoefficients,
+    PlateTerms,
+    Weights,
+    weighted_error,
+)
+from linear_theory.speed.quadratic_form import check_contact
+from linear_theory.speed.reach import judged, too_large_growth, too_large_term
+from linear_theory.speed.result import CrawlSpeed, Estimate, RigidSpeed
+from linear_theory.speed.words import model_words
+
+Array = NDArray[np.float64]
+
+WORDS = "second order in (alpha, beta), plate on its ground"
+
+
+def mixed_coefficients(
+    terms: PlateTerms, fastest: float, contact: Contact, rtol: float
+) -> tuple[Estimate, Estimate]:
+    """V_ab and V_bb. fastest: largest speed per unit alpha; contact: with friction per unit alpha.
+
+    Each source is scaled to the size of those of alpha^2, so that the tolerance means the same.
+    """
+    unit = terms.plane.sheet.length / terms.plane.drive.period
+    pressure, bending = 1 / (terms.largest_pressure or 1.0), unit / (terms.stretch.speed or unit)
+    found = []
+    for scale, weights in (
+        (pressure, Weights(pressure=pressure)),
+        (bending, Weights(bending=bending)),
+    ):
+        period = average_of(terms, weights, contact, rtol)
+        error = float(period.mean_errors[1, 1]) + weighted_error(terms, weights, fastest)
+        value = math.nan if period.sticks else float(period.means[1, 1])
+        found.append(Estimate(value / scale, math.inf if period.sticks else error / scale))
+    return found[0], found[1]
+
+
+def average_of(terms: PlateTerms, weights: Weights, contact: Contact, rtol: float) -> Period:
+    """A period of motion at TINY_ALPHA with weighted sources of second order."""
+    unit = terms.plane.sheet.length / terms.plane.drive.period
+    tolerance = Tolerance(rtol, 1e-2 * rtol * TINY_ALPHA**2 * unit)
+    crawl = PlateCoefficients(terms.plane, TINY_ALPHA, tiny(contact), fine_cells(rtol), terms, weights)
+    return average(crawl, tolerance)
+
+
+class _Motion(NamedTuple):
+    """Rigid motion at the couplings of a scene: over the period (3, T), mean and error (3,)."""
+
+    period: Period
+    rigid: Array
+    mean: Array
+    error: Array
+    fastest: float
+    first: float
+    second: float
+
+
+def plate_speed(scene: Scene, tolerance: Tolerance) -> CrawlSpeed:
+    """The speed of second order of a bending scene; result and errors as in `crawl_speed`.
+
+    Raises ValueError for a curvature coupling at which the sheet lifts off.
+    """
+    start, beta = time.perf_counter(), scene.curvature_coupling
+    terms = PlateTerms.of(scene, tolerance.rtol)
+    check_contact(beta, terms.lift_off)
+    scene.growth.law.check(scene.alpha, scene.extremes)
+    contact, law = terms.contact(scene), scene.contact.friction
+    unit = max(abs(scene.alpha), abs(beta) * scene.sheet.length)
+    tolerance = tolerance.of_speed(unit, scene.unit)
+    found = (_grown if scene.alpha else _bent)(terms, scene, contact, tolerance)
+    mirrored = terms.plane.mirrored and law.mirrored
+    norm = RigidNorm(terms.plane.gyration, mirrored)
+    turning = RigidSpeed(found.rigid, found.mean, found.error)
+    speed = CrawlSpeed(
+        estimate=turning.along,
+        model_error=math.nan,
+        converged=norm.meets(found.mean, found.error, tolerance),
+        times=found.period.times,
+        velocity=found.rigid[1],
+        seconds=time.perf_counter() - start,
+        model=model_words(WORDS, scene.growth, contact),
+        slip_ratio=law.slip_ratio(found.fastest),
+        first_order=found.first,
+        second_order=found.second,
+        sticks=found.period.sticks,
+        turning=None if mirrored else turning,
+    )
+    places = (p.ravel() for p in np.broadcast_arrays(*terms.plane.places(POINTS)))
+    beyond = too_large_growth(scene.drive, scene.alpha, *places)
+    term = scene.alpha**2 * found.second if scene.alpha else 0.0
+    return judged(speed, beyond or too_large_term(term, found.fastest))
+
+
+def _grown(terms: PlateTerms, scene: Scene, contact: Contact, tolerance: Tolerance) -> _Motion:
+    """All sources of second order together, in the proportion of the couplings."""
+    alpha, ratio = scene.alpha, scene.curvature_coupling / scene.alpha
+    contact = replace(contact, friction=contact.friction.per(alpha))
+    weights = Weights(1.0, ratio, ratio**2)
+    period = average_of(terms, weights, contact, tolerance.rtol)
+    fastest, orders = period.fastest / TINY_ALPHA, period.orders
+    first = period.mean_errors[0] + field_errors(terms.plane, period, contact)[0]
+    norm = RigidNorm(terms.plane.gyration, terms.plane.mirrored and contact.friction.mirrored)
+    second = period.mean_errors[1] + norm.each(weighted_error(terms, weights, fastest))
+    return _Motion(
+        period,
+        rigid=alpha * orders[0] + alpha**2 * orders[1],
+        mean=alpha * period.means[0] + alpha**2 * period.means[1],
+        error=abs(alpha) * first + alpha**2 * second,
+        fastest=abs(alpha) * fastest,
+        first=float(period.means[0, 1]),
+        second=math.nan if period.sticks else float(period.means[1, 1]),
+    )
+
+
+def _bent(terms: PlateTerms, scene: Scene, contact: Contact, tolerance: Tolerance) -> _Motion:
+    """The sheet that bends alone, alpha = 0: its slip is of order beta^2."""
+    square = scene.curvature_coupling**2
+    crawl = BendingAlone(terms.plane, square or 1.0, contact, first_resolution(tolerance.rtol), terms)
+    period = average(crawl, tolerance)
+    share = 1.0 if square else 0.0
+    return _Motion(
+        period,
+        rigid=share * period.rigid,
+        mean=share * period.rigid_mean,
+        error=share * period.rigid_error,
+        fastest=share * period.fastest,
+        first=0.0,
+        second=math.nan,
+    )
