@@ -38,7 +38,7 @@ class QuadraticForm(Shown):
         >>> from linear_theory.speed.quadratic_form import QuadraticForm
         >>> from linear_theory import Estimate
         >>> form = QuadraticForm(Estimate(0, 0), Estimate(1.5, 0.01), Estimate(-0.2, 0.001))
-        >>> print(form.at(alpha=0.1, beta=0.5).value)
+        >>> print(f"{form.at(alpha=0.1, beta=0.5).value:.3f}")
         0.005
         """
         alpha, beta = validation.real("alpha", alpha), validation.real("beta", beta)

@@ -57,7 +57,7 @@ def plate_field(sheet: Sheet, wave: Wave, ground: Foundation, rtol: float = 1e-4
     >>> paper = Foundation(rigidity=3e-6, weight=2.5e-4, stiffness=0.5)
     >>> field = plate_field(Sheet(), SineWave(), paper, rtol=1e-4)
     >>> print(field.error <= 1e-4, f"lifts off at beta = {field.lift_off():.2f}/L")
-    True lifts off at beta = 1.40/L
+    True lifts off at beta = 0.52/L
     """
     sheet, wave, rtol = arguments.sheet(sheet), arguments.wave(wave), validation.tolerance(rtol)
     start, driven = time.perf_counter(), drive(wave, sheet).fine
