@@ -14,6 +14,12 @@ from figures.measure import decisive, gait_map, terrain, trapezoids
 ENOUGH = 9
 """Grounds of a law of friction from which extremes can be told."""
 
+OTHER_WAY = 0.0125
+"""Least error of V under dry friction, L a cycle. A sheet that buckles may take another way with other
+steps, which the error of the steps does not see: on flat ground V of the forward gait is 0.1092 with 48
+steps a cycle, and 0.1217, 0.1212, 0.1210 and 0.1209 with 64, 96, 128 and 192. The first buckles
+differently at t = 2.2 cycles."""
+
 
 def statements() -> Iterator[str]:
     """Rows of the table: statement, verdict, what decides it."""
@@ -105,8 +111,8 @@ def _grounds() -> Iterator[tuple[str, str, str]]:
         found = {name: kept.get(place) for name, place in terrain.SHOWN.items()}
         if len(kept) < ENOUGH or not all(found.values()):
             continue
-        floor = _unseen(kept[terrain.SHOWN["A"]])
-        kept = {place: replace(r, error=max(r.error, floor)) for place, r in kept.items()}
+        if law == "dry":
+            kept = {p: replace(r, error=max(r.error, OTHER_WAY)) for p, r in kept.items()}
         shown = {name: kept[place] for name, place in terrain.SHOWN.items()}
         a = shown["A"]
         for letter, words, way in (("B", "least", -1), ("C", "largest", 1)):
@@ -125,17 +131,6 @@ def _grounds() -> Iterator[tuple[str, str, str]]:
             f"on {forward} of {len(kept)}",
             "[fig. 6](../figures/gallery/fig6.png)",
         )
-
-
-def _unseen(flat: terrain.Row) -> float:
-    """By how much V on flat ground differs from that of `decisive`, with other steps; 0 without one.
-
-    Where that is more than both errors they are too small, and this is the least error of all grounds.
-    """
-    for row in decisive.TABLE.read():
-        if (row.gait, row.friction, row.change) == (flat.gait, flat.friction, "none"):
-            return abs(row.third - flat.third)
-    return 0.0
 
 
 def _extreme(law: str, words: str, way: int, at: Any, rows: Sequence[Any]) -> tuple[str, str, str]:

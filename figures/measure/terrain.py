@@ -50,7 +50,7 @@ MOST, POINTS = 15.0, 7
 SHOWN = {"A": (0.0, 0.0), "B": (0.0, 7.5), "C": (5.0, 0.0), "D": (15.0, 15.0)}
 """nx and ny of flat ground and of the panels of the figure."""
 
-STEPS = 48
+STEPS = 64
 
 
 @dataclass(frozen=True)

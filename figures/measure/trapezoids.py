@@ -38,7 +38,7 @@ RATIOS = tuple(kept(2.0**k) for k in (0, -2, 2, -1, 1, -0.5, 0.5, -1.5, 1.5))
 LENGTHS = (0.6, 0.8, 1.0, 1.2, 1.4, 1.6, 1.8)
 """L'/L; the two optima of the paper are 0.9 and 1.4."""
 
-STEPS = 48
+STEPS = 64
 SIZE, COARSE = 0.36, 0.54
 """Sides of the triangles, L; on the rectangle 2 x 3 and 1 x 2 cells of four triangles."""
 
