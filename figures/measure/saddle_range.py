@@ -25,7 +25,7 @@ GROUNDS = ("paper", "stiff ground")
 BILAYER = 100.0
 """beta L/alpha of two equal layers at h = 0.03 L: 3 L/h."""
 
-SHARES = (0.25, 0.5, 0.75, 1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 8.0)
+SHARES = (0.25, 0.5, 0.75, 1.0, 1.5, 2.0, 3.0, 4.0, 6.0)
 """beta over that at which the pressure vanishes somewhere."""
 
 BY_STEPS = (1.0, 2.0, 4.0)
