@@ -132,9 +132,7 @@ def _label(speeds: Axes, ratios: Axes) -> None:
     speeds.legend(handles=handles, loc="upper left", labelspacing=0.2, fontsize=6.5)
 
 
-def numbers_shown(
-    rows: Sequence[saddle.Row], along: Sequence[saddle_range.Row]
-) -> dict[str, object]:
+def numbers_shown(rows: Sequence[saddle.Row], along: Sequence[saddle_range.Row]) -> dict[str, object]:
     """What the JSON beside the figure holds."""
     return {
         "lift_off": form_of(rows, "paper").lift_off[1],

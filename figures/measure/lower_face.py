@@ -64,7 +64,7 @@ def added(asked: Scene, rtol: float = 1e-4) -> tuple[float, float]:
     plane = ritz_field(sheet, asked.wave, rtol=rtol)
     ground = foundation(asked.effects)
     plate, drive = plate_field(sheet, asked.wave, ground, rtol), asked.drive
-    x, y, weights = _grid(sheet.width, sheet.length)
+    x, y, weights = grid(sheet.width, sheet.length)
     mixed = bent = 0.0
     for t in asked.wave.period * np.arange(PHASES) / PHASES:
         strain, pressure = plane.strain(x, y, t), plate.pressure(x, y, t)
@@ -85,7 +85,7 @@ def _slope_rate(plate: PlateField, x: Array, y: Array, t: float) -> Array:
     return (slope(t + STEP) - slope(t - STEP)) / (2 * STEP)
 
 
-def _grid(width: float, length: float) -> tuple[Array, Array, Array]:
+def grid(width: float, length: float) -> tuple[Array, Array, Array]:
     """Gauss points, and weights of sum 1."""
     (x, p), (y, q) = (np.polynomial.legendre.leggauss(n) for n in POINTS)
     return width / 2 * x[:, None], length / 2 * y[None, :], np.outer(p, q) / 4
