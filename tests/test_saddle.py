@@ -22,8 +22,15 @@ def test_the_page_is_that_of_the_tables() -> None:
 
 @pytest.mark.parametrize(
     ("part", "way", "share"),
-    [("aa", "cycle", 1e-2), ("aa", "stepper", 1e-2)]
-    + [("ab", "cycle", 1e-2), ("ab", "stepper", 1e-2), ("bb", "cycle", 1e-2), ("bb", "stepper", 5e-2)],
+    [
+        ("aa", "cycle", 1e-2),
+        ("aa", "stepper", 1e-2),
+        ("ab", "cycle", 1e-2),
+        ("ab", "stepper", 1e-2),
+        ("bb", "cycle", 1e-2),
+        # of stiff ground: beta^2 V_bb is 5e-4 of alpha^2 V_aa there, an error of the steps of 2e-5 of V
+        ("bb", "stepper", 5e-2),
+    ],
 )
 def test_the_theory_is_that_of_shapes_and_of_steps(part: str, way: str, share: float) -> None:
     assert saddle_page.distance(ROWS, way, part) < share
@@ -136,12 +143,6 @@ def test_the_figure_writes_what_it_shows(tmp_path: Path) -> None:
     _, speeds, _ = axes
     drawn = {(round(x, 9), y) for line in speeds.lines for x, y in zip(*line.get_data(), strict=True)}
     ray = saddle_range.ray(ALONG, "stiff ground", "tanh", 1)
-    assert all(
-        any(
-            x == round(r.beta, 9) and y == pytest.approx(r.cycle * (r.beta / 100) ** 2)
-            for x, y in drawn
-        )
-        for r in ray
-    )
+    assert all(any(x == round(r.beta, 9) and y == r.cycle for x, y in drawn) for r in ray)
     with pytest.raises(ValueError, match=r"no moss, sine, tanh in the table"):
         figure.form_of(ROWS, "moss")

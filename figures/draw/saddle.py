@@ -3,10 +3,11 @@
     python -m figures.draw.saddle [--out FOLDER] [--formats png pdf]
 
 Left: V of the quadratic form over (alpha, beta) for the paper's sheet and ground, from the table of
-`figures.measure.saddle`, between the curvatures at which the sheet lifts off. Right: along the two lines
-of two equal layers, on that ground and on one 100 times as stiff, from `figures.measure.saddle_range`:
-V of the form (lines, dashed beyond lift-off), of cycles of shapes and of the stepper (symbols), and V
-over that of the form. A sine wave, the tanh law with a slip speed of 0.3 |alpha| L/T.
+`figures.measure.saddle`, between the curvatures at which the sheet lifts off. Right: along the lines
+beta = +-100 alpha/L of two equal layers, on that ground and on one 100 times as stiff, from
+`figures.measure.saddle_range`: V/alpha^2 of the form (lines, dashed beyond lift-off), of cycles of
+shapes and of the stepper (symbols), and V over that of the form, with bands of 5 and 10 %. A sine wave,
+the tanh law with a slip speed of 0.3 |alpha| L/T.
 """
 
 from collections.abc import Sequence
@@ -28,7 +29,12 @@ LAW = "tanh"
 SHARES = (0.05, 0.1)
 """Of V, by which form and cycles may differ: the two bands."""
 
-MOST_ALPHA, LEVELS = 0.1, np.arange(-16, 34, 4) * 1e-3
+MOST_ALPHA = 0.06
+
+LINES, MOST_SPEED = (-3, -2, -1, 2, 4, 6, 8, 10, 12), 12e-3
+"""V of the labelled lines, over 1e-3 L/T, and at the ends of the colours."""
+
+TICKS = (0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 3.0)
 
 GROUND_COLORS = {"paper": style.COLORS["blue"], "stiff ground": style.COLORS["vermillion"]}
 GROUND_WORDS = {"paper": "paper's ground", "stiff ground": "100 times as stiff"}
@@ -36,7 +42,7 @@ MARKERS = {-1: "o", 1: "s"}
 
 
 def form_of(rows: Sequence[saddle.Row], place: str, law: str = LAW) -> QuadraticForm:
-    """The quadratic form of a sheet under a sine. Raises ValueError where the table does not have it."""
+    """The quadratic form of a sheet under a sine. Raises ValueError where the table has none."""
     for r in rows:
         if (r.place, r.wave, r.law) == (place, "sine", law):
             limit = r.beta / saddle.OF_LIFT_OFF
@@ -67,26 +73,27 @@ def _draw_map(axes: Axes, form: QuadraticForm) -> None:
     alpha = np.linspace(-MOST_ALPHA, MOST_ALPHA, 201)
     beta = np.linspace(-limit, limit, 203)[1:-1]
     speed = np.array([[form.at(a, b).value for a in alpha] for b in beta])
-    most = float(np.abs(speed).max())
-    look: dict[str, Any] = {"cmap": "RdBu_r", "vmin": -most, "vmax": most}
-    axes.contourf(alpha, beta, speed, levels=np.arange(-16, 36, 1) * 1e-3, **look)
-    lines = axes.contour(alpha, beta, speed, LEVELS[LEVELS != 0], colors="0.35", linewidths=0.5)
-    axes.clabel(lines, fmt=lambda v: f"{1e3 * v:g}", fontsize=6)
+    colors: dict[str, Any] = {"cmap": "RdBu_r", "vmin": -MOST_SPEED, "vmax": MOST_SPEED}
+    axes.pcolormesh(alpha, beta, speed, shading="gouraud", rasterized=True, **colors)
+    levels = [1e-3 * v for v in LINES]
+    lines = axes.contour(alpha, beta, speed, levels, colors="0.3", linewidths=0.5, linestyles="-")
+    axes.clabel(lines, fmt=lambda v: f"{1e3 * v:.0f}".replace("-", "−"), fontsize=6)
     axes.contour(alpha, beta, speed, [0.0], colors="black", linewidths=1.4)
     for way in (1, -1):
         ends = np.array([-limit, limit])
         axes.plot(way * ends / BILAYER, ends, "--", color=style.COLORS["green"], linewidth=1.0)
     for end, above in ((limit, "bottom"), (-limit, "top")):
         axes.axhline(end, color="black", linewidth=0.8, linestyle=":")
-        axes.annotate("lift-off", (-0.097, end), va=above, fontsize=7)
+        axes.annotate("lift-off", (-0.96 * MOST_ALPHA, end), va=above, fontsize=7)
     axes.annotate(
         "two equal layers\n" r"$\beta=\pm100\,\alpha/L$",
         (limit * 0.93 / BILAYER, limit * 0.93),
-        (0.02, 1.06 * limit),
+        (0.014, 1.06 * limit),
         color=style.COLORS["green"],
         fontsize=7,
         arrowprops={"arrowstyle": "-", "color": style.COLORS["green"], "linewidth": 0.6},
     )
+    axes.set_xticks([-0.05, 0, 0.05])
     axes.set(xlim=(-MOST_ALPHA, MOST_ALPHA), ylim=(-1.3 * limit, 1.3 * limit))
     axes.set(xlabel=r"growth $\alpha$", ylabel=r"curvature $\beta$  ($1/L$)")
     axes.set_title(r"$V$ of the quadratic form ($10^{-3}\,L/T$); bold: $V=0$")
@@ -97,12 +104,17 @@ def _draw_speeds(axes: Axes, ray: Sequence[saddle_range.Row]) -> None:
     inside = np.geomspace(ray[0].beta, first.lift_off, 30)
     beyond = np.geomspace(first.lift_off, ray[-1].beta, 30)
     for beta, dashes in ((inside, "-"), (beyond, (0, (2, 2)))):
-        axes.plot(beta, first.form * (beta / BILAYER) ** 2, color=color, linestyle=dashes)
-    _symbols(axes, ray, lambda r, v: v * (r.beta / BILAYER) ** 2)
+        axes.plot(beta, np.full_like(beta, first.form), color=color, linestyle=dashes)
+    _symbols(axes, ray, lambda r, v: v)
 
 
 def _draw_ratios(axes: Axes, ray: Sequence[saddle_range.Row]) -> None:
     axes.axvline(ray[0].lift_off, color=GROUND_COLORS[ray[0].ground], linestyle=":", linewidth=0.8)
+    if ray[0].way > 0:
+        name: dict[str, Any] = {"fontsize": 7, "color": GROUND_COLORS[ray[0].ground]}
+        axes.annotate(
+            "lift-off", (ray[0].lift_off, 0.42), (-3, 0), textcoords="offset points", ha="right", **name
+        )
     _symbols(axes, ray, lambda r, v: v / r.form)
 
 
@@ -116,11 +128,15 @@ def _symbols(axes: Axes, ray: Sequence[saddle_range.Row], value: Any) -> None:
 
 def _label(speeds: Axes, ratios: Axes) -> None:
     speeds.axhline(0, color="0.6", linewidth=0.6)
-    speeds.set_yscale("symlog", linthresh=1e-4, linscale=0.6)
-    speeds.set(xscale="log", ylabel="$V$  ($L/T$)")
+    speeds.set(xscale="log", ylabel=r"$V/\alpha^2$  ($L/T$)", ylim=(-60, 110))
+    speeds.set_title(r"along the lines $\beta=\pm100\,\alpha/L$")
     for share, shade in zip(reversed(SHARES), ("0.93", "0.85"), strict=True):
         ratios.axhspan(1 / (1 + share), 1 / (1 - share), color=shade, linewidth=0, zorder=0)
-    ratios.set(xlabel=r"$|\beta|$  ($1/L$)", ylabel="$V$ / form", ylim=(0, 1.35))
+        place = (3.35, 1 / (1 + share) + 0.005)
+        ratios.annotate(f"{100 * share:.0f} %", place, ha="right", va="bottom", fontsize=6.5)
+    ratios.set(xlabel=r"$|\beta|$  ($1/L$)", ylabel="$V$ / form", xlim=(0.03, 3.5), ylim=(0.4, 1.2))
+    ratios.set_xticks(TICKS, [f"{t:g}" for t in TICKS])
+    ratios.minorticks_off()
     handles = [speeds.plot([], [], color=GROUND_COLORS[g], label=GROUND_WORDS[g])[0] for g in GROUNDS]
     for label, marker in (
         (r"cycle, $\beta=-100\,\alpha/L$", MARKERS[-1]),
@@ -129,7 +145,7 @@ def _label(speeds: Axes, ratios: Axes) -> None:
     ):
         kind: dict[str, Any] = {"ls": "none", "color": "0.3", "markersize": 3.4, "label": label}
         handles += speeds.plot([], [], marker, markerfacecolor="none", **kind)
-    speeds.legend(handles=handles, loc="upper left", labelspacing=0.2, fontsize=6.5)
+    speeds.legend(handles=handles, loc="upper left", labelspacing=0.2, ncols=2)
 
 
 def numbers_shown(rows: Sequence[saddle.Row], along: Sequence[saddle_range.Row]) -> dict[str, object]:

@@ -3,13 +3,13 @@
     python -m figures.measure.lower_face [--out FILE]
 
 Writes figures/data/lower_face.csv: a second. The lower face slips by (h/2) beta grad w_t in addition
-(docs/saddle.md). Let s be its part along y per unit beta, without its mean over the sheet. Under viscous
-friction the balance with the load 1 + alpha e + beta p adds, with means over sheet and period,
+(docs/saddle.md). Let s be its part along y per unit beta, less its mean over the sheet. With the load
+1 + alpha e + beta p the balance of viscous friction adds, with means over sheet and period,
 
     V_ab: -<e s>,    V_bb: -<p s>.
 
-For a deflection A sin(k y - omega t) and a pressure p = -(S/rho g) w, S = 2 sqrt(k rho g), the second is
-(S/rho g) (h/4) A^2 k omega > 0: a trough presses most, and there the lower face slips against the wave.
+For a deflection A sin(k y - omega t) and p = -(S/rho g) w with S the rate of the ground the second is
+(S/rho g) (h/4) A^2 k omega > 0: a trough presses most, and its lower face slips against the wave.
 """
 
 import time
@@ -59,7 +59,10 @@ TABLE = Table(
 
 
 def added(asked: Scene, rtol: float = 1e-4) -> tuple[float, float]:
-    """What friction on the lower face adds to V_ab and V_bb of a scene with a sine under viscous friction."""
+    """What viscous friction on the lower face adds to V_ab and V_bb of a scene with a sine wave.
+
+    L^2/T and L^3/T. rtol: of both fields, by which the error of the sums is a few times rtol.
+    """
     sheet = asked.sheet
     plane = ritz_field(sheet, asked.wave, rtol=rtol)
     ground = foundation(asked.effects)

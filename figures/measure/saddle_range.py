@@ -2,8 +2,8 @@
 
     python -m figures.measure.saddle_range [--out FILE]
 
-Writes figures/data/saddle_range.csv: about two minutes of the processor; it goes on where the file ends.
-The rays are the lines beta = +-3 alpha/h of two equal layers of which one grows, on the paper's ground
+Writes figures/data/saddle_range.csv: three minutes of one core; it goes on where the file ends. The
+rays are the lines beta = +-3 alpha/h of two equal layers of which one grows, on the paper's ground
 and on one 100 times as stiff. Along a ray the form says that V/alpha^2 is constant.
 """
 
