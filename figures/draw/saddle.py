@@ -46,17 +46,21 @@ def form_of(rows: Sequence[saddle.Row], place: str, law: str = LAW) -> Quadratic
     for r in rows:
         if (r.place, r.wave, r.law) == (place, "sine", law):
             limit = r.beta / saddle.OF_LIFT_OFF
-            parts = (getattr(r, f"theory_{p}") for p in ("aa", "ab", "bb"))
-            errors = (getattr(r, f"error_{p}") for p in ("aa", "ab", "bb"))
-            found = map(Estimate, parts, errors)
-            return QuadraticForm(Estimate(0.0, 0.0), *found, lift_off=(-limit, limit))
+            return QuadraticForm(
+                alpha=Estimate(0.0, 0.0),
+                alpha_alpha=Estimate(r.theory_aa, r.error_aa),
+                alpha_beta=Estimate(r.theory_ab, r.error_ab),
+                beta_beta=Estimate(r.theory_bb, r.error_bb),
+                lift_off=(-limit, limit),
+            )
     raise ValueError(f"no {place}, sine, {law} in the table; `{saddle.TABLE.command}` makes it")
 
 
 def draw(rows: Sequence[saddle.Row], along: Sequence[saddle_range.Row]) -> Figure:
     """The map, and the two rays."""
     fig = style.figure(width=style.DOUBLE_CM, height=8.6)
-    left, right = fig.subfigures(1, 2, width_ratios=[1.0, 1.05])
+    halves: Any = fig.subfigures(1, 2, width_ratios=[1.0, 1.05])
+    left, right = halves
     _draw_map(left.subplots(), form_of(rows, "paper"))
     speeds, ratios = right.subplots(2, 1, sharex=True, height_ratios=[1.25, 1])
     for ground in GROUNDS:
@@ -113,7 +117,7 @@ def _draw_ratios(axes: Axes, ray: Sequence[saddle_range.Row]) -> None:
     if ray[0].way > 0:
         name: dict[str, Any] = {"fontsize": 7, "color": GROUND_COLORS[ray[0].ground]}
         axes.annotate(
-            "lift-off", (ray[0].lift_off, 0.42), (-3, 0), textcoords="offset points", ha="right", **name
+            "lift-off", (ray[0].lift_off, 0.44), (-3, 0), textcoords="offset points", ha="right", **name
         )
     _symbols(axes, ray, lambda r, v: v / r.form)
 
@@ -132,8 +136,8 @@ def _label(speeds: Axes, ratios: Axes) -> None:
     speeds.set_title(r"along the lines $\beta=\pm100\,\alpha/L$")
     for share, shade in zip(reversed(SHARES), ("0.93", "0.85"), strict=True):
         ratios.axhspan(1 / (1 + share), 1 / (1 - share), color=shade, linewidth=0, zorder=0)
-        place = (3.35, 1 / (1 + share) + 0.005)
-        ratios.annotate(f"{100 * share:.0f} %", place, ha="right", va="bottom", fontsize=6.5)
+        place = (3.35, 1 / (1 - share) - 0.005)
+        ratios.annotate(f"{100 * share:.0f} %", place, ha="right", va="top", fontsize=6.5)
     ratios.set(xlabel=r"$|\beta|$  ($1/L$)", ylabel="$V$ / form", xlim=(0.03, 3.5), ylim=(0.4, 1.2))
     ratios.set_xticks(TICKS, [f"{t:g}" for t in TICKS])
     ratios.minorticks_off()
