@@ -39,16 +39,18 @@ def test_the_theory_is_that_of_shapes_and_of_steps(part: str, way: str, share: f
 def test_rows_are_what_is_computed() -> None:
     (kept,) = (r for r in FACES if r.ground == "paper")
     assert lower_face.row("paper").added_bb == pytest.approx(kept.added_bb, rel=1e-4)
-    first = saddle_range.ray(ALONG, "paper", "viscous", -1)[0]
-    form = figure.form_of(ROWS, "paper", "viscous")
-    share = first.beta / first.lift_off
-    found = saddle_range.row("paper", "viscous", -1, share, form)
+    first = saddle_range.ray(ALONG, "paper", "tanh", -1)[0]
+    found = saddle_range.row(saddle_range.place_of(first))
     assert found.cycle == pytest.approx(first.cycle, rel=1e-4)
     assert found.form == pytest.approx(first.form, rel=1e-4)
 
 
-@pytest.mark.parametrize("ground", saddle_range.GROUNDS)
-@pytest.mark.parametrize("law", list(saddle.LAWS))
+def test_both_grounds_are_whole_under_the_law_that_is_drawn() -> None:
+    drawn = {(ground, figure.LAW) for ground in saddle_range.GROUNDS}
+    assert drawn <= set(saddle_range.complete(ALONG))
+
+
+@pytest.mark.parametrize(("ground", "law"), saddle_range.complete(ALONG))
 def test_along_a_ray_the_form_is_left_with_the_square_of_beta(ground: str, law: str) -> None:
     """V is even under (alpha, beta) -> -(alpha, beta), so that the next order is two higher."""
     for way in (1, -1):

@@ -190,8 +190,7 @@ def _range(rows: Sequence[saddle.Row], along: Sequence[saddle_range.Row]) -> Lin
     )
     reached = [
         [GROUND_WORDS[ground], law, *(f"{within(along, ground, law, s):.2g}/L" for s in SHARES)]
-        for ground in GROUNDS
-        for law in saddle.LAWS
+        for ground, law in saddle_range.complete(along)
     ]
     yield table(["ground", "law", "5 %", "10 %"], *reached)
     yield wrapped(

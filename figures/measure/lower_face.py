@@ -88,9 +88,9 @@ def _slope_rate(plate: PlateField, x: Array, y: Array, t: float) -> Array:
     return (slope(t + STEP) - slope(t - STEP)) / (2 * STEP)
 
 
-def grid(width: float, length: float) -> tuple[Array, Array, Array]:
+def grid(width: float, length: float, points: tuple[int, int] = POINTS) -> tuple[Array, Array, Array]:
     """Gauss points, and weights of sum 1."""
-    (x, p), (y, q) = (np.polynomial.legendre.leggauss(n) for n in POINTS)
+    (x, p), (y, q) = (np.polynomial.legendre.leggauss(n) for n in points)
     return width / 2 * x[:, None], length / 2 * y[None, :], np.outer(p, q) / 4
 
 

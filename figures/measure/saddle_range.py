@@ -11,10 +11,12 @@ import math
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cache
+from typing import NamedTuple
 
 from fem_check import cycle_speed
+from figures.common.filling import Filling
 from figures.common.folders import DATA
-from figures.common.output import tracked
 from figures.common.records import Table
 from figures.measure.saddle import COEFFICIENT, LAWS, PLACES, WAVES, by_steps, scene
 from linear_theory import second_order
@@ -63,22 +65,47 @@ TABLE = Table(
 )
 
 
-def row(ground: str, law: str, way: int, share: float, form: QuadraticForm) -> Row:
-    """One row of the table; form: of this ground and law."""
-    begin, place, rubs, wave = time.process_time(), PLACES[ground], LAWS[law], WAVES["sine"]
+class Place(NamedTuple):
+    """A ground, a law, a ray and a place on it, over that of lift-off."""
+
+    ground: str
+    law: str
+    way: int
+    share: float
+
+
+def place_of(row: Row) -> Place:
+    """Of a row."""
+    return Place(row.ground, row.law, row.way, round(row.beta / row.lift_off, 4))
+
+
+def wanted() -> list[Place]:
+    """All places of the table, ray by ray."""
+    return [Place(g, law, way, s) for law in LAWS for g in GROUNDS for way in (1, -1) for s in SHARES]
+
+
+@cache
+def form_on(ground: str, law: str) -> QuadraticForm:
+    """The quadratic form of a ground and a law."""
+    flat = scene(PLACES[ground], WAVES["sine"], LAWS[law], 0.01, 0.0)
+    return second_order(flat, rtol=COEFFICIENT).coefficients
+
+
+def row(place: Place) -> Row:
+    """One row of the table."""
+    begin, form = time.process_time(), form_on(place.ground, place.law)
+    sheet, wave, law = PLACES[place.ground], WAVES["sine"], LAWS[place.law]
     limit = form.lift_off[1]
-    beta = share * limit
+    beta = place.share * limit
     alpha, small = beta / BILAYER, 0.5 * limit / BILAYER
-    asked = scene(place, wave, rubs, alpha, way * beta)
-    cycle = cycle_speed(asked, rtol=RTOL)
-    stepper = by_steps(place, wave, rubs)(alpha, way * beta) if share in BY_STEPS else math.nan
+    cycle = cycle_speed(scene(sheet, wave, law, alpha, place.way * beta), rtol=RTOL)
+    steps = by_steps(sheet, wave, law)
+    stepper = steps(alpha, place.way * beta) if place.share in BY_STEPS else math.nan
     return Row(
-        ground,
-        law,
-        way,
+        *(place.ground, place.law, place.way),
         lift_off=limit,
         beta=beta,
-        form=form.at(small, way * BILAYER * small).value / small**2,
+        form=form.at(small, place.way * BILAYER * small).value / small**2,
         cycle=cycle.mean / alpha**2,
         cycle_error=cycle.error / alpha**2,
         stepper=stepper / alpha**2,
@@ -114,20 +141,17 @@ def _crossing(rows: Sequence[Row], share: float) -> float:
     return rows[-1].beta
 
 
+def complete(rows: Sequence[Row]) -> list[tuple[str, str]]:
+    """Grounds and laws of which the table has both rays whole."""
+    known = {place_of(r) for r in rows}
+    missing = {(place.ground, place.law) for place in wanted() if place not in known}
+    return [(g, law) for g in GROUNDS for law in LAWS if (g, law) not in missing]
+
+
 def main(arguments: Sequence[str] | None = None) -> None:
     """Compute and write the table."""
     out = TABLE.options(__doc__, arguments).out
-    rows = TABLE.read(out) if out.exists() else []
-    rays = [(ground, law) for law in LAWS for ground in GROUNDS]
-    for ground, law in tracked("rays", [ray for ray in rays if not _known(rows, *ray)]):
-        flat = scene(PLACES[ground], WAVES["sine"], LAWS[law], 0.01, 0.0)
-        form = second_order(flat, rtol=COEFFICIENT).coefficients
-        rows += [row(ground, law, way, s, form) for way in (1, -1) for s in SHARES]
-        TABLE.write(rows, out)
-
-
-def _known(rows: Sequence[Row], ground: str, law: str) -> bool:
-    return any((r.ground, r.law) == (ground, law) for r in rows)
+    Filling(TABLE, out, place_of).fill(wanted(), row)
 
 
 if __name__ == "__main__":
