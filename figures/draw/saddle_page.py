@@ -43,8 +43,8 @@ the growth coupling alpha and the curvature coupling beta (eq. 4, rest curvature
     V = V_a alpha + V_aa alpha² + V_ab alpha beta + V_bb beta²,
 
 with V_a = 0 for a sine. `second_order(scene).coefficients` gives all four with their errors in about
-0.1 s, and `crawl_speed(scene, order=2)` the speed of a scene with `Bending`, `Gravity` and level
-`Ground`.
+0.1 s for a sine and a second for a pulse, and `crawl_speed(scene, order=2)` the speed of a scene with
+`Bending`, `Gravity` and level `Ground`.
 
 **The theory.** On a ground linearised about the depth at which it carries the weight (eq. 2:
 s = 2 sqrt(k ρg)) the deflection beta w, upwards, obeys D∇⁴w + s w = −D(1 + ν)∇²c with free edges. The
@@ -96,7 +96,10 @@ def table(*rows: Sequence[str]) -> str:
 
 def told(value: float, error: float = 0.0) -> str:
     """To four digits; 0 where it is below its error."""
-    return "0" if abs(value) <= error else f"{value:.4g}".replace("-", "\N{MINUS SIGN}", 1)
+    if abs(value) <= error:
+        return "0"
+    sign = "\N{MINUS SIGN}" if value < 0 else ""
+    return sign + f"{abs(value):#.4g}".replace("e-0", "e-")
 
 
 def _coefficients(rows: Sequence[saddle.Row]) -> Lines:
@@ -104,12 +107,12 @@ def _coefficients(rows: Sequence[saddle.Row]) -> Lines:
         ["sheet", "wave", "law", *PARTS.values(), "by steps: V_aa, V_ab, V_bb"], *map(_cells, rows)
     )
     yield wrapped(
-        "Speeds in L/T, beta in 1/L. Steps that differ from 0 by less than the error of theory are 0",
-        "here. The tanh law has a slip speed of 0.3 |alpha| L/T. Under viscous friction V_bb is",
-        "exactly 0, since no mean slip is left. The largest distance from theory of the speeds of",
-        "cycles of shapes and of the stepper, extrapolated to small couplings",
-        f"(`{saddle.TABLE.command}`): {_distances(rows)}. The steps resolve V_bb worst on stiff",
-        "ground, where beta² V_bb is 5e-4 of alpha² V_aa.",
+        "Speeds in L/T, beta in 1/L; V_a of the pulse is that of the planar sheet. Steps that differ",
+        "from 0 by less than the error of theory are 0 here. The tanh law has a slip speed of 0.3",
+        "|alpha| L/T. Under viscous friction V_bb is exactly 0, since no mean slip is left. The",
+        "largest distance from theory of the speeds of cycles of shapes and of the stepper,",
+        f"extrapolated to small couplings (`{saddle.TABLE.command}`): {_distances(rows)}. The steps",
+        "resolve V_bb worst on stiff ground, where beta² V_bb is 5e-4 of alpha² V_aa.",
     )
 
 
@@ -194,10 +197,10 @@ def _range(rows: Sequence[saddle.Row], along: Sequence[saddle_range.Row]) -> Lin
     ]
     yield table(["ground", "law", "5 %", "10 %"], *reached)
     yield wrapped(
-        "The paper's gaits, beta = −0.15 and 0.1, are within this if beta is a curvature over 1/L.",
-        f"In the reading kappa = beta/h they have 5 and 3.3/L, {3.3 / soft:.0f} to {5 / soft:.0f}",
-        "times lift-off, far beyond ([the readings](gaits.md)); their alpha, −0.25 and −0.3, is",
-        "large for second order in any.",
+        "The paper's gaits, beta = −0.15 and 0.1, are within this range if beta is a curvature over",
+        f"1/L. In the reading kappa = beta/h they have 5 and 3.3/L, {3.3 / soft:.0f} to",
+        f"{5 / soft:.0f} times lift-off, far beyond ([the readings](gaits.md)); their alpha, −0.25",
+        "and −0.3, is large for second order in any.",
     )
     yield wrapped(
         "At alpha = 0 dry friction is not a quadratic form: the slip is of order beta² alone, and V",
