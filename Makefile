@@ -105,9 +105,9 @@ tables: $(STAMP)
 	$(RUN) -m figures.measure.regimes
 	$(RUN) -m figures.measure.directional
 	$(RUN) -m figures.measure.saddle
-	$(RUN) -m figures.measure.saddle_range
-	$(RUN) -m figures.measure.lower_face
-	$(RUN) -m figures.draw.saddle_page
+	$(RUN) -m figures.measure.plate.saddle_range
+	$(RUN) -m figures.measure.plate.lower_face
+	$(RUN) -m figures.draw.saddle.page
 	$(RUN) -m figures.measure.schemes
 	$(RUN) -m figures.measure.turning
 	$(RUN) -m figures.measure.excitable

@@ -16,16 +16,15 @@ from fem_check.output import progress
 from figures.common import output, records, style
 from figures.measure import (
     directional,
-    lower_face,
     model_error,
     nonlinear,
     reach,
     regimes,
     saddle,
-    saddle_range,
     second_order,
     turning,
 )
+from figures.measure.plate import lower_face, saddle_range
 from linear_theory.speed.si import Scale, speed_si
 from paper.numbers import shell
 

@@ -8,9 +8,10 @@ import numpy as np
 import pytest
 
 from fem_check import simulate
-from figures.draw import saddle as figure
-from figures.draw import saddle_page
-from figures.measure import lower_face, saddle, saddle_range
+from figures.draw.saddle import figure
+from figures.draw.saddle import page as saddle_page
+from figures.measure import saddle
+from figures.measure.plate import lower_face, saddle_range
 from linear_theory import Sheet, SineWave, Viscous, second_order
 
 ROWS, ALONG, FACES = saddle.TABLE.read(), saddle_range.TABLE.read(), lower_face.TABLE.read()

@@ -1,6 +1,6 @@
 """The page on V over growth and curvature, docs/saddle.md, from its tables.
 
-python -m figures.draw.saddle_page [--out FILE]
+python -m figures.draw.saddle.page [--out FILE]
 """
 
 import math
@@ -11,14 +11,15 @@ from pathlib import Path
 
 from figures.common.command import parser
 from figures.common.output import replacing
-from figures.draw.saddle import GROUND_WORDS, SHARES, form_of
-from figures.measure import lower_face, saddle, saddle_range
-from figures.measure.saddle_range import BILAYER, GROUNDS, within
+from figures.draw.saddle.figure import GROUND_WORDS, SHARES, form_of
+from figures.measure import saddle
+from figures.measure.plate import lower_face, saddle_range
+from figures.measure.plate.saddle_range import BILAYER, GROUNDS, within
 from linear_theory import Estimate
 from linear_theory.speed.quadratic_form import QuadraticForm
 
-PAGE = Path(__file__).parents[2] / "docs" / "saddle.md"
-COMMAND = "python -m figures.draw.saddle_page"
+PAGE = Path(__file__).parents[3] / "docs" / "saddle.md"
+COMMAND = "python -m figures.draw.saddle.page"
 
 PARTS = {"aa": "V_aa", "ab": "V_ab", "bb": "V_bb"}
 
@@ -34,7 +35,7 @@ SHEETS = {
 
 HEAD = """# V to second order in growth and curvature
 
-Made by `python -m figures.draw.saddle_page` from the tables saddle, saddle_range and lower_face in
+Made by `python -m figures.draw.saddle.page` from the tables saddle, saddle_range and lower_face in
 figures/data.
 
 A sheet that lies on its ground and bends a little presses it harder here than there. To second order in

@@ -1,6 +1,6 @@
 """What friction on the lower face of a sheet, not on its mid-surface, adds to V under viscous friction.
 
-    python -m figures.measure.lower_face [--out FILE]
+    python -m figures.measure.plate.lower_face [--out FILE]
 
 Writes figures/data/lower_face.csv: a second. The lower face slips by (h/2) beta grad w_t in addition
 (docs/saddle.md). Let s be its part along y per unit beta, less its mean over the sheet. With the load
@@ -52,7 +52,7 @@ class Row:
 TABLE = Table(
     DATA / "lower_face.csv",
     Row,
-    "python -m figures.measure.lower_face",
+    "python -m figures.measure.plate.lower_face",
     "sine wave, viscous friction; speeds in L/T, beta in 1/L, seconds of the processor",
     6,
 )

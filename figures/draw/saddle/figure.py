@@ -5,7 +5,7 @@
 Left: V of the quadratic form over (alpha, beta) for the paper's sheet and ground, from the table of
 `figures.measure.saddle`, between the curvatures at which the sheet lifts off. Right: along the lines
 beta = +-100 alpha/L of two equal layers, on that ground and on one 100 times as stiff, from
-`figures.measure.saddle_range`: V/alpha^2 of the form (lines, dashed beyond lift-off), of cycles of
+`figures.measure.plate.saddle_range`: V/alpha^2 of the form (lines, dashed beyond lift-off), of cycles of
 shapes and of the stepper (symbols), and V over that of the form, with bands of 5 and 10 %. A sine wave,
 the tanh law with a slip speed of 0.3 |alpha| L/T.
 """
@@ -19,8 +19,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from figures.common import output, style
-from figures.measure import saddle, saddle_range
-from figures.measure.saddle_range import BILAYER, GROUNDS
+from figures.measure import saddle
+from figures.measure.plate import saddle_range
+from figures.measure.plate.saddle_range import BILAYER, GROUNDS
 from linear_theory import Estimate
 from linear_theory.speed.quadratic_form import QuadraticForm
 
@@ -178,7 +179,3 @@ def main(arguments: Sequence[str] | None = None) -> None:
     options = style.options("saddle", __doc__, arguments)
     for path in write(options.out, options.formats):
         print(path)
-
-
-if __name__ == "__main__":
-    main()

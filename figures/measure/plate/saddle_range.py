@@ -1,6 +1,6 @@
 """How far the quadratic form of V holds: V of cycles of shapes and of steps along two rays.
 
-    python -m figures.measure.saddle_range [--out FILE]
+    python -m figures.measure.plate.saddle_range [--out FILE]
 
 Writes figures/data/saddle_range.csv: three minutes of one core; it goes on where the file ends. The
 rays are the lines beta = +-3 alpha/h of two equal layers of which one grows, on the paper's ground
@@ -59,7 +59,7 @@ class Row:
 TABLE = Table(
     DATA / "saddle_range.csv",
     Row,
-    "python -m figures.measure.saddle_range",
+    "python -m figures.measure.plate.saddle_range",
     f"V/alpha^2 in L/T along beta = way {BILAYER:g} alpha/L, beta in 1/L, seconds of the processor",
     6,
 )
