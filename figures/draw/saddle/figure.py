@@ -5,9 +5,9 @@
 Left: V of the quadratic form over (alpha, beta) for the paper's sheet and ground, from the table of
 `figures.measure.saddle`, between the curvatures at which the sheet lifts off. Right: along the lines
 beta = +-100 alpha/L of two equal layers, on that ground and on one 100 times as stiff, from
-`figures.measure.plate.saddle_range`: V/alpha^2 of the form (lines, dashed beyond lift-off), of cycles of
-shapes and of the stepper (symbols), and V over that of the form, with bands of 5 and 10 %. A sine wave,
-the tanh law with a slip speed of 0.3 |alpha| L/T.
+`figures.measure.plate.saddle_range`: V/alpha^2 of the form (lines, dashed beyond lift-off), of cycles
+of shapes and of the stepper (symbols), and V over that of the form, with bands of 5 and 10 %. A sine
+wave, the tanh law with a slip speed of 0.3 |alpha| L/T.
 """
 
 from collections.abc import Sequence

@@ -193,7 +193,7 @@ def _range(rows: Sequence[saddle.Row], along: Sequence[saddle_range.Row]) -> Lin
         "kappa = |beta|, at the worse of both lines, of",
     )
     reached = [
-        [GROUND_WORDS[ground], law, *(f"{within(along, ground, law, s):.2g}/L" for s in SHARES)]
+        [GROUND_WORDS[ground], law, *(_reached(along, ground, law, s) for s in SHARES)]
         for ground, law in saddle_range.complete(along)
     ]
     yield table(["ground", "law", "5 %", "10 %"], *reached)
@@ -208,6 +208,13 @@ def _range(rows: Sequence[saddle.Row], along: Sequence[saddle_range.Row]) -> Lin
         "is that of this motion; for a sine it vanishes. Growth of weight and pressure per different",
         "areas, damping, uneven ground, inclines and inertia are refused by name.",
     )
+
+
+def _reached(along: Sequence[saddle_range.Row], ground: str, law: str, share: float) -> str:
+    reached = within(along, ground, law, share)
+    if math.isfinite(reached):
+        return f"{reached:.2g}/L"
+    return f"beyond {max(r.beta for r in saddle_range.ray(along, ground, law, 1)):.2g}/L"
 
 
 def _at_lift_off(along: Sequence[saddle_range.Row], ground: str) -> str:

@@ -116,8 +116,8 @@ def row(place: Place) -> Row:
 def within(rows: Sequence[Row], ground: str, law: str, share: float) -> float:
     """The |beta| over 1/L up to which form and cycles differ by less than a share of V on both rays.
 
-    Interpolated in beta^2, by which the difference grows; the largest beta of the table where it stays
-    below. Raises ValueError, naming the command that makes the table, where it has no such rows.
+    Interpolated in beta^2, by which the difference grows; infinite where it stays below in the whole
+    table. Raises ValueError, naming the command that makes the table, where it has no such rows.
     """
     return min(_crossing(ray(rows, ground, law, way), share) for way in (1, -1))
 
@@ -138,7 +138,7 @@ def _crossing(rows: Sequence[Row], share: float) -> float:
             part = (share - missed) / (off - missed)
             return math.sqrt(square + part * (r.beta**2 - square))
         square, missed = r.beta**2, off
-    return rows[-1].beta
+    return math.inf
 
 
 def complete(rows: Sequence[Row]) -> list[tuple[str, str]]:
