@@ -37,6 +37,10 @@ def test_the_theory_is_that_of_shapes_and_of_steps(part: str, way: str, share: f
     assert saddle_page.distance(ROWS, way, part) < share
 
 
+def test_v_ab_is_negative_everywhere_as_the_page_says() -> None:
+    assert all(r.theory_ab < -r.error_ab and r.stepper_ab < 0 for r in ROWS)
+
+
 def test_rows_are_what_is_computed() -> None:
     (kept,) = (r for r in FACES if r.ground == "paper")
     assert lower_face.row("paper").added_bb == pytest.approx(kept.added_bb, rel=1e-4)

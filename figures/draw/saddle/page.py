@@ -55,11 +55,11 @@ e as in the planar theory. Points of the mid-surface slip with beta² by the str
 where the ground is stiff. There is no slip of order beta, nor of alpha beta: turned upside down,
 (beta, w) → −(beta, w), the sheet has the same energy.
 
-**Why the sign of alpha beta.** V_ab is negative for every sheet under a sine below. The planar sheet
+**Why the sign of alpha beta.** V_ab is negative for every sheet, wave and law below. The planar sheet
 crawls along the wave because its grown parts carry more load. With alpha beta > 0 the parts that grow
-bend into a dome, w > 0, and press less: that works against the load by area, and from
-beta = −V_aa alpha/V_ab on the sheet crawls against the wave. With alpha beta < 0 they bend into a
-trough and press more, and the sheet is faster.
+bend into a dome, w > 0, and press less: that works against the load by area, and under a sine the sheet
+crawls against the wave from beta = −V_aa alpha/V_ab on. With alpha beta < 0 they bend into a trough and
+press more, and the sheet is faster.
 
 ![V over alpha and beta, and along the lines of two layers](../figures/gallery/saddle.png)
 
