@@ -35,6 +35,9 @@ MOST_ALPHA = 0.06
 LINES, MOST_SPEED = (-3, -2, -1, 2, 4, 6, 8, 10, 12), 12e-3
 """V of the labelled lines, over 1e-3 L/T, and at the ends of the colours."""
 
+SHADES = np.linspace(-MOST_SPEED, MOST_SPEED, 97)
+"""Levels of the colours: so many that no steps are seen."""
+
 TICKS = (0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 3.0)
 
 GROUND_COLORS = {"paper": style.COLORS["blue"], "stiff ground": style.COLORS["vermillion"]}
@@ -79,7 +82,7 @@ def _draw_map(axes: Axes, form: QuadraticForm) -> None:
     beta = np.linspace(-limit, limit, 203)[1:-1]
     speed = np.array([[form.at(a, b).value for a in alpha] for b in beta])
     colors: dict[str, Any] = {"cmap": "RdBu_r", "vmin": -MOST_SPEED, "vmax": MOST_SPEED}
-    axes.pcolormesh(alpha, beta, speed, shading="gouraud", rasterized=True, **colors)
+    axes.contourf(alpha, beta, speed, levels=SHADES, extend="both", **colors)
     levels = [1e-3 * v for v in LINES]
     lines = axes.contour(alpha, beta, speed, levels, colors="0.3", linewidths=0.5, linestyles="-")
     axes.clabel(lines, fmt=lambda v: f"{1e3 * v:.0f}".replace("-", "−"), fontsize=6)
