@@ -8,7 +8,7 @@
 #   make cost      error against time of every level, the price of each effect: four minutes
 #   make bench-threads  times beside a busy core against one BLAS thread
 #   make bench-shell  time and memory of the sheet that bends
-#   make tables    every table that the figures, the paper and predict() read: half an hour
+#   make tables    every table that the figures, the paper and predict() read: an hour
 #   make gaits     bending gaits: the map of figure 4, an hour and a half; trapezoids and terrain, an
 #                  hour; 300 at random, hours
 #   make movies    movies 1 to 4 of the paper into figures/out: five minutes
@@ -51,6 +51,7 @@ figures: $(STAMP)
 	$(RUN) -m figures.draw.cost $(FIGURE_OUT)
 	$(RUN) -m figures.draw.regimes $(FIGURE_OUT)
 	$(RUN) -m figures.draw.directional $(FIGURE_OUT)
+	$(RUN) -m figures.draw.saddle $(FIGURE_OUT)
 	$(RUN) -m figures.draw.excitable $(FIGURE_OUT)
 	$(RUN) -m figures.draw.fig2 $(FIGURE_OUT)
 	$(RUN) -m figures.draw.fig4 $(FIGURE_OUT)
@@ -103,6 +104,10 @@ tables: $(STAMP)
 	$(RUN) -m figures.measure.reach
 	$(RUN) -m figures.measure.regimes
 	$(RUN) -m figures.measure.directional
+	$(RUN) -m figures.measure.saddle
+	$(RUN) -m figures.measure.plate.saddle_range
+	$(RUN) -m figures.measure.plate.lower_face
+	$(RUN) -m figures.draw.saddle.page
 	$(RUN) -m figures.measure.schemes
 	$(RUN) -m figures.measure.turning
 	$(RUN) -m figures.measure.excitable

@@ -14,7 +14,17 @@ from matplotlib.image import imread
 
 from fem_check.output import progress
 from figures.common import output, records, style
-from figures.measure import directional, model_error, nonlinear, reach, regimes, second_order, turning
+from figures.measure import (
+    directional,
+    model_error,
+    nonlinear,
+    reach,
+    regimes,
+    saddle,
+    second_order,
+    turning,
+)
+from figures.measure.plate import lower_face, saddle_range
 from linear_theory.speed.si import Scale, speed_si
 from paper.numbers import shell
 
@@ -112,7 +122,18 @@ def test_csv_comes_back_to_the_digits_asked_for(tmp_path: Path) -> None:
 TABLES = [
     *(
         module.TABLE
-        for module in (directional, model_error, nonlinear, regimes, second_order, turning, shell)
+        for module in (
+            directional,
+            lower_face,
+            model_error,
+            nonlinear,
+            regimes,
+            saddle,
+            saddle_range,
+            second_order,
+            turning,
+            shell,
+        )
     ),
     *(reach.SPEEDS, reach.REACHES),
 ]

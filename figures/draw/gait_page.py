@@ -118,7 +118,9 @@ def _bilayers(found: Found) -> Iterator[str]:
         "The layer that grows being the upper or the lower one is the sign of the line; expansion\n"
         "or contraction is the sign of alpha. Under viscous friction V has one sign on each line for\n"
         "small alpha: a saddle. The statement holds on the line kappa = −100 alpha and fails on the\n"
-        "other one.\n"
+        "other one, as the theory for alpha -> 0 has it; were friction on the lower face of the\n"
+        "sheet and not on its mid-surface, it would hold on both there\n"
+        "([V to second order](saddle.md)).\n"
     )
 
 

@@ -1,0 +1,1 @@
+"""The saddle of V over growth and curvature: its figure, its page."""

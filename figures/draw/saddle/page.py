@@ -1,0 +1,250 @@
+"""The page on V over growth and curvature, docs/saddle.md, from its tables.
+
+python -m figures.draw.saddle.page [--out FILE]
+"""
+
+import math
+import textwrap
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from pathlib import Path
+
+from figures.common.command import parser
+from figures.common.output import replacing
+from figures.draw.saddle.figure import GROUND_WORDS, SHARES, form_of
+from figures.measure import saddle
+from figures.measure.plate import lower_face, saddle_range
+from figures.measure.plate.saddle_range import BILAYER, GROUNDS, within
+from linear_theory import Estimate
+from linear_theory.speed.quadratic_form import QuadraticForm
+
+PAGE = Path(__file__).parents[3] / "docs" / "saddle.md"
+COMMAND = "python -m figures.draw.saddle.page"
+
+PARTS = {"aa": "V_aa", "ab": "V_ab", "bb": "V_bb"}
+
+SHEETS = {
+    "paper": "the paper's",
+    "stiff ground": "on a ground 100 times as stiff",
+    "soft ground": "on a ground a tenth as stiff",
+    "narrow": "0.2 L wide, ν = 0.3",
+    "wide": "L wide, ν = 0.3, h = 0.02 L",
+    "thin and heavy": "h = 0.015 L, ν = 0, ρg = 1e-3",
+}
+"""Of `figures.measure.saddle.PLACES`."""
+
+HEAD = """# V to second order in growth and curvature
+
+Made by `python -m figures.draw.saddle.page` from the tables saddle, saddle_range and lower_face in
+figures/data.
+
+A sheet that lies on its ground and bends a little presses it harder here than there. To second order in
+the growth coupling alpha and the curvature coupling beta (eq. 4, rest curvature −beta c),
+
+    V = V_a alpha + V_aa alpha² + V_ab alpha beta + V_bb beta²,
+
+with V_a = 0 for a sine. `second_order(scene).coefficients` gives all four with their errors in about
+0.1 s for a sine and a second for a pulse, and `crawl_speed(scene, order=2)` the speed of a scene with
+`Bending`, `Gravity` and level `Ground`.
+
+**The theory.** On a ground linearised about the depth at which it carries the weight (eq. 2:
+s = 2 sqrt(k ρg)) the deflection beta w, upwards, obeys D∇⁴w + s w = −D(1 + ν)∇²c with free edges. The
+pressure is ρg (1 + beta p), p = −s w/ρg. The load of the friction balance becomes 1 + alpha e + beta p,
+e as in the planar theory. Points of the mid-surface slip with beta² by the stretching of the slopes,
+−∇w∇w/2, and by the moments that turn with the sheet, a part of order (h/wavelength)², or all of it
+where the ground is stiff. There is no slip of order beta, nor of alpha beta: turned upside down,
+(beta, w) → −(beta, w), the sheet has the same energy.
+
+**Why the sign of alpha beta.** V_ab is negative for every sheet, wave and law below. The planar sheet
+crawls along the wave because its grown parts carry more load. With alpha beta > 0 the parts that grow
+bend into a dome, w > 0, and press less: that works against the load by area, and under a sine the sheet
+crawls against the wave from beta = −V_aa alpha/V_ab on. With alpha beta < 0 they bend into a trough and
+press more, and the sheet is faster.
+
+![V over alpha and beta, and along the lines of two layers](../figures/gallery/saddle.png)
+
+"""
+
+Lines = Iterator[str]
+
+
+def made() -> str:
+    """The page of the kept tables."""
+    return page(saddle.TABLE.read(), saddle_range.TABLE.read(), lower_face.TABLE.read())
+
+
+def page(
+    rows: Sequence[saddle.Row],
+    along: Sequence[saddle_range.Row],
+    faces: Sequence[lower_face.Row],
+) -> str:
+    """Its text."""
+    (face,) = (f for f in faces if f.ground == "paper")
+    parts = _coefficients(rows), _bilayers(rows, face), _range(rows, along), _lower(face)
+    return HEAD + "\n\n".join(block for part in parts for block in part) + "\n"
+
+
+def wrapped(*parts: str) -> str:
+    """A paragraph."""
+    return textwrap.fill(" ".join(parts), 104, break_long_words=False, break_on_hyphens=False)
+
+
+def table(*rows: Sequence[str]) -> str:
+    """The first row is the head."""
+    lines = [f"| {' | '.join(row)} |" for row in rows]
+    return "\n".join([lines[0], "| --- " * len(rows[0]) + "|", *lines[1:]])
+
+
+def told(value: float, error: float = 0.0) -> str:
+    """To four digits; 0 where it is below its error."""
+    if abs(value) <= error:
+        return "0"
+    sign = "\N{MINUS SIGN}" if value < 0 else ""
+    return sign + f"{abs(value):#.4g}".replace("e-0", "e-")
+
+
+def _coefficients(rows: Sequence[saddle.Row]) -> Lines:
+    yield table(
+        ["sheet", "wave", "law", *PARTS.values(), "by steps: V_aa, V_ab, V_bb"], *map(_cells, rows)
+    )
+    yield wrapped(
+        "Speeds in L/T, beta in 1/L; V_a of the pulse is that of the planar sheet. Steps that differ",
+        "from 0 by less than the error of theory are 0 here. The tanh law has a slip speed of 0.3",
+        "|alpha| L/T. Under viscous friction V_bb is exactly 0, since no mean slip is left. The",
+        "largest distance from theory of the speeds of cycles of shapes and of the stepper,",
+        f"extrapolated to small couplings (`{saddle.TABLE.command}`): {_distances(rows)}. The steps",
+        "resolve V_bb worst on stiff ground, where beta² V_bb is 5e-4 of alpha² V_aa.",
+    )
+
+
+def _cells(r: saddle.Row) -> list[str]:
+    errors = [getattr(r, f"error_{p}") for p in PARTS]
+    theory, steps = (
+        [told(getattr(r, f"{way}_{p}"), e) for p, e in zip(PARTS, errors, strict=True)]
+        for way in ("theory", "stepper")
+    )
+    return [SHEETS[r.place], r.wave, r.law, *theory, ", ".join(steps)]
+
+
+def _distances(rows: Sequence[saddle.Row]) -> str:
+    words = []
+    for part, name in PARTS.items():
+        shown = [f"{100 * distance(rows, way, part):.1g}" for way in ("cycle", "stepper")]
+        words.append(f"{name} {' and '.join(shown)} %")
+    return ", ".join(words)
+
+
+def distance(rows: Sequence[saddle.Row], way: str, part: str) -> float:
+    """The largest relative distance between theory and "cycle" or "stepper", where theory is not 0."""
+    found = [
+        abs(getattr(r, f"{way}_{part}") / getattr(r, f"theory_{part}") - 1)
+        for r in rows
+        if abs(getattr(r, f"theory_{part}")) > getattr(r, f"error_{part}")
+    ]
+    return max(found, default=math.nan)
+
+
+def _bilayers(rows: Sequence[saddle.Row], face: lower_face.Row) -> Lines:
+    dry, viscous = (form_of(rows, "paper", law) for law in ("tanh", "viscous"))
+    yield wrapped(
+        f"**Bilayers.** Two equal layers have beta = ±3 alpha/h = ±{BILAYER:g} alpha/L. On the",
+        f"paper's ground, for |alpha| < {dry.lift_off[1] / BILAYER:.1g}, beyond which the sheet lifts",
+        "off somewhere:",
+    )
+    yield table(
+        ["friction", f"V on beta = ±{BILAYER:g} alpha/L, over alpha² L/T"],
+        ["tanh, on the mid-surface", _on_lines(dry)],
+        ["viscous, on the mid-surface", _on_lines(viscous)],
+        ["viscous, on the lower face (below)", _on_lines(lower(viscous, face))],
+    )
+    yield wrapped(
+        "On the mid-surface the sheet runs along the wave where the growing layer is below (alpha",
+        "beta < 0) and against it where it is above: the paper's claim, always along the wave, does",
+        "not hold to second order. With viscous friction on the lower face it does.",
+    )
+
+
+def _on_lines(form: QuadraticForm) -> str:
+    mixed, bent = BILAYER * form.alpha_beta.value, BILAYER**2 * form.beta_beta.value
+    speeds = [form.alpha_alpha.value + way * mixed + bent for way in (1, -1)]
+    parts = f"{form.alpha_alpha.value:.1f} ∓ {-mixed:.1f} + {abs(bent):.1f}"
+    return f"{parts}: {' and '.join(f'{v:+.1f}' for v in speeds)}".replace("-", "−")
+
+
+def lower(form: QuadraticForm, face: lower_face.Row) -> QuadraticForm:
+    """A form under viscous friction with friction on the lower face."""
+    mixed, bent = form.alpha_beta, form.beta_beta
+    return replace(
+        form,
+        alpha_beta=Estimate(mixed.value + face.added_ab, mixed.error),
+        beta_beta=Estimate(bent.value + face.added_bb, bent.error),
+    )
+
+
+def _range(rows: Sequence[saddle.Row], along: Sequence[saddle_range.Row]) -> Lines:
+    soft, stiff = (form_of(rows, ground).lift_off[1] for ground in GROUNDS)
+    yield wrapped(
+        "**Where it ends.** At `coefficients.lift_off` the pressure of the linearised ground",
+        f"vanishes somewhere: ±{soft:.2f}/L for the paper's sheet and ground, ±{stiff:.2f}/L on a",
+        "ground 100 times as stiff. There `crawl_speed` refuses. Cycles of shapes along both lines",
+        f"of two layers go further (`{saddle_range.TABLE.command}`): V does not jump at lift-off, and",
+        f"the form differs from them by {_at_lift_off(along, 'paper')} and",
+        f"{_at_lift_off(along, 'stiff ground')} % of V there, and by 5 and 10 % at a rest curvature",
+        "kappa = |beta|, at the worse of both lines, of",
+    )
+    reached = [
+        [GROUND_WORDS[ground], law, *(_reached(along, ground, law, s) for s in SHARES)]
+        for ground, law in saddle_range.complete(along)
+    ]
+    yield table(["ground", "law", "5 %", "10 %"], *reached)
+    yield wrapped(
+        "The paper's gaits, beta = −0.15 and 0.1, are within this range if beta is a curvature over",
+        f"1/L. In the reading kappa = beta/h they have 5 and 3.3/L, {3.3 / soft:.0f} to",
+        f"{5 / soft:.0f} times lift-off, far beyond ([the readings](gaits.md)); their alpha, −0.25",
+        "and −0.3, is large for second order in any.",
+    )
+    yield wrapped(
+        "At alpha = 0 dry friction is not a quadratic form: the slip is of order beta² alone, and V",
+        "is that of this motion; for a sine it vanishes. Growth of weight and pressure per different",
+        "areas, damping, uneven ground, inclines and inertia are refused by name.",
+    )
+
+
+def _reached(along: Sequence[saddle_range.Row], ground: str, law: str, share: float) -> str:
+    reached = within(along, ground, law, share)
+    if math.isfinite(reached):
+        return f"{reached:.2g}/L"
+    return f"beyond {max(r.beta for r in saddle_range.ray(along, ground, law, 1)):.2g}/L"
+
+
+def _at_lift_off(along: Sequence[saddle_range.Row], ground: str) -> str:
+    near = [r for r in along if r.ground == ground and r.beta == r.lift_off]
+    return f"{100 * max(abs(r.form / r.cycle - 1) for r in near):.1f}"
+
+
+def _lower(face: lower_face.Row) -> Lines:
+    mixed, bent, middle = (told(v) for v in (face.added_ab, face.added_bb, face.middle_ab))
+    yield wrapped(
+        "**The lower face.** Friction acts on the mid-surface here, in the paper and in the shell.",
+        "The normal of the deflected sheet is n = (−beta ∇w, 1), and its lower face lies at x −",
+        "(h/2) n: its points are displaced by +(h/2) beta ∇w and slip by +(h/2) beta ∇ẇ in addition,",
+        "of first order in beta, which all three leave out. For w = A sin(ky − ωt) that is (h/2)",
+        "beta k ω w along y: where the sheet is a trough and presses most, the lower face slips",
+        "against the wave and pushes the sheet along it, for either sign of beta. Under viscous",
+        f"friction it adds {mixed} to V_ab = {middle} and {bent} to V_bb = 0 for the paper's sheet",
+        f"(`{lower_face.TABLE.command}`; lower faces of shapes of the nonlinear shell give the same",
+        "within 2 %). Under dry friction V is no quadratic form then: slips of order alpha and of",
+        "order beta compete.",
+    )
+
+
+def main(arguments: Sequence[str] | None = None) -> None:
+    """Write the page."""
+    options = parser(COMMAND, __doc__, PAGE).parse_args(arguments)
+    with replacing(options.out) as part:
+        part.write_text(made(), encoding="utf-8")
+    print(options.out)
+
+
+if __name__ == "__main__":
+    main()
