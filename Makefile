@@ -83,12 +83,12 @@ movies: $(STAMP)
 
 # Hours; goes on where its tables end.
 gaits: $(STAMP)
-	$(RUN) -m figures.measure.gait_paths
-	$(RUN) -m figures.measure.decisive --workers 2
-	$(RUN) -m figures.measure.trapezoids --workers 2
+	$(RUN) -m figures.measure.paper.gait_paths
+	$(RUN) -m figures.measure.paper.decisive --workers 2
+	$(RUN) -m figures.measure.paper.trapezoids --workers 2
 	for form in cosine printed; do for friction in dry viscous; do \
-	$(RUN) -m figures.measure.terrain --workers 2 --form $$form --friction $$friction || exit 1; done; done
-	$(RUN) -m figures.measure.gait_map --workers 2
+	$(RUN) -m figures.measure.paper.terrain --workers 2 --form $$form --friction $$friction || exit 1; done; done
+	$(RUN) -m figures.measure.paper.gait_map --workers 2
 	$(RUN) -m figures.draw.gait_page
 	$(RUN) -m figures.measure.gaits
 	$(RUN) -m figures.measure.gaits_checked

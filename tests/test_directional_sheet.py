@@ -241,7 +241,7 @@ def test_forces_in_axes_that_turned_are_those_of_a_heading(tilted: bool) -> None
         law = Directional(0.5, 1.5, 0.8, heading=heading, form=Tanh(0.5))
         rule = Affine(2.0, np.zeros_like(v))
         step = Step(velocity=rule, load=load, normal=normal, heading=body)
-        state: Any = SimpleNamespace(step=step, position=v / 2, components=3)
+        state: Any = SimpleNamespace(step=step, position=v / 2, components=3, found={})
         effect = Friction(1.0, law=law)
         return effect.force(state), effect.hessian(state)[0, 0]
 

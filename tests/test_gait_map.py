@@ -10,9 +10,9 @@ from fem_check.mesh.location import covering
 from fem_check.runs.lock import claimed
 from figures.common.filling import Filling
 from figures.draw import fig5, gait_page, speed_map
-from figures.measure import trapezoids
-from figures.measure.gait_map import TABLE, Place, Row, counts, place_of, row
-from figures.measure.paper_gait import BACKWARD, FORWARD, FRICTIONS, READINGS
+from figures.measure.paper import trapezoids
+from figures.measure.paper.gait_map import TABLE, Place, Row, counts, place_of, row
+from figures.measure.paper.paper_gait import BACKWARD, FORWARD, FRICTIONS, READINGS
 
 ROWS = TABLE.read()
 

@@ -58,7 +58,7 @@ def test_friction_acts_on_the_reaction_of_the_ground(limit: tuple[RigidGround, S
     load = ground.stiffness * depth**2 * area
     assert load.sum() == pytest.approx(WEIGHT * area.sum(), rel=1e-2)
     held = Stepper(motion.model, motion.start, 0.1).held(
-        Step(), motion.states[-1], motion.model.rest(motion.times[-1])
+        Step(), motion.states[-1], motion.model.rest(motion.times[-1]), motion.times[-1]
     )
     np.testing.assert_allclose(held.pressed, load, rtol=1e-12)
 

@@ -227,6 +227,8 @@ def test_theory_refuses_what_it_cannot_represent() -> None:
         "mesh": "a mesh of its own outline",
     }.items():
         for call in (crawl_speed, second_order, predict):
+            if (name, call) == ("space", second_order):
+                continue  # a plate on its ground
             with pytest.raises(ValueError, match=rf"cannot represent.*{words}"):
                 call(SCENES[name])
     with pytest.raises(ValueError, match=r"wave = SineWave\(.*must be None if a scene is given"):

@@ -17,7 +17,7 @@ from linear_theory.friction.contact import Contact
 from linear_theory.friction.laws import Coulomb, Viscous
 from linear_theory.growth.growth import Growth
 from linear_theory.scene.scene import Scene
-from linear_theory.speed.second_order import TINY_ALPHA, _Coefficients
+from linear_theory.speed.expansion import TINY_ALPHA, Coefficients
 
 SHEET, K = Sheet(width=0.5, poisson=0.3), 2 * np.pi
 SINE = SineWave()
@@ -45,7 +45,7 @@ def theory(wave, load, law, times, area="grown"):
     """q_0 and q_1 at times, (2, times, 3)."""
     field = second_order_field(SHEET, wave, Growth(1.0, energy_area=area), rtol=1e-4)
     fine = Resolution(density=4.0, order=7, halvings=26, tolerance=1e-5)
-    motion = _Coefficients(field, TINY_ALPHA, Contact(load, law), fine).balance(times)
+    motion = Coefficients(field, TINY_ALPHA, Contact(load, law), fine).balance(times)
     return np.stack([motion.leading, motion.remainder])
 
 

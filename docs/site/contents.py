@@ -39,6 +39,7 @@ HOWTO = {
     "friction_direction": "Friction with a direction",
     "outline": "Another outline",
     "slope": "A slope",
+    "energy": "What crawling costs",
     "scene_file": "A scene in a file",
     "run": "A run with all its pictures",
     "bending": "A sheet that bends",

@@ -25,7 +25,7 @@ from fem_check.output.kymographs import Quantity, draw_kymograph
 from fem_check.output.panels import GROWTH_MAP
 from fem_check.output.simulated import Simulated
 from figures.common import style
-from figures.measure.paper_gait import BACKWARD, CELLS, READINGS, SHEET, moved, paper_scene
+from figures.measure.paper.paper_gait import BACKWARD, CELLS, READINGS, SHEET, moved, paper_scene
 
 Array = NDArray[np.float64]
 

@@ -2,8 +2,8 @@
 
     python -m figures.draw.fig4 [--out FOLDER] [--formats png pdf]
 
-V per cycle by steps in time, read from the table of `figures.measure.gait_map`; a panel for each law
-of friction that it has. Grey: no speed, since the run stopped. Hatched: |V| is below its error. Dots:
+V per cycle by steps in time, read from the table of `figures.measure.paper.gait_map`; a panel for each
+law of friction that it has. Grey: no speed, since the run stopped. Hatched: |V| is below its error. Dots:
 the sheet passes through itself, which no real one does. Dashed: two equal layers of which one grows,
 beta = +-100 alpha with beta in 1/L. Symbols: the gait that the paper says runs against the wave
 (triangles to the left) and the one that runs along it (to the right), with its beta read as kappa,
@@ -21,9 +21,9 @@ from matplotlib.patches import Patch
 
 from figures.common import style
 from figures.draw.speed_map import HATCH, draw_speeds, grid
-from figures.measure import gait_paths
-from figures.measure.gait_map import LARGEST, TABLE, Row
-from figures.measure.paper_gait import BACKWARD, FORWARD, FRICTIONS, READINGS
+from figures.measure.paper import gait_paths
+from figures.measure.paper.gait_map import LARGEST, TABLE, Row
+from figures.measure.paper.paper_gait import BACKWARD, FORWARD, FRICTIONS, READINGS
 
 FEWEST = 60
 """Gaits of a law of friction that are worth a panel."""

@@ -3,7 +3,7 @@
     python -m figures.draw.fig5 [--out FOLDER] [--formats png pdf]
 
 V per cycle over w1/w2, the widths of the rear and of the leading edge with respect to the wave, and the
-length L'; from the table of `figures.measure.trapezoids`, kappa = beta/h and viscous friction. Hatched:
+length L'; from the table of `figures.measure.paper.trapezoids`, kappa = beta/h, viscous friction. Hatched:
 |V| is below its error. Grey: not computed. Circles: the best length of each ratio. Dashed: that which
 the paper calls the best.
 """
@@ -16,7 +16,7 @@ from matplotlib.axes import Axes
 
 from figures.common import style
 from figures.draw.speed_map import Grid, draw_speeds, grid
-from figures.measure.trapezoids import GAITS, TABLE, Row
+from figures.measure.paper.trapezoids import GAITS, TABLE, Row
 
 OPTIMUM = {"forward": 0.9, "backward": 1.4}
 """L' of largest speed, as the paper says."""

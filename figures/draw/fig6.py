@@ -3,8 +3,8 @@
     python -m figures.draw.fig6 [--out FOLDER] [--formats png pdf]
 
 V per cycle of the forward gait over the number of waves of the ground on a length L, across and along;
-from the table of `figures.measure.terrain`: a panel for each form of ground (rows) and law of friction
-(columns). Hatched: |V| is below its error. Grey: not computed. Letters: flat ground (A) and the grounds
+from the table of `figures.measure.paper.terrain`: a panel for each form of ground (rows) and law of
+friction (columns). Hatched: |V| is below its error. Grey: not computed. Letters: flat ground (A) and the grounds
 that the paper shows (B to D).
 """
 
@@ -16,7 +16,7 @@ from matplotlib.axes import Axes
 
 from figures.common import style
 from figures.draw.speed_map import MISSING, draw_speeds, grid
-from figures.measure.terrain import FORMS, MOST, SHOWN, TABLE, Row
+from figures.measure.paper.terrain import FORMS, MOST, SHOWN, TABLE, Row
 
 LAWS = ("viscous", "dry")
 

@@ -1,4 +1,4 @@
-"""The page on the gaits of the seed paper, docs/gaits.md, from the table of `figures.measure.gait_map`.
+"""The page on the gaits of the seed paper, docs/gaits.md, from `figures.measure.paper.gait_map`.
 
 python -m figures.draw.gait_page [--out FILE]
 """
@@ -10,8 +10,8 @@ from pathlib import Path
 from figures.common.command import parser
 from figures.common.output import replacing
 from figures.draw.gait_statements import statements
-from figures.measure.gait_map import BILAYER, TABLE, Row
-from figures.measure.paper_gait import BACKWARD, FORWARD, FRICTIONS, READINGS, kept
+from figures.measure.paper.gait_map import BILAYER, TABLE, Row
+from figures.measure.paper.paper_gait import BACKWARD, FORWARD, FRICTIONS, READINGS, kept
 
 ROOT = Path(__file__).parents[2]
 PAGE = ROOT / "docs" / "gaits.md"

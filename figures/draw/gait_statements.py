@@ -9,7 +9,7 @@ import numpy as np
 
 from figures.draw.fig5 import OPTIMUM, WAY, of, optimum
 from figures.draw.speed_map import Grid
-from figures.measure import decisive, gait_map, terrain, trapezoids
+from figures.measure.paper import decisive, gait_map, terrain, trapezoids
 
 ENOUGH = 9
 """Grounds of a law of friction from which extremes can be told."""

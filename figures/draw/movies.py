@@ -16,8 +16,8 @@ from figures.common.command import parser
 from figures.common.folders import OUT
 from figures.common.output import tracked
 from figures.common.scenes import planar_scene
-from figures.measure import decisive, terrain, trapezoids
-from figures.measure.paper_gait import READINGS, SHEET, kept, moved, paper_scene
+from figures.measure.paper import decisive, terrain, trapezoids
+from figures.measure.paper.paper_gait import READINGS, SHEET, kept, moved, paper_scene
 
 STEPS, FRAMES, FPS = 64, 24, 15.0
 

@@ -31,7 +31,7 @@ class Made:
         """What `make` returns, or what it returned for the same objects."""
         if name in self._kept:
             before, part = self._kept[name]
-            if all(_same(*pair) for pair in zip(before, made_of, strict=True)):
+            if len(before) == len(made_of) and all(map(_same, before, made_of)):
                 return part
         return self.keep(name, made_of, make())
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from fem_check.output.files import replacing, writable
+from fem_check.sweeps.records.record import ENERGY_NUMBERS
 from linear_theory.common.extras import optional
 
 if TYPE_CHECKING:
@@ -16,7 +17,10 @@ if TYPE_CHECKING:
 
 SUFFIXES = (".nc", ".csv", ".parquet")
 
-NUMBERS = ("mean", "error", "numerical_error", "wave_error", "model_error", "slip_ratio")
+NUMBERS = (
+    *("mean", "error", "numerical_error", "wave_error", "model_error", "slip_ratio"),
+    *ENERGY_NUMBERS,
+)
 SPEEDS = NUMBERS[:5]
 TIMES = ("cpu_seconds", "seconds")
 WORDS = ("level", "regime", "state", "reason", "warnings", "key")

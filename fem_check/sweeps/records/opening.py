@@ -8,7 +8,7 @@ from pathlib import Path
 from fem_check.runs.lock import claimed
 from fem_check.sweeps.records.store import SCHEMA, Store
 
-VERSION = 1
+VERSION = 2
 """Of the tables below."""
 
 MARK = 0x53686565

@@ -12,6 +12,7 @@ from fem_check.choice.prediction import Prediction
 from fem_check.sweeps.plan import Question
 from linear_theory.common.shown import Shown, plain
 from linear_theory.common.version import current_version
+from linear_theory.speed.result import ENERGIES
 
 
 class State(StrEnum):
@@ -33,6 +34,7 @@ class Record(Shown):
     key: of the question, scene and settings; state: of `State`; reason: why the level was chosen, or
     why there is no answer. mean: the speed V; error: numerical plus model error, of which
     numerical_error, wave_error and model_error are parts; converged: whether the tolerance is met.
+    power, cost_of_transport, efficiency: see `CrawlSpeed`, an infinite cost is None.
     regime: of friction. cpu_seconds: of the thread that found the answer; seconds: as a clock tells
     them. warnings: a line each. program: its version; worker: the process; ended: UTC. settings,
     scene: JSON.
@@ -50,6 +52,12 @@ class Record(Shown):
     converged: bool | None = None
     regime: str | None = None
     slip_ratio: float | None = None
+    power: float | None = None
+    power_error: float | None = None
+    cost_of_transport: float | None = None
+    cost_of_transport_error: float | None = None
+    efficiency: float | None = None
+    efficiency_error: float | None = None
     beyond_reach: str | None = None
     cpu_seconds: float | None = None
     seconds: float | None = None
@@ -60,6 +68,9 @@ class Record(Shown):
     settings: str = ""
     scene: str = ""
 
+
+ENERGY_NUMBERS = tuple(name + end for name in ENERGIES for end in ("", "_error"))
+"""Columns of the energy of a speed."""
 
 COLUMNS = tuple(field.name for field in fields(Record))
 

@@ -13,11 +13,12 @@ from dataclasses import astuple
 from pathlib import Path
 from typing import Any
 
-from fem_check.sweeps.records.record import COLUMNS, FAILURES, Record
+from fem_check.sweeps.records.record import COLUMNS, ENERGY_NUMBERS, FAILURES, Record
 from linear_theory.common.errors import SheetcrawlError
 
 TYPES = {"converged": "INTEGER", **dict.fromkeys(("mean", "error", "numerical_error"), "REAL")}
 TYPES |= dict.fromkeys(("wave_error", "model_error", "slip_ratio", "cpu_seconds", "seconds"), "REAL")
+TYPES |= dict.fromkeys(ENERGY_NUMBERS, "REAL")
 
 SCHEMA = f"""
 CREATE TABLE sweeps (

@@ -1,6 +1,6 @@
 """The paper's two gaits with one thing changed at a time: what its statements of them depend on.
 
-    python -m figures.measure.decisive [--out FILE]
+    python -m figures.measure.paper.decisive [--out FILE]
 
 Writes figures/data/decisive.csv, one row for each change, 8 to 25 s of the processor; it goes on where
 the file ends. The gaits are those of figure 4, kappa = beta/h. Changes: none; a finer mesh, 6 x 12
@@ -16,7 +16,7 @@ from fem_check.shell.stepping.trajectory import Trajectory
 from figures.common.filling import Filling
 from figures.common.folders import DATA
 from figures.common.records import Table
-from figures.measure.paper_gait import (
+from figures.measure.paper.paper_gait import (
     BACKWARD,
     DIGITS,
     FINE,
@@ -68,7 +68,7 @@ class Row(Measured, Place):
 TABLE = Table(
     DATA / "decisive.csv",
     Row,
-    "python -m figures.measure.decisive",
+    "python -m figures.measure.paper.decisive",
     "kappa = beta/h, speeds in L a cycle, depth in L, seconds of the processor",
     DIGITS,
 )

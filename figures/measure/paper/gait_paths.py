@@ -1,6 +1,6 @@
 """The centre of mass of the paper's two gaits over four cycles, for figure 4.
 
-    python -m figures.measure.gait_paths [--out FILE]
+    python -m figures.measure.paper.gait_paths [--out FILE]
 
 Writes figures/data/gait_paths.csv, half a minute; kappa = beta/h.
 """
@@ -13,8 +13,8 @@ import numpy as np
 from figures.common.folders import DATA
 from figures.common.output import tracked
 from figures.common.records import Table
-from figures.measure.decisive import GAITS
-from figures.measure.paper_gait import DIGITS, FRICTIONS, READINGS, kept, moved, paper_scene
+from figures.measure.paper.decisive import GAITS
+from figures.measure.paper.paper_gait import DIGITS, FRICTIONS, READINGS, kept, moved, paper_scene
 
 STEPS, PERIODS = 64, 4
 
@@ -32,7 +32,7 @@ class Row:
 TABLE = Table(
     DATA / "gait_paths.csv",
     Row,
-    "python -m figures.measure.gait_paths",
+    "python -m figures.measure.paper.gait_paths",
     "kappa = beta/h, y in L",
     DIGITS,
 )

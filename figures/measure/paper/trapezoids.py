@@ -1,6 +1,6 @@
 """V of trapezoids of one area, figure 5 of the seed paper, by steps in time.
 
-    python -m figures.measure.trapezoids [--out FILE] [--reading thickness] [--friction viscous]
+    python -m figures.measure.paper.trapezoids [--out FILE] [--reading thickness] [--friction viscous]
 
 Writes figures/data/trapezoids.csv, one row for each sheet, 4 to 20 s of the processor; it goes on where
 the file ends. w1 and w2 are the widths of the rear and of the leading edge with respect to the wave, in
@@ -16,7 +16,7 @@ from fem_check import Outline
 from figures.common.filling import Filling
 from figures.common.folders import DATA
 from figures.common.records import Table
-from figures.measure.paper_gait import (
+from figures.measure.paper.paper_gait import (
     BACKWARD,
     DIGITS,
     FORWARD,
@@ -62,7 +62,7 @@ class Row(Measured, Place):
 TABLE = Table(
     DATA / "trapezoids.csv",
     Row,
-    "python -m figures.measure.trapezoids",
+    "python -m figures.measure.paper.trapezoids",
     "ratio = w1/w2, length = L'/L, speeds in L a cycle, seconds of the processor",
     DIGITS,
 )
@@ -71,7 +71,7 @@ TABLE = Table(
 def outline(ratio: float, length: float) -> Outline:
     """The trapezoid of a ratio w1/w2 and a length L'/L, of the area of the rectangle.
 
-    >>> from figures.measure.trapezoids import outline
+    >>> from figures.measure.paper.trapezoids import outline
     >>> print(round(outline(ratio=3.0, length=0.8).area, 12))
     0.5
     """

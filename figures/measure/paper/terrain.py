@@ -1,6 +1,6 @@
 """V on uneven ground, figure 6 of the seed paper, by steps in time.
 
-    python -m figures.measure.terrain [--out FILE] [--form cosine] [--friction dry] [--points 7]
+    python -m figures.measure.paper.terrain [--out FILE] [--form cosine] [--friction dry] [--points 7]
 
 Writes figures/data/terrain.csv, one row for each ground, 6 to 15 s of the processor; it goes on where
 the file ends. nx = L/lambda_x and ny = L/lambda_y count the waves of height 0.02 on a length L.
@@ -22,7 +22,7 @@ import sympy
 from figures.common.filling import Filling
 from figures.common.folders import DATA
 from figures.common.records import Table
-from figures.measure.paper_gait import (
+from figures.measure.paper.paper_gait import (
     DIGITS,
     FORWARD,
     FRICTIONS,
@@ -72,7 +72,7 @@ class Row(Measured, Place):
 TABLE = Table(
     DATA / "terrain.csv",
     Row,
-    "python -m figures.measure.terrain",
+    "python -m figures.measure.paper.terrain",
     "waves on a length L, speeds in L a cycle, seconds of the processor",
     DIGITS,
 )
@@ -81,7 +81,7 @@ TABLE = Table(
 def height(form: str, nx: float, ny: float) -> Any:
     """z(x, y) as an expression, L = 1; None for flat ground.
 
-    >>> from figures.measure.terrain import height
+    >>> from figures.measure.paper.terrain import height
     >>> print(height("printed", 5.0, 0.0), height("cosine", 5.0, 0.0))
     None 0.02*cos(31.4159265358979*x)
     """

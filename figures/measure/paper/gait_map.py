@@ -1,6 +1,6 @@
 """V over growth and rest curvature, figure 4 of the seed paper, by steps in time.
 
-    python -m figures.measure.gait_map [--out FILE] [--points 21] [--friction both] [--workers 2]
+    python -m figures.measure.paper.gait_map [--out FILE] [--points 21] [--friction both] [--workers 2]
 
 Writes figures/data/gait_map.csv, one row for each gait and law of friction, 6 to 30 s of the processor;
 it goes on where the file ends, and computes rows without an error again. One process writes, with as
@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from figures.common.filling import Filling
 from figures.common.folders import DATA
 from figures.common.records import Table
-from figures.measure.paper_gait import (
+from figures.measure.paper.paper_gait import (
     BACKWARD,
     DIGITS,
     FORWARD,
@@ -54,7 +54,7 @@ class Row(Measured, Place):
 TABLE = Table(
     DATA / "gait_map.csv",
     Row,
-    "python -m figures.measure.gait_map",
+    "python -m figures.measure.paper.gait_map",
     "kappa in 1/L, speeds in L a cycle, seconds of the processor",
     DIGITS,
 )
