@@ -252,3 +252,23 @@ def test_points_on_the_boundary_of_triangles_are_found() -> None:
     np.testing.assert_allclose(flat.points(points).position(flat.zeros(), (0,))[0], points, atol=1e-12)
     with pytest.raises(ValueError, match=r"xi = \[0\. 0\.\]: must be in the parameter domain"):
         flat.points(np.array([[0.0], [0.0]]))
+
+
+@pytest.mark.parametrize("kind", ["MeshQuad", "MeshTri"])
+@pytest.mark.parametrize(("width", "length"), [(30.0, 60.0), (2.1, 7.3), (1 / 3, 1.0), (0.03, 0.06)])
+def test_points_on_edges_and_corners_are_in_the_mesh(kind: str, width: float, length: float) -> None:
+    """Also where rounding puts them outside; they are where bilinear or linear functions say."""
+    x, y = np.linspace(-width / 2, width / 2, 7), np.linspace(-length / 2, length / 2, 13)
+    mesh = getattr(skfem, kind).init_tensor(x, y)
+    element = skfem.ElementQuadBFS() if kind == "MeshQuad" else skfem.ElementTriArgyris()
+    sheet = Discretisation(mesh, element)
+    random = np.random.default_rng(3)
+    share = np.concatenate([random.uniform(size=(20, 4)), np.eye(4)[:3], [[0.5, 0.5, 0, 0]]])
+    share = share[:, : mesh.t.shape[0]] / share[:, : mesh.t.shape[0]].sum(1, keepdims=True)
+    places = np.einsum("ik,ckt->cit", share, mesh.p[:, mesh.t]).reshape(2, -1)
+    found = sheet._elements_at(places)
+    low, high = (getattr(mesh.p[:, mesh.t], m)(axis=1)[:, found] for m in ("min", "max"))
+    assert np.all(places >= low - 1e-9 * length)
+    assert np.all(places <= high + 1e-9 * length)
+    with pytest.raises(ValueError, match="must be in the parameter domain"):
+        sheet._elements_at(np.array([[0.0], [0.51 * length]]))

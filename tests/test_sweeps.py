@@ -211,7 +211,7 @@ def test_files_that_cannot_be_used(file: Path, tmp_path: Path) -> None:
     with sqlite3.connect(tmp_path / "new.sqlite") as db:
         db.execute("PRAGMA user_version = 7")
     db.close()
-    with pytest.raises(ValueError, match="is of version 7, this program writes and reads version 1"):
+    with pytest.raises(ValueError, match="is of version 7, this program writes and reads version 2"):
         free_sweep(tmp_path / "new.sqlite")
 
 

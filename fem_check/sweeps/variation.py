@@ -11,7 +11,7 @@ from fem_check.choice.settings import RunSettings
 from fem_check.files.fields import Table
 from fem_check.files.mistakes import Mistakes, Place, line_of
 from fem_check.files.parts.made import Made
-from fem_check.files.parts.scene_file import SceneFile, built
+from fem_check.files.parts.scene_file import SceneFile, built, wave_made_of
 from fem_check.files.quantities import read, registry
 from fem_check.files.reading import tables_of as tables_in
 from fem_check.files.system import BASES, system_of
@@ -51,7 +51,7 @@ class Variation:
         self._given_wave = wave
         if wave is not None:
             system = system_of(self._tables, mistakes)
-            self._made.keep("wave", (self._tables["wave"], system), wave)
+            self._made.keep("wave", wave_made_of(self._tables, system, None), wave)
         found = built(self._tables, path, mistakes, self._made)
         if found is None or mistakes:
             raise mistakes.error(path, text)

@@ -3,9 +3,9 @@
     python -m figures.draw.fig4 [--out FOLDER] [--formats png pdf]
 
 V per cycle by steps in time, read from the table of `figures.measure.paper.gait_map`; a panel for each
-law of friction that it has. Grey: no speed, since the run stopped. Hatched: |V| is below its error. Dots:
-the sheet passes through itself, which no real one does. Dashed: two equal layers of which one grows,
-beta = +-100 alpha with beta in 1/L. Symbols: the gait that the paper says runs against the wave
+law of friction that it has. Grey: no speed, since the run stopped. Hatched: |V| is below its error.
+Dots: the sheet passes through itself, which no real one does. Dashed: two equal layers of which one
+grows, beta = +-100 alpha with beta in 1/L. Symbols: the gait that the paper says runs against the wave
 (triangles to the left) and the one that runs along it (to the right), with its beta read as kappa,
 beta/h and 100 beta; stars: the largest speeds against and along the wave of a sheet that does not pass
 through itself. Last panel: the path of the centre of mass for kappa = beta/h.

@@ -3,9 +3,9 @@
     python -m figures.draw.fig5 [--out FOLDER] [--formats png pdf]
 
 V per cycle over w1/w2, the widths of the rear and of the leading edge with respect to the wave, and the
-length L'; from the table of `figures.measure.paper.trapezoids`, kappa = beta/h, viscous friction. Hatched:
-|V| is below its error. Grey: not computed. Circles: the best length of each ratio. Dashed: that which
-the paper calls the best.
+length L'; from the table of `figures.measure.paper.trapezoids`, kappa = beta/h, viscous friction.
+Hatched: |V| is below its error. Grey: not computed. Circles: the best length of each ratio. Dashed:
+that which the paper calls the best.
 """
 
 from collections.abc import Sequence

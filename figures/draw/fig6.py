@@ -4,8 +4,8 @@
 
 V per cycle of the forward gait over the number of waves of the ground on a length L, across and along;
 from the table of `figures.measure.paper.terrain`: a panel for each form of ground (rows) and law of
-friction (columns). Hatched: |V| is below its error. Grey: not computed. Letters: flat ground (A) and the grounds
-that the paper shows (B to D).
+friction (columns). Hatched: |V| is below its error. Grey: not computed. Letters: flat ground (A) and
+the grounds that the paper shows (B to D).
 """
 
 from collections.abc import Sequence

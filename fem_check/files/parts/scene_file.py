@@ -19,6 +19,7 @@ from fem_check.mesh.elements import from_data
 from linear_theory.common import validation
 from linear_theory.common.shown import Shown
 from linear_theory.scene.scene import Scene
+from linear_theory.sheet.rectangle import Sheet
 
 
 @dataclass(frozen=True)
@@ -49,6 +50,15 @@ def built(
     return SceneFile(scene, run, system.units, path)
 
 
+def wave_made_of(
+    tables: Mapping[str, Any], system: System | None, sheet: Sheet | None
+) -> tuple[Any, ...]:
+    """What a wave follows from: its table, units, the sheet if it is solved on it, and the outline."""
+    table = tables["wave"]
+    body = sheet if table.equation is not None else None
+    return table, system, body, tables.get("outline") is not None
+
+
 def _scene(
     tables: Mapping[str, Any], system: System, folder: Path, mistakes: Mistakes, made: Made
 ) -> Scene | None:
@@ -59,9 +69,8 @@ def _scene(
             sheet = sheet_of(tables["sheet"], tables.get("outline"), system)
     if "wave" in tables and (sheet is not None or tables["wave"].equation is None):
         with mistakes.under("wave"):
-            table, cut = tables["wave"], tables.get("outline") is not None
-            body = sheet if table.equation is not None else None
-            of = (table, system, body, cut)
+            of = wave_made_of(tables, system, sheet)
+            table, _, _, cut = of
             wave = made.part("wave", of, lambda: wave_of(table, system, folder, sheet, cut))
     if "growth" in tables and sheet is not None and wave is not None:
         with mistakes.under("growth"):

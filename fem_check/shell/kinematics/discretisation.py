@@ -153,22 +153,23 @@ class Discretisation(Shown):
 
     def _elements_at(self, places: Array) -> NDArray[np.int64]:
         """Elements that contain points (2, n), (n,). Raises ValueError outside the mesh."""
-        if self.mesh.t.shape[0] == 3:  # scikit-fem's finder loses points on the boundary of triangles
-            found, _ = self._triangles(*places)
-            outside = found < 0
-        else:
-            try:
-                found, outside = self.mesh.element_finder()(*places), np.zeros(1, bool)
-            except ValueError:
-                outside = np.ones(1, bool)
-        if outside.any():
-            worst = places[:, outside.argmax()]
+        found, _ = self._triangles(*places)
+        if (found < 0).any():
+            worst = places[:, (found < 0).argmax()]
             raise ValueError(f"xi = {worst}: must be in the parameter domain of the mesh")
-        return np.asarray(found, np.int64)
+        return np.asarray(found % self.mesh.nelements, np.int64)
 
     @cached_property
     def _triangles(self) -> TriangleFinder:
-        return TriangleFinder(self.mesh)
+        """Of the elements, or of all their first and then all their second halves.
+
+        scikit-fem's own finders lose points on the boundary to rounding.
+        """
+        mesh = self.mesh
+        if mesh.t.shape[0] == 3:
+            return TriangleFinder(mesh)
+        halves = np.hstack([mesh.t[[0, 1, 2]], mesh.t[[0, 2, 3]]])
+        return TriangleFinder(skfem.MeshTri(mesh.p, halves))
 
     def facets(self, where: Where) -> NDArray[np.int64]:
         """Indices of boundary edges whose midpoints satisfy `where`. Raises ValueError if none does."""

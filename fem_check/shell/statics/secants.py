@@ -17,7 +17,8 @@ DEPTH = 6
 """Steps that are remembered."""
 
 SMALLEST = 1e-8
-"""Cosine of the angle between a step and its change of the gradient, below which it teaches nothing."""
+"""Least curvature along a step, relative to the sum of the sizes of its terms, from which it teaches
+something. Unknowns have several units, so that their squares must not be added."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,8 +42,7 @@ class Secants:
 
     def with_step(self, step: Array, change: Array) -> "Secants":
         """With one step (n,) more, if the energy is convex along it."""
-        cosine = float(step @ change)
-        if not cosine > SMALLEST * float(np.sqrt((step @ step) * (change @ change))):
+        if not step @ change > SMALLEST * float(abs(step) @ abs(change)):
             return self
         return Secants((*self.steps[1 - DEPTH :], step), (*self.changes[1 - DEPTH :], change))
 
