@@ -290,7 +290,8 @@ def energy_in_words(speed: CrawlSpeed) -> str:
         return "none is spent: nothing moves"
     if np.isinf(cost.value):
         return f"{spent}, cost of transport infinite: no distance is resolved"
-    efficiency = with_error(*speed.efficiency)
+    lacking = speed.energy and speed.energy.undragged
+    efficiency = f"unknown: {lacking}" if lacking else with_error(*speed.efficiency)
     return f"cost of transport {with_error(*cost)} mu, efficiency {efficiency}, {spent}"
 
 
