@@ -42,6 +42,9 @@ from linear_theory.friction.mean_map import PLAIN
 
 Array = NDArray[np.float64]
 
+NONE = Estimate(0.0, 0.0)
+"""Of a velocity across."""
+
 DIRECTIONS = 16
 """In which the drag is asked for within the error of a velocity."""
 
@@ -54,6 +57,8 @@ class Energy(Shown):
     the speed; law: of friction; mean_map: of the law over body and period, see `mean_map`, 1 without
     one, NaN where the drag of the rigid sheet is not known; slope: tan(incline)/mu of ground that rises
     towards +y; model_error: of the power, distance to the nonlinear sheet, NaN where not measured.
+    across: mean V_x of a motion in time, whose speed has V_y alone; heading: mean angle of the axes of
+    the law to those of the velocity, anticlockwise, radians.
 
     >>> from linear_theory import SineWave, line_balance
     >>> energy = line_balance(SineWave(), alpha=0.1).energy
@@ -67,6 +72,8 @@ class Energy(Shown):
     mean_map: Estimate
     slope: float = 0.0
     model_error: float = np.nan
+    across: Estimate = NONE
+    heading: float = 0.0
 
     def _rows(self) -> Mapping[str, Any]:
         words = f"{with_error(*self.power)} length/time, over mu times the weight"
@@ -110,7 +117,9 @@ class Energy(Shown):
 
     def _drag(self, velocity: Array, coefficient: float) -> Array:
         """Power to drag the sheet at velocities (2, n), over mu times the weight, (n,)."""
-        friction = coefficient * self.law.dissipation(velocity)
+        cosine, sine = np.cos(self.heading), np.sin(self.heading)
+        in_axes = np.array([[cosine, sine], [-sine, cosine]]) @ velocity
+        friction = coefficient * self.law.dissipation(in_axes)
         return np.maximum(friction + self.slope * velocity[1], 0.0)
 
 

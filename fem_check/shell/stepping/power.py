@@ -183,7 +183,24 @@ def energy_of(motion: "Trajectory") -> Energy | None:
     period = motion.scene.period
     power = Estimate(float(works[last].sum()) / period, error / period)
     spent, mean = friction[last] / steps[last], mean_map_of(motion.scene)
-    return Energy(power, spent, contact.friction, mean, contact.slope)
+    return Energy(
+        power,
+        spent,
+        contact.friction,
+        mean,
+        contact.slope,
+        across=motion.mean_across,
+        heading=_heading(motion),
+    )
+
+
+def _heading(motion: "Trajectory") -> float:
+    """Mean heading of the body over the last period, for laws whose axes turn with it; else 0."""
+    if not motion.scene.contact.friction.follows_body:
+        return 0.0
+    path = motion.path
+    last = path.times >= motion.times[motion.last_period.start]
+    return float(path.heading[last].mean())
 
 
 def _doubt(motion: "Trajectory", rows: slice) -> Array:
