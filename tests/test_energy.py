@@ -5,6 +5,7 @@ other within their stated errors. The random questions of `random_trials` compar
 """
 
 import math
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
@@ -17,8 +18,11 @@ from fem_check.answer.energy import energy, with_model_errors
 from fem_check.answer.record import record
 from linear_theory import (
     Coulomb,
+    Directional,
     Estimate,
     FieldWave,
+    GivenMap,
+    Mapped,
     SampledWave,
     Scale,
     Sheet,
@@ -32,6 +36,9 @@ from linear_theory import (
     line_balance,
     line_power,
 )
+from linear_theory.energy.energy import Energy
+from linear_theory.friction.laws import friction_law
+from linear_theory.friction.mean_map import mean_map
 
 SHEET, SINE = Sheet(), SineWave()
 PULSE = TravellingWave([1.0, 0.4], [0.0, 0.3])
@@ -373,3 +380,111 @@ def test_tables_and_words_hold_the_energy():
     assert dataset["power"].mean() == pytest.approx(found.speed.power.value, rel=1e-2)
     assert "cost of transport" in str(found)
     assert f"{100 * found.speed.efficiency.value:.0f}" in energy(found)
+
+
+# efficiency under maps of friction
+
+
+def mapped(function, law="coulomb", **kinds):
+    return Mapped(friction_law(law), GivenMap(function, **kinds))
+
+
+def dragged(law, velocity):
+    """Efficiency of a rigid sheet that an engine drags at that velocity, against friction alone."""
+    velocity = np.array(velocity)
+    power = 1.7 * float(law.dissipation(velocity[:, None])[0])  # the mean of the map below
+    mean = mean_map(law, 0.25, 1.0, 2.0)
+    return Energy(Estimate(power, 0.0), np.full(1, power), law, mean).efficiency(velocity, 0.0)
+
+
+def test_a_sheet_that_is_dragged_has_efficiency_one_under_a_map():
+    static = mapped(lambda x, y: 1.7 + x + y**3)
+    kinetic = mapped(lambda x, y, t: 1.7 + y + 0.4 * np.sin(np.pi * (t - y)), "viscous", kinetic=True)
+    for law in (static, kinetic):
+        found = dragged(law, [0.03, -0.2])
+        assert abs(found.value - 1) <= found.error + 1e-12
+        assert found.error < 1e-2
+
+
+def test_mean_of_a_map_is_within_its_error_of_the_integral():
+    """Sharp boxes that are not thinner than the intervals, which no grid would see."""
+    random = np.random.default_rng(5)
+    for _ in range(50):
+        (left, low), mu = random.uniform([-0.3, -0.6], [0.25, 0.4]), random.uniform(0.1, 5)
+        across, along = random.uniform(0.02, 0.5, 2)
+        box = mapped(
+            lambda x, y, a=left, b=left + across, c=low, d=low + along, m=mu: np.where(
+                (a < x) & (x < b) & (c < y) & (y < d), m, 1.0
+            )
+        )
+        width, length = min(across, 0.3 - left), min(low + along, 0.5) - max(low, -0.5)
+        exact = 1 + (mu - 1) * width * max(length, 0) / 0.6
+        found = mean_map(box, 0.6, 1.0, 1.0)
+        assert abs(found.value - exact) <= found.error + 1e-12
+        assert found.error < 0.1 * exact
+
+
+@pytest.mark.parametrize("factor", [0.5, 2.0])
+def test_a_constant_map_is_a_factor_of_the_coefficient(factor):
+    """Of a map on the body the power has the factor, of the law in a scene and on a line."""
+    many = mapped(lambda x, y: factor + 0 * x * y)
+    plain, found = (crawl_speed(SHEET, SINE, 0.1, friction=law, rtol=1e-2) for law in (Coulomb(), many))
+    assert found.power.value == pytest.approx(factor * plain.power.value, rel=1e-3)
+    assert within(found.efficiency, plain.efficiency)
+    plain, found = (line_balance(SINE, 0.1, friction=law, rtol=1e-3) for law in (Coulomb(), many))
+    assert within(found.efficiency, plain.efficiency)
+
+
+def test_a_constant_map_of_nonlinear_sheets():
+    mu = 2.0
+    law = Mapped(Tanh(5e-3), GivenMap(lambda x, y: mu + 0 * x * y, mirrored=True))
+    effects = [Membrane(MATERIAL), Gravity(1e-6, load="current"), Friction(0.5, law=law)]
+    asked = scene("sine").but(effects=effects)
+    for found in (cycle_speed(asked, rtol=1e-2), simulate(asked, periods=1, steps=32).speed):
+        assert within(found.efficiency, cycle("sine").efficiency)
+        assert found.power.value == pytest.approx(mu * cycle("sine").power.value, rel=0.03)
+
+
+def test_efficiency_on_a_mapped_ground_is_unknown_and_says_so():
+    law = mapped(lambda x, y: 2 + 0 * x * y, Tanh(5e-3), fixed_to="ground")
+    unknown = mean_map(law, 0.25, 1.0, 1.0)
+    speed = replace(small(1), energy=replace(small(1).energy, law=law, mean_map=unknown))
+    assert math.isnan(speed.efficiency.value)
+    assert speed.cost_of_transport == small(1).cost_of_transport
+    assert "efficiency unknown: a map of friction on the ground" in " ".join(repr(speed).split())
+    found = replace(predict(SHEET, SINE, 0.1, method="first order", rtol=1e-2), speed=speed)
+    assert "efficiency unknown, for a map of friction on the ground" in energy(found)
+
+
+# motions sideways
+
+
+def test_steps_count_the_way_sideways():
+    """Friction that is lower one way on the skew drives the sheet across more than along."""
+    law = Directional(0.5, 1.5, heading=1.4, form=Tanh(0.03))
+    effects = [Membrane(MATERIAL), Gravity(1e-6, load="current"), Friction(1.0, law=law)]
+    asked = Scene(SHEET, SINE, alpha=0.05, effects=effects, cells=(2, 4))
+    one, other = cycle_speed(asked, rtol=1e-2), simulate(asked, periods=1, steps=32).speed
+    assert abs(one.rigid_mean[0]) > 2 * abs(one.mean)
+    across = Estimate(float(one.rigid_mean[0]), float(one.rigid_error[0]))
+    assert within(across, other.energy.across)
+    assert within(one.cost_of_transport, other.cost_of_transport)
+    assert within(one.efficiency, other.efficiency)
+    assert other.cost_of_transport.error < 0.1 * one.cost_of_transport.value
+
+
+def test_drag_is_in_the_axes_of_the_law_and_its_error_holds_for_velocities_all_around():
+    random = np.random.default_rng(8)
+    for _ in range(20):
+        velocity, turn = random.normal(size=2), random.uniform(-2.8, 2.8)
+        doubt = random.uniform(0, 1.3) * np.hypot(*velocity)
+        law = Directional(0.4, 1.5, 0.8, heading=0.3)
+        turned = replace(law, heading=0.3 + turn)
+        of_law = Energy(Estimate(2.0, 0.0), np.ones(1), turned, Estimate(1.0, 0.0))
+        of_body = replace(of_law, law=law, heading=turn)
+        found = of_body.efficiency(velocity, doubt)
+        assert found.value == pytest.approx(of_law.efficiency(velocity, doubt).value)
+        angles, sizes = random.uniform(-3.2, 3.2, 200), doubt * np.sqrt(random.uniform(0, 1, 200))
+        near = velocity[:, None] + sizes * np.stack([np.cos(angles), np.sin(angles)])
+        truths = turned.dissipation(near) / 2
+        assert abs(truths - found.value).max() <= 1.02 * found.error

@@ -26,7 +26,9 @@ def energy(found: "Prediction") -> str:
     if cost.error > ROUGH * cost.value:
         return f"cost of transport about {plain(cost.value, 1)} mu, which this level knows but roughly"
     shown = f"cost of transport {measured(*cost).with_unit('mu')}{_known(found, cost)}"
-    share = measured(100 * efficiency.value, 100 * efficiency.error).with_unit("%")
+    lacking = speed.energy.undragged
+    percent = measured(100 * efficiency.value, 100 * efficiency.error).with_unit("%")
+    share = f"unknown, for {lacking}" if lacking else percent
     return f"{shown}: work of growth per weight and distance; efficiency {share}"
 
 

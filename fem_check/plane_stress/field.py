@@ -4,6 +4,7 @@ The field has the interface of the series and of the Ritz solution, so that the 
 gives its speed. Its error is estimated from a second solution on a mesh of twice the size.
 """
 
+import math
 import time
 from collections.abc import Mapping
 from dataclasses import replace
@@ -172,6 +173,12 @@ class PlaneStressField(LinearField):
         """x, y of the centre of mass of the outline."""
         x, y = self._solver.centre_and_gyration[0].tolist()
         return x, y
+
+    @property
+    def rectangular(self) -> bool:
+        """Whether the outline is the rectangle around it, with its centre at the origin."""
+        area, length = self._solver.weights.sum(), self.sheet.length
+        return math.isclose(area, self.sheet.area) and math.hypot(*self.centre) < 1e-9 * length
 
     @property
     def gyration(self) -> float:

@@ -70,6 +70,11 @@ class LinearField(Shown, ABC):
         return 0.0, 0.0
 
     @property
+    def rectangular(self) -> bool:
+        """Whether the body is the whole rectangle of `sheet`."""
+        return True
+
+    @property
     def gyration(self) -> float:
         """Radius of gyration of the undeformed area about its centre of mass, units of length."""
         return math.hypot(self.sheet.width, self.sheet.length) / math.sqrt(12)

@@ -15,6 +15,7 @@ from linear_theory.friction.law import FrictionLaw
 from linear_theory.friction.laws import FRICTION_LAWS
 from linear_theory.friction.load import Load
 from linear_theory.friction.maps import Mapped
+from linear_theory.friction.mean_map import mean_map
 from linear_theory.friction.regime import warn_if_viscous
 from linear_theory.growth.laws import GrowthLaw
 from linear_theory.line.piece import Piece
@@ -131,7 +132,7 @@ def line_crawl(scene: Scene, tolerance: Tolerance, body: str) -> CrawlSpeed:
         first_order=length * answer.first,
         second_order=length * answer.second,
         sticks=answer.sticks and answer.fastest > 0,
-        energy=Energy(Estimate(*(length * v for v in answer.power)), length * answer.friction, law),
+        energy=_energy(answer, law, length, scene.period),
         seconds=time.perf_counter() - start,
         model=_words(scene, body),
     )
@@ -182,6 +183,12 @@ def _in_lengths(scene: Scene, piece: Piece, tolerance: Tolerance) -> LineMotion:
         return travelling_balance(series, scene.alpha, law, piece)
     on_line = drive(scene.wave, scene.sheet, on_axis(scene.sheet.length))
     return sampled_balance(on_line, scene.alpha, law, piece, tolerance)
+
+
+def _energy(answer: LineMotion, law: FrictionLaw, length: float, period: float) -> Energy:
+    """In units of length, of an answer in lengths of the body."""
+    power = Estimate(*(length * v for v in answer.power))
+    return Energy(power, length * answer.friction, law, mean_map(law, 0.0, length, period))
 
 
 def _words(scene: Scene, body: str) -> str:

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from linear_theory.balance.crawl import Crawl, first_resolution
 from linear_theory.balance.period import average
 from linear_theory.common import validation
+from linear_theory.common.estimate import Estimate
 from linear_theory.common.progress import Report, watched
 from linear_theory.common.threads import one_blas_thread
 from linear_theory.common.tolerance import Tolerance
@@ -22,6 +23,7 @@ from linear_theory.energy.energy import Energy
 from linear_theory.friction.contact import Contact
 from linear_theory.friction.law import FrictionLaw
 from linear_theory.friction.load import Load
+from linear_theory.friction.mean_map import UNKNOWN, mean_map
 from linear_theory.friction.regime import warn_if_viscous
 from linear_theory.growth.growth import Reference
 from linear_theory.growth.laws import GrowthLaw
@@ -33,7 +35,7 @@ from linear_theory.speed.drawn import LinearDeformation
 from linear_theory.speed.model_error import LEVELS, model_error
 from linear_theory.speed.power_error import with_power_error
 from linear_theory.speed.reach import judged, too_large_growth, warn_if_beyond
-from linear_theory.speed.result import CrawlSpeed, Estimate, RigidSpeed
+from linear_theory.speed.result import CrawlSpeed, RigidSpeed
 from linear_theory.speed.second_order import second_order_speed
 from linear_theory.speed.wave_error import with_wave_error
 from linear_theory.speed.words import model_words
@@ -209,10 +211,18 @@ def _field_speed(
         first_order=period.first_order,
         sticks=period.sticks,
         turning=None if crawl.mirrored else turning,
-        energy=Energy(*period.works.at(alpha), law),
+        energy=Energy(*period.works.at(alpha), law, _mean_map(field, law)),
         deformation=deformation,
     )
     return judged(found, beyond_reach(field, alpha))
+
+
+def _mean_map(field: LinearField, law: FrictionLaw) -> Estimate:
+    """Of the map of friction over the sheet; not computed for another outline than a rectangle."""
+    sheet = field.sheet
+    if law.map is not None and not field.rectangular:
+        return UNKNOWN
+    return mean_map(law, sheet.width, sheet.length, field.drive.period)
 
 
 def beyond_reach(field: LinearField, alpha: float) -> str:

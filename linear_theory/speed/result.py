@@ -156,7 +156,8 @@ class CrawlSpeed(Drawable, Tabular):
     def cost_of_transport(self) -> Estimate:
         """Work of growth over weight times distance, over mu; infinite if the sheet stays in place.
 
-        Distances are along and, without mirror symmetry, across the sheet, in its own axes.
+        Distances are along and, without mirror symmetry, across the sheet, in its own axes; those of a
+        motion in time are along the ground.
 
         >>> from linear_theory import Sheet, SineWave, crawl_speed
         >>> speed = crawl_speed(Sheet(), SineWave(), alpha=0.25)
@@ -198,13 +199,16 @@ class CrawlSpeed(Drawable, Tabular):
     @property
     def _velocity(self) -> Array:
         """Mean V_x, V_y."""
-        return np.array([0.0, self.mean]) if self.turning is None else self.turning.mean[:2]
+        if self.turning is not None:
+            return self.turning.mean[:2]
+        return np.array([0.0 if self.energy is None else self.energy.across.value, self.mean])
 
     @property
     def _distance(self) -> Estimate:
         """Speed in any direction."""
-        error = self.error if self.turning is None else float(np.hypot(*self.turning.error[:2]))
-        return Estimate(float(np.hypot(*self._velocity)), error)
+        across = 0.0 if self.energy is None else self.energy.across.error
+        errors = (across, self.error) if self.turning is None else self.turning.error[:2]
+        return Estimate(float(np.hypot(*self._velocity)), float(np.hypot(*errors)))
 
     @property
     def reach(self) -> str:
@@ -290,7 +294,8 @@ def energy_in_words(speed: CrawlSpeed) -> str:
         return "none is spent: nothing moves"
     if np.isinf(cost.value):
         return f"{spent}, cost of transport infinite: no distance is resolved"
-    efficiency = with_error(*speed.efficiency)
+    lacking = speed.energy and speed.energy.undragged
+    efficiency = f"unknown: {lacking}" if lacking else with_error(*speed.efficiency)
     return f"cost of transport {with_error(*cost)} mu, efficiency {efficiency}, {spent}"
 
 

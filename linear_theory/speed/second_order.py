@@ -43,6 +43,7 @@ from linear_theory.friction.load import Load
 from linear_theory.growth.growth import Reference
 from linear_theory.growth.laws import GrowthLaw
 from linear_theory.motion.rigid import RigidNorm
+from linear_theory.scene.dragged import mean_map_of
 from linear_theory.scene.level import PLATE, THEORY
 from linear_theory.scene.scene import Scene
 from linear_theory.sheet.rectangle import Sheet
@@ -244,7 +245,7 @@ def second_order_speed(scene: Scene, tolerance: Tolerance) -> CrawlSpeed:
         speed_at(alpha, both, period, mirrored),
         converged=norm.meets(both.rigid_mean(alpha), both.rigid_error(alpha), tolerance),
         slip_ratio=law.slip_ratio(fastest),
-        energy=Energy(*period.works.at(alpha), law),
+        energy=Energy(*period.works.at(alpha), law, mean_map_of(scene)),
         seconds=time.perf_counter() - start,
     )
     beyond = too_large_growth(scene.drive, alpha, *_points(scene.sheet))

@@ -36,6 +36,7 @@ from linear_theory.friction.contact import Contact
 from linear_theory.friction.law import FrictionLaw
 from linear_theory.friction.load import Load
 from linear_theory.friction.regime import warn_if_viscous
+from linear_theory.scene.dragged import mean_map_of
 from linear_theory.scene.scene import Scene
 from linear_theory.speed.result import CrawlSpeed, Estimate, RigidSpeed
 from linear_theory.speed.wave_error import with_wave_error
@@ -156,7 +157,7 @@ class Cycle(Shown):
             first_order=0.0 if _starts_at_second_order(scene, contact) else math.nan,
             sticks=period.sticks,
             turning=None if balance.mirrored else RigidSpeed(rigid, period.mean, error),
-            energy=Energy(power, spent, contact.friction, contact.slope, distance),
+            energy=Energy(power, spent, contact.friction, mean_map_of(scene), contact.slope, distance),
             deformation=CycleDeformation(balance.shapes, contact, self._other(balance)),
         )
 

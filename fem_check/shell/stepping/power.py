@@ -28,6 +28,7 @@ from fem_check.shell.model import ShellModel
 from linear_theory.common.estimate import Estimate
 from linear_theory.common.shown import Shown
 from linear_theory.energy.energy import Energy
+from linear_theory.scene.dragged import mean_map_of
 
 if TYPE_CHECKING:
     from fem_check.shell.stepping.trajectory import Trajectory
@@ -181,7 +182,25 @@ def energy_of(motion: "Trajectory") -> Energy | None:
         error += abs(float(works[last].sum() - works[before[0]].sum()))
     period = motion.scene.period
     power = Estimate(float(works[last].sum()) / period, error / period)
-    return Energy(power, friction[last] / steps[last], contact.friction, contact.slope)
+    spent, mean = friction[last] / steps[last], mean_map_of(motion.scene)
+    return Energy(
+        power,
+        spent,
+        contact.friction,
+        mean,
+        contact.slope,
+        across=motion.mean_across,
+        heading=_heading(motion),
+    )
+
+
+def _heading(motion: "Trajectory") -> float:
+    """Mean heading of the body over the last period, for laws whose axes turn with it; else 0."""
+    if not motion.scene.contact.friction.follows_body:
+        return 0.0
+    path = motion.path
+    last = path.times >= motion.times[motion.last_period.start]
+    return float(path.heading[last].mean())
 
 
 def _doubt(motion: "Trajectory", rows: slice) -> Array:

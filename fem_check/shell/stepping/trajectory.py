@@ -287,8 +287,7 @@ class Trajectory(Drawable, Tabular):
     @cached_property
     def period_speeds(self) -> Array:
         """Mean velocity along y over each counted period, (periods,)."""
-        marks = [self.centre[1, self._at(k)] for k in range(self.periods + 1)]
-        return np.diff(marks) / self.scene.period
+        return self._period_speeds("y")
 
     @property
     def periods(self) -> int:
@@ -307,23 +306,52 @@ class Trajectory(Drawable, Tabular):
         As far as that error is known (`corrects`): that of backward differences with steps that follow
         from rtol, if the sheet does not jump. Else the last of `period_speeds`.
         """
-        correction = self._mean("step_y") if self._corrected else 0.0
-        return float(self.period_speeds[-1]) + correction
+        return self._velocity("y")
+
+    @property
+    def mean_across(self) -> Estimate:
+        """Mean velocity along x over the last period, as `mean_speed`, with its error.
+
+        The errors of step and spread are those of x; the others, which are known along y, are taken to
+        be as large.
+        """
+        along, shared = self.errors, ("mesh", "snaps", "feedback")
+        own = abs(np.diff(self._period_speeds("x")[-2:])).sum() + self._step_error("x")
+        error = float(own + np.nansum([getattr(along, name) for name in shared]))
+        return Estimate(self._velocity("x"), error)
+
+    def _velocity(self, axis: str) -> float:
+        """Mean of the last period along x or y."""
+        correction = self._mean(f"step_{axis}") if self._corrected else 0.0
+        return float(self._period_speeds(axis)[-1]) + correction
+
+    def _period_speeds(self, axis: str) -> Array:
+        """Mean velocity along x or y over each counted period, (periods,)."""
+        marks = [self.table[f"centre_{axis}"][self._at(k)] for k in range(self.periods + 1)]
+        return np.diff(marks) / self.scene.period
+
+    def _step_error(self, axis: str) -> float:
+        """That of `_velocity` due to the steps."""
+        each = self._mean(f"step_{axis}", size=True)
+        if self._corrected:
+            return (LEFT + LEFT_COARSE * math.sqrt(self.rtol or 0.0)) * each
+        share = UNCERTAIN if self.rtol is None else UNEQUAL
+        return MARGIN * abs(self._mean(f"step_{axis}")) + share * each
 
     @property
     def errors(self) -> SpeedErrors:
         """Estimated errors of the mean speed of the last period."""
         speeds = self.period_speeds
         spread = abs(speeds[-1] - speeds[-2]) if speeds.size > 1 else np.nan
-        share = UNCERTAIN if self.rtol is None else UNEQUAL
-        each = self._mean("step_y", size=True)
-        step = MARGIN * abs(self._mean("step_y")) + share * each
-        if self._corrected:
-            step = (LEFT + LEFT_COARSE * math.sqrt(self.rtol or 0.0)) * each
         dry = self.slip_ratio <= DRY
         slip = abs(self._mean("slip_y")) / (1 - COMPARED) if dry else np.nan
         return SpeedErrors(
-            step, float(spread), self.mesh_error, slip, self.snap_error, self.feedback_error
+            self._step_error("y"),
+            float(spread),
+            self.mesh_error,
+            slip,
+            self.snap_error,
+            self.feedback_error,
         )
 
     @cached_property
