@@ -1,6 +1,7 @@
 """Excitable waves in scene files: written and read again, in units, and their mistakes named."""
 
 import tomllib
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -10,6 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from fem_check import Outline, StrainFeedback
+from fem_check.choice.solving import solved
 from fem_check.choice.ways import way_of
 from fem_check.excitable import (
     BumpStart,
@@ -140,3 +142,14 @@ def test_a_wave_that_does_not_repeat_is_stepped() -> None:
     scene = read(gallery.FOLDER / "excitable.toml").scene
     assert way_of(scene) == "stepped"
     assert way_of(scene, "stepped") == "stepped"
+
+
+def test_the_scene_meets_its_own_tolerance() -> None:
+    """As it is shipped, and with a finer answer within its error."""
+    file = read(gallery.FOLDER / "excitable.toml")
+    found = solved(file.scene, file.run).answer
+    assert found.converged
+    assert file.run.rtol is not None
+    assert found.error <= file.run.rtol * abs(found.mean)
+    fine = solved(file.scene.but(cells=(1, 4)), replace(file.run, rtol=0.1)).answer
+    assert abs(fine.mean - found.mean) <= found.error
