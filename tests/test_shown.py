@@ -500,7 +500,7 @@ def test_estimates_are_numbers_with_their_error_in_rows_of_results() -> None:
     """As for the expansion of a sheet that bends; to_dict has all digits."""
     one = linear_theory.Estimate(1.5, 0.01)
     form = QuadraticForm(one, one, linear_theory.Estimate(-0.2, 0.001))
-    assert repr(one) == "1.500 ± 0.010"
+    assert repr(one) == "Estimate(1.500 ± 0.010)"
     assert [line.split(maxsplit=1) for line in repr(form).splitlines()[1:4]] == [
         ["alpha", "1.500 ± 0.010"],
         ["alpha_alpha", "1.500 ± 0.010"],

@@ -19,7 +19,7 @@ class Estimate(Value, _Estimate):
     >>> print(f"{found.value:.2f}", found.error < 1e-2 * found.value)
     0.11 True
     >>> print(found._replace(error=0.002))
-    0.106 ± 0.002
+    Estimate(0.106 ± 0.002)
     """
 
     def over(self, other: "Estimate") -> "Estimate":
@@ -42,6 +42,9 @@ class Estimate(Value, _Estimate):
         found = value / divisor
         return Estimate(found, (value + error) / (divisor - doubt) - found)
 
+    def __repr__(self) -> str:
+        return f"{type(self).__name__}({self._call()})"
+
     def _call(self) -> str:
-        """On one line, in rows of results, too: no call, which would hide how many digits are known."""
+        """In rows of results: no call, which would hide how many digits are known."""
         return with_error(self.value, self.error)
