@@ -328,7 +328,10 @@ BAD_MAPS: dict[str, tuple[Any, str]] = {
     "raises": (_fails, r"must give mu > 0; KeyError: 'wood'"),
     "text": (lambda x, y: "a", r"must give mu > 0; mu = .*must be real numbers"),
     "not finite": (lambda x, y: np.nan * y, r"must give mu > 0; mu contains nan"),
-    "shape": (lambda x, y: np.ones(3), r"gives mu of shape \(3,\), must be one that broadcasts .*\(2,\)"),
+    "shape": (
+        lambda x, y: np.ones(3),
+        r"gives mu of shape \(3,\), must be one that broadcasts .*\(2,\)",
+    ),
     "more values": (lambda x, y: np.ones((2, 2)), r"gives mu of shape \(2, 2\), must be"),
 }
 

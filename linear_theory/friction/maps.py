@@ -66,7 +66,9 @@ class FrictionMap(Value, ABC):
         try:
             given = validation.real_array("mu", self.mu(x, y, t))
         except Exception as problem:  # whatever a given function may raise
-            words = str(problem) if type(problem) is ValueError else f"{type(problem).__name__}: {problem}"
+            words = (
+                str(problem) if type(problem) is ValueError else f"{type(problem).__name__}: {problem}"
+            )
             raise ValueError(f"map = {validation.shown(self)}: must give mu > 0; {words}") from problem
         try:
             found = np.broadcast_to(given, shape)
@@ -124,9 +126,7 @@ class Patches(FrictionMap):
         outside: float = 1.0,
         fixed_to: FixedTo | str = FixedTo.BODY,
     ) -> None:
-        if not isinstance(patches, Sequence | np.ndarray) or isinstance(patches, str):
-            raise ValueError(f"patches = {validation.shown(patches)}: {PATCHES}")
-        checked = tuple(_patch(i, patch) for i, patch in enumerate(patches))
+        checked = tuple(_patch(i, patch) for i, patch in enumerate(_listed(patches)))
         object.__setattr__(self, "patches", checked)
         for name, value in {"edge": edge, "outside": outside}.items():
             object.__setattr__(self, name, validation.positive(name, value))
@@ -186,9 +186,16 @@ class GivenMap(FrictionMap):
         return np.asarray(self.function(x, y, t) if self.kinetic else self.function(x, y))
 
 
+def _listed(patches: Any) -> Any:
+    """The patches, if they are a list of any kind."""
+    if isinstance(patches, str) or not isinstance(patches, Sequence | np.ndarray):
+        raise ValueError(f"patches = {validation.shown(patches)}: {PATCHES}")
+    return patches
+
+
 def _patch(number: int, patch: Sequence[float]) -> tuple[float, ...]:
     name = f"patches[{number}]"
-    found = validation.real_array(name, patch)  # type: ignore[arg-type]
+    found = validation.real_array(name, patch)
     if found.shape != (5,):
         raise ValueError(f"{name} = {validation.shown(patch)}: must be x_min, x_max, y_min, y_max, mu")
     if not (found[0] < found[1] and found[2] < found[3]):
