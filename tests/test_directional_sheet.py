@@ -317,3 +317,43 @@ def test_bad_maps() -> None:
     sloped = Contact(friction=Mapped(Coulomb(), REAR), slope=0.2)
     with pytest.raises(ValueError, match="map of friction on a slope"):
         cycle_speed(Scene(Sheet(), SineWave(), 0.1, contact=sloped))
+
+
+def _fails(x: object, y: object) -> float:
+    raise KeyError("wood")
+
+
+BAD_MAPS: dict[str, tuple[Any, str]] = {
+    "one argument": (lambda x: 1.0, r"must give mu > 0; TypeError: .*takes 1 positional"),
+    "raises": (_fails, r"must give mu > 0; KeyError: 'wood'"),
+    "text": (lambda x, y: "a", r"must give mu > 0; mu = .*must be real numbers"),
+    "not finite": (lambda x, y: np.nan * y, r"must give mu > 0; mu contains nan"),
+    "shape": (
+        lambda x, y: np.ones(3),
+        r"gives mu of shape \(3,\), must be one that broadcasts .*\(2,\)",
+    ),
+    "more values": (lambda x, y: np.ones((2, 2)), r"gives mu of shape \(2, 2\), must be"),
+}
+
+
+@pytest.mark.parametrize("name", BAD_MAPS)
+def test_a_function_that_is_no_map_is_refused(name: str) -> None:
+    function, words = BAD_MAPS[name]
+    given = GivenMap(function)
+    with pytest.raises(ValueError, match=rf"map = GivenMap\(.*{words}"):
+        given.values([0.0, 0.1], 0.2)
+    with pytest.raises(ValueError, match="map = GivenMap"):
+        crawl_speed(Sheet(), SineWave(), 0.1, friction=Mapped(Coulomb(), given), rtol=0.1)
+
+
+def test_maps_refuse_what_they_are_not_made_of() -> None:
+    bad: Any = "no"
+    for name in ("kinetic", "mirrored"):
+        with pytest.raises(ValueError, match=rf"{name} = 'no': must be True or False"):
+            GivenMap(lambda x, y: 1.0, **{name: bad})
+    for patches in (3, "abc", None):
+        with pytest.raises(ValueError, match=r"patches = .*must be a list of \(x_min, x_max"):
+            Patches(patches, 0.1)  # type: ignore[arg-type]
+    for odd in ((0, 1, 0, 1), (0, 1, 0, 1, [2]), 0):
+        with pytest.raises(ValueError, match=r"patches\[0\]"):
+            Patches([odd], 0.1)  # type: ignore[list-item]

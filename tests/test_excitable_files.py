@@ -1,6 +1,7 @@
 """Excitable waves in scene files: written and read again, in units, and their mistakes named."""
 
 import tomllib
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -10,7 +11,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from fem_check import Outline, StrainFeedback
+from fem_check.choice.solving import solved
 from fem_check.choice.ways import way_of
+from fem_check.command.actions.scene_files import check
+from fem_check.command.actions.scenes import answerable
+from fem_check.command.actions.speed import speed
+from fem_check.command.options import Options
+from fem_check.command.waiting import Waiting
 from fem_check.excitable import (
     BumpStart,
     CrossedStart,
@@ -30,6 +37,7 @@ from fem_check.files.tables import WaveTable
 from fem_check.files.toml import text_of
 from fem_check.files.writing import toml_of
 from linear_theory import Scene, Sheet
+from linear_theory.common.progress import Progress
 from tests.drawn_examples import examples
 
 HERE = Path("scene.toml")
@@ -140,3 +148,74 @@ def test_a_wave_that_does_not_repeat_is_stepped() -> None:
     scene = read(gallery.FOLDER / "excitable.toml").scene
     assert way_of(scene) == "stepped"
     assert way_of(scene, "stepped") == "stepped"
+
+
+def test_the_scene_meets_its_own_tolerance() -> None:
+    """As it is shipped, and with a finer answer within its error."""
+    file = read(gallery.FOLDER / "excitable.toml")
+    found = solved(file.scene, file.run).answer
+    assert found.converged
+    assert file.run.rtol is not None
+    assert found.error <= file.run.rtol * abs(found.mean)
+    fine = solved(file.scene.but(cells=(1, 4)), replace(file.run, rtol=0.1)).answer
+    assert abs(fine.mean - found.mean) <= found.error
+
+
+REFUSED = {
+    "before one cycle": (
+        'until = 5.0\n[wave.equation]\npreset = "nu = -0.1"',
+        "",
+        6,
+        "until = 5: must be",
+    ),
+    "three periods": (
+        'until = 120.0\n[wave.equation]\npreset = "nu = -0.1"',
+        "",
+        6,
+        "until = 120: must be >= 152.1",
+    ),
+    "not repeated": (
+        'until = 120.0\n[wave.equation]\npreset = "nu = -0.1"',
+        'level = "cycle"',
+        10,
+        "level = 'cycle': must be 'stepped' or 'auto' beside this wave",
+    ),
+    "endless": ('until = 1e9\n[wave.equation]\npreset = "printed"', "", 6, "must be in (0, 10000]"),
+    "misplaced": (
+        'until = 9.0\n[wave.equation]\npreset = "printed"\norbit = true',
+        "",
+        9,
+        "orbit: is not a key; it belongs in [wave], before its tables",
+    ),
+}
+
+
+@pytest.mark.parametrize("name", REFUSED)
+def test_what_speed_refuses_is_refused_by_check(name: str, tmp_path: Path) -> None:
+    """By the same line, with the place in the file."""
+    wave, level, line, words = REFUSED[name]
+    run = f"[run]\n{level}\nrtol = 0.2\nperiods = 3\ncells = [1, 3]\n"
+    run = run if level else run.replace("\n\n", "\n")
+    rest = (
+        "[gravity]\nweight = 3e-6\nload = 'current'\n[friction]\ncoefficient = 1.0\nslip_speed = 5e-5\n"
+    )
+    path = tmp_path / "scene.toml"
+    path.write_text(
+        f'[growth]\nalpha = 0.1\n[wave]\nkind = "excitable"\nrtol = 0.05\n{wave}\n{run}{rest}'
+    )
+    told = []
+    for action in (check, lambda path: speed(Options(), path)):
+        with pytest.raises(SceneFileError) as found:
+            action(path)
+        told.append(str(found.value))
+    assert told[0] == told[1]
+    assert told[0].startswith(f"{path}:{line}: [")
+    assert words in told[0]
+
+
+def test_long_solutions_tell_how_far_they_are(monkeypatch: pytest.MonkeyPatch) -> None:
+    """While a file is read, before the level is known."""
+    seen: list[Progress] = []
+    monkeypatch.setattr(Waiting, "report", lambda self, progress: seen.append(progress))
+    answerable(gallery.FOLDER / "excitable.toml")
+    assert "the excitable wave" in {progress.task for progress in seen}

@@ -123,7 +123,7 @@ def test_the_stepped_sheet_follows_a_wave_that_does_not_repeat(phase_wave: Excit
     found = simulate(stepped, periods=2, steps=40)
     assert found.period_speeds.shape == (2,)
     assert not found.speed.converged
-    with pytest.raises(ValueError, match="was solved until t = 220, must be known until"):
+    with pytest.raises(ValueError, match="until = 220: must be >= "):
         simulate(stepped, periods=9)
 
 

@@ -29,6 +29,7 @@ from fem_check.shell.stepping.further.progress import Progress
 from linear_theory.common.shown import LINES, WIDTH, Shown, in_words, number, with_error
 from linear_theory.friction.law import Response
 from linear_theory.growth.bilayer import Couplings
+from linear_theory.speed.quadratic_form import QuadraticForm
 from tests.drawn_examples import examples
 
 PACKAGES = (linear_theory, fem_check)
@@ -493,3 +494,16 @@ def test_named_tuples_are_tuples_still():
     alpha, curvature = fem_check.bilayer(0.2, 0.03)
     assert Couplings(alpha, curvature) == (alpha, curvature)
     assert fem_check.bilayer(0.2, 0.03)._replace(alpha=0.0) == (0.0, curvature)
+
+
+def test_estimates_are_numbers_with_their_error_in_rows_of_results() -> None:
+    """As for the expansion of a sheet that bends; to_dict has all digits."""
+    one = linear_theory.Estimate(1.5, 0.01)
+    form = QuadraticForm(one, one, linear_theory.Estimate(-0.2, 0.001))
+    assert repr(one) == "Estimate(1.500 ± 0.010)"
+    assert [line.split(maxsplit=1) for line in repr(form).splitlines()[1:4]] == [
+        ["alpha", "1.500 ± 0.010"],
+        ["alpha_alpha", "1.500 ± 0.010"],
+        ["alpha_beta", "-0.2000 ± 0.0010"],
+    ]
+    assert one.to_dict() == {"type": "Estimate", "value": 1.5, "error": 0.01}

@@ -40,6 +40,9 @@ third order it is a seventh, so that the first halvings are not trusted too earl
 MOST_NUMBERS = 40_000_000
 """Values of c kept, about 2 GB with their derivatives."""
 
+LONGEST = 1e4
+"""Largest `until`, in units of time of the equation, whose pulses take tens of them: some minutes."""
+
 CHECKS = 64
 """Points, beside the nodes, at which two solutions are compared."""
 
@@ -70,7 +73,7 @@ class Solution(Shown):
         validation.instance("equation", self.equation, Equation)
         if not isinstance(self.body, Sheet | Outline):
             raise ValueError(f"body = {validation.shown(self.body)}: must be a Sheet or an Outline")
-        object.__setattr__(self, "until", validation.positive("until", self.until))
+        object.__setattr__(self, "until", time_of("until", self.until))
         if not SMALLEST_RTOL <= validation.real("rtol", self.rtol) < 1:
             raise ValueError(f"rtol = {self.rtol:g}: must be in [{SMALLEST_RTOL:g}, 1)")
         method = Adaptive() if self.method is None else self.method
@@ -180,11 +183,17 @@ class Solution(Shown):
 
     def check_until(self, end: float) -> None:
         """Raise ValueError unless c is known up to that time."""
-        if end > self.until * (1 + 1e-9):
+        if end <= self.until * (1 + 1e-9):
+            return
+        if not self.alone.cycles.count:
             raise ValueError(
-                f"wave: was solved until t = {self.until:g}, must be known until {end:g}; "
-                "give a larger `until`"
+                f"until = {self.until:g}: must be longer (at most {LONGEST:g}), c has no whole cycle "
+                "by then"
             )
+        raise ValueError(
+            f"until = {self.until:g}: must be >= {end:.6g}, up to which the wave must be known, with "
+            f"periods of {self.period:.4g}"
+        )
 
     def cycle(self, k: int) -> CycleWave:
         """The wave of cycle k (0, 1, ..., or -1 for the last) alone, from t = 0 to its duration."""
@@ -247,6 +256,14 @@ class Solution(Shown):
 
     def _space(self, size: float) -> Space:
         return Space.on(self.body, size, self.equation.start.depends_on_x)
+
+
+def time_of(name: str, value: object) -> float:
+    """A time until which a wave is solved: > 0 and within reach."""
+    found = validation.positive(name, value)
+    if found > LONGEST:
+        raise ValueError(f"{name} = {found:g}: must be in (0, {LONGEST:g}], in units of the equation")
+    return found
 
 
 def difference(fine: Record, coarse: Record) -> Array:

@@ -158,8 +158,7 @@ class Pacing(Value):
         for name in ("period", "duration", "reach"):
             validation.positive(name, getattr(self, name))
         validation.real("strength", self.strength)
-        if not isinstance(self.front, bool):
-            raise ValueError(f"front = {validation.shown(self.front)}: must be True or False")
+        object.__setattr__(self, "front", validation.flag("front", self.front))
         if self.duration > self.period / 2:
             raise ValueError(
                 f"duration = {self.duration:g}: must be at most half of the period, {self.period / 2:g}"

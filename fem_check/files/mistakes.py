@@ -79,7 +79,9 @@ class Mistakes:
         self._more += len(errors[MOST:])
         for error in errors[:MOST]:
             place: Place = (table, *error["loc"])
-            self.add(place, f"{_key(place)}{_words(error, keys_at(kind, error['loc'][:-1]))}")
+            hint = _owner(table, kind, error["loc"]) if error["type"] == "extra_forbidden" else ""
+            words = f": is not a key; {hint}" if hint else _words(error, keys_at(kind, place[1:-1]))
+            self.add(place, f"{_key(place)}{words}")
 
     @property
     def found(self) -> list[tuple[Place, str]]:
@@ -126,6 +128,15 @@ def nearest(name: str, known: Iterable[str]) -> str:
     known = tuple(known)
     close = difflib.get_close_matches(name, known, n=1, cutoff=0.5)
     return f"did you mean {close[0]!r}?" if close else f"must be one of {', '.join(known) or 'none'}"
+
+
+def _owner(table: str, kind: "type[Table]", place: Place) -> str:
+    """A hint at the table around it that has this key, if one has."""
+    *outer, name = place
+    for depth in range(len(outer)):
+        if name in keys_at(kind, outer[:depth]):
+            return f"it belongs in [{'.'.join(map(str, (table, *outer[:depth])))}], before its tables"
+    return ""
 
 
 def line_of(text: str, place: Place) -> int:

@@ -9,8 +9,9 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from fem_check.answer.units import Units
+from fem_check.choice.asked import way_for
 from fem_check.choice.settings import RunSettings
-from fem_check.choice.ways import ANSWERS, THEORIES, way_of
+from fem_check.choice.ways import ANSWERS, THEORIES
 from fem_check.files.mistakes import Place
 from fem_check.sweeps.points.axes import Axis, axes_of
 from fem_check.sweeps.points.designs import Design
@@ -39,8 +40,8 @@ class Question(NamedTuple):
         return hashlib.sha256(json.dumps(said, sort_keys=True).encode()).hexdigest()
 
     def check(self) -> None:
-        """Raise ValueError where the level that is asked for cannot represent the scene."""
-        way_of(self.scene, self.settings.level)
+        """Raise ValueError where the level that is asked for cannot answer the scene."""
+        way_for(self.scene, self.settings)
 
 
 class Refused(SheetcrawlError, ValueError):

@@ -3,7 +3,7 @@
 import math
 from typing import NamedTuple
 
-from linear_theory.common.shown import Shown
+from linear_theory.common.shown import Value, with_error
 
 
 class _Estimate(NamedTuple):
@@ -11,13 +11,15 @@ class _Estimate(NamedTuple):
     error: float
 
 
-class Estimate(Shown, _Estimate):
+class Estimate(Value, _Estimate):
     """A number and its estimated numerical error, absolute.
 
     >>> from linear_theory import Sheet, SineWave, crawl_speed
     >>> found = crawl_speed(Sheet(), SineWave(), alpha=0.25, rtol=1e-2).estimate
     >>> print(f"{found.value:.2f}", found.error < 1e-2 * found.value)
     0.11 True
+    >>> print(found._replace(error=0.002))
+    Estimate(0.106 ± 0.002)
     """
 
     def over(self, other: "Estimate") -> "Estimate":
@@ -39,3 +41,10 @@ class Estimate(Shown, _Estimate):
             return Estimate(math.nan if nothing else math.inf, doubt and math.inf)
         found = value / divisor
         return Estimate(found, (value + error) / (divisor - doubt) - found)
+
+    def __repr__(self) -> str:
+        return f"{type(self).__name__}({self._call()})"
+
+    def _call(self) -> str:
+        """In rows of results: no call, which would hide how many digits are known."""
+        return with_error(self.value, self.error)

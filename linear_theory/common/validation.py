@@ -185,6 +185,13 @@ def choice(name: str, value: object, allowed: Collection[str]) -> str:
     return value
 
 
+def flag(name: str, value: object) -> bool:
+    """`value`, which must be True or False, numpy's included; text such as "no" is neither."""
+    if not isinstance(value, bool | np.bool_):
+        raise ValueError(f"{name} = {shown(value)}: must be True or False")
+    return bool(value)
+
+
 def label(name: str, value: object) -> str:
     """`value`, which must be non-empty text."""
     if not isinstance(value, str) or not value:

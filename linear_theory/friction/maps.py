@@ -25,6 +25,9 @@ REPEATS = 1e-9
 """Relative difference up to which a kinetic map is the same after a period."""
 
 
+PATCHES = "must be a list of (x_min, x_max, y_min, y_max, mu) with x_min < x_max, y_min < y_max, mu > 0"
+
+
 class FixedTo(StrEnum):
     """What the axes of a law, or a map of friction, move with."""
 
@@ -55,11 +58,25 @@ class FrictionMap(Value, ABC):
     def values(self, x: ArrayLike, y: ArrayLike, t: ArrayLike = 0.0) -> Array:
         """At points and times that broadcast.
 
-        Raises ValueError, naming the place, unless all are > 0.
+        Raises ValueError, naming the map, unless it gives a number for each, > 0, and with the place of
+        one that is not.
         """
         x, y = np.asarray(x, float), np.asarray(y, float)
-        found = validation.real_array("map", self.mu(x, y, t))
-        found = np.broadcast_to(found, np.broadcast_shapes(found.shape, x.shape, y.shape))
+        shape = np.broadcast_shapes(x.shape, y.shape, np.shape(t) if self.kinetic else ())
+        try:
+            given = validation.real_array("mu", self.mu(x, y, t))
+        except Exception as problem:  # whatever a given function may raise
+            words = (
+                str(problem) if type(problem) is ValueError else f"{type(problem).__name__}: {problem}"
+            )
+            raise ValueError(f"map = {validation.shown(self)}: must give mu > 0; {words}") from problem
+        try:
+            found = np.broadcast_to(given, shape)
+        except ValueError:
+            raise ValueError(
+                f"map = {validation.shown(self)}: gives mu of shape {given.shape}, must be one that "
+                f"broadcasts to that of x and y, {shape}"
+            ) from None
         if found.size and found.min() <= 0:
             worst = np.unravel_index(found.argmin(), found.shape)
             at_x, at_y = (np.broadcast_to(p, found.shape)[worst] for p in (x, y))
@@ -109,7 +126,7 @@ class Patches(FrictionMap):
         outside: float = 1.0,
         fixed_to: FixedTo | str = FixedTo.BODY,
     ) -> None:
-        checked = tuple(_patch(i, patch) for i, patch in enumerate(patches))
+        checked = tuple(_patch(i, patch) for i, patch in enumerate(_listed(patches)))
         object.__setattr__(self, "patches", checked)
         for name, value in {"edge": edge, "outside": outside}.items():
             object.__setattr__(self, name, validation.positive(name, value))
@@ -140,7 +157,8 @@ class GivenMap(FrictionMap):
 
     fixed_to: "body" or "ground", the latter for maps that are not kinetic. mirrored: whether mu(-x, y)
     = mu(x, y), which halves the work for symmetric waves. A kinetic map has the period of the wave.
-    Raises ValueError for no function; and where it is used, with the place, unless mu > 0.
+    Raises ValueError for no function and for flags that are not bool; and where it is used, naming the
+    map, if the function raises or its shape is wrong, and with the place unless mu > 0.
 
     >>> import numpy as np
     >>> from linear_theory import GivenMap
@@ -157,6 +175,8 @@ class GivenMap(FrictionMap):
     def __post_init__(self) -> None:
         if not callable(self.function):
             raise ValueError(f"function = {validation.shown(self.function)}: must be mu(x, y)")
+        for name in ("kinetic", "mirrored"):
+            object.__setattr__(self, name, validation.flag(name, getattr(self, name)))
         object.__setattr__(self, "fixed_to", FixedTo.named(self.fixed_to))
         if self.kinetic and self.fixed_to is FixedTo.GROUND:
             raise ValueError("kinetic = True: must be False for a map that is fixed to the ground")
@@ -166,9 +186,16 @@ class GivenMap(FrictionMap):
         return np.asarray(self.function(x, y, t) if self.kinetic else self.function(x, y))
 
 
+def _listed(patches: Any) -> Any:
+    """The patches, if they are a list of any kind."""
+    if isinstance(patches, str) or not isinstance(patches, Sequence | np.ndarray):
+        raise ValueError(f"patches = {validation.shown(patches)}: {PATCHES}")
+    return patches
+
+
 def _patch(number: int, patch: Sequence[float]) -> tuple[float, ...]:
     name = f"patches[{number}]"
-    found = validation.real_array(name, np.asarray(patch))
+    found = validation.real_array(name, patch)
     if found.shape != (5,):
         raise ValueError(f"{name} = {validation.shown(patch)}: must be x_min, x_max, y_min, y_max, mu")
     if not (found[0] < found[1] and found[2] < found[3]):

@@ -5,11 +5,10 @@ import sys
 import warnings
 from pathlib import Path
 
-from fem_check.command.actions.scenes import SUFFIX
+from fem_check.command.actions.scenes import SUFFIX, answerable
 from fem_check.command.status import MET, MISSED
 from fem_check.command.text import printable
 from fem_check.command.waiting import Waiting
-from fem_check.files.mistakes import SceneFileError
 from fem_check.output.files import writable
 from linear_theory.common import validation
 from linear_theory.common.errors import SheetcrawlError
@@ -22,16 +21,10 @@ def run(path: Path, out: Path | None, resume: bool) -> int:
 
     Raises ValueError for mistakes in the file and for a folder that cannot be that of this run.
     """
-    from fem_check.choice.ways import way_of
-    from fem_check.files.reading import read
     from fem_check.runs.errors import NotWrittenError
     from fem_check.runs.running import run as to_folder
 
-    file = read(path)
-    try:
-        way_of(file.scene, file.run.level)
-    except ValueError as problem:
-        raise SceneFileError(f"{path}: {problem}") from None
+    file, _ = answerable(path)
     folder = out or _folder(path)
     again = _again(path, out)
     with warnings.catch_warnings(record=True, action="always") as seen, Waiting() as waiting:

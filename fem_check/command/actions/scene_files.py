@@ -88,24 +88,23 @@ def _write_new(text: str, path: Path) -> None:
 def check(path: Path) -> int:
     """Print what would be simulated; the exit status. Raises SceneFileError for mistakes."""
     from fem_check.answer.block import wrapped
-    from fem_check.files.reading import read
+    from fem_check.command.actions.scenes import answerable
 
-    rows = _said(read(path))
+    rows = _said(*answerable(path))
     width = min(shutil.get_terminal_size((WIDEST, 0)).columns, WIDEST)
     lines = [f"{path} is a scene", *(wrapped(label, text, width) for label, text in rows.items())]
     print(printable("\n".join(lines), sys.stdout))
     return MET
 
 
-def _said(found: "SceneFile") -> dict[str, str]:
+def _said(found: "SceneFile", way: str) -> dict[str, str]:
     """The scene, the level that answers it, and its cost."""
     from fem_check.choice.expected import expected_seconds
-    from fem_check.choice.ways import way_of
     from fem_check.files.mistakes import SceneFileError
 
     run = found.run
     try:
-        rows, way = _scene_rows(found), way_of(found.scene, run.level)
+        rows = _scene_rows(found)
     except ValueError as problem:
         raise SceneFileError(f"{found.path}: {problem}") from None
     seconds = expected_seconds(found.scene, way, run)

@@ -3,21 +3,25 @@
 from dataclasses import fields, replace
 from pathlib import Path
 
+from fem_check.choice.asked import way_for
 from fem_check.choice.prediction import Prediction
 from fem_check.choice.solving import solved
-from fem_check.choice.ways import way_of
 from fem_check.command.options import Options
 from fem_check.command.quantities import share
-from fem_check.files.mistakes import SceneFileError
+from fem_check.command.waiting import Waiting
+from fem_check.files.mistakes import Mistakes, SceneFileError
 from fem_check.files.parts.scene_file import SceneFile
-from fem_check.files.reading import read
+from fem_check.files.reading import parsed, text_of
 from linear_theory.common import validation
-from linear_theory.common.progress import Report
+from linear_theory.common.progress import Report, watched
 
 BESIDE = ("rtol", "json", "csv", "plot", "movie", "why")
 """Options that may stand beside a scene file; all others are said by it."""
 
 SUFFIX = ".toml"
+
+ASKED = {"level": "run", "until": "wave"}
+"""Keys that a scene may be refused for only once all of it is known, and their tables."""
 
 
 def asked_by_file(path: Path, options: Options) -> SceneFile:
@@ -36,20 +40,39 @@ def asked_by_file(path: Path, options: Options) -> SceneFile:
         if field.name not in BESIDE and value != getattr(default, field.name):
             option = f"--{field.name.replace('_', '-')}"
             raise ValueError(f"{option} {value!r}: must be left out, {path} says it")
-    found = read(path)
+    found, way = answerable(path)
+    _check(found, way, options)
     if options.rtol != default.rtol:
         rtol = validation.tolerance(share("rtol", options.rtol))
         found = replace(found, run=replace(found.run, rtol=rtol, steps=None))
-    _check(found, options)
     return found
 
 
-def _check(found: SceneFile, options: Options) -> None:
-    """Raise ValueError where no level answers, or the one that does has nothing to be drawn."""
-    try:
-        way = way_of(found.scene, found.run.level)
-    except ValueError as problem:
-        raise SceneFileError(f"{found.path}: {problem}") from None
+def answerable(path: Path) -> tuple[SceneFile, str]:
+    """A scene file and the level that answers it, with progress: an equation of a wave is solved.
+
+    Raises SceneFileError, with the line and the key, where it cannot be answered.
+    """
+    with Waiting() as waiting, watched(waiting.report, "sheetcrawl"):
+        text = text_of(path)
+        found = parsed(text, path)
+        try:
+            return found, way_for(found.scene, found.run)
+        except ValueError as problem:
+            mistakes = Mistakes()
+            words = " ".join(str(problem).split())
+            table = next((name for key, name in ASKED.items() if words.startswith(f"{key} = ")), None)
+            if table is None and found.run.level == "auto":
+                raise SceneFileError(f"{path}: {words}") from None
+            if table is None:
+                mistakes.add(("run", "level"), f"level = {found.run.level!r}: {words}")
+            else:
+                mistakes.add_raised((table,), words)
+            raise mistakes.error(path, text) from None
+
+
+def _check(found: SceneFile, way: str, options: Options) -> None:
+    """Raise ValueError where the level that answers has nothing to be drawn."""
     for name in ("plot", "movie"):
         if way == "stepped" and getattr(options, name) is not None:
             raise ValueError(
