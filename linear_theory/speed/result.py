@@ -23,6 +23,10 @@ Array = NDArray[np.float64]
 
 UNKNOWN = Estimate(np.nan, np.nan)
 
+SOLVED = "must be of a sheet that was solved here"
+POWERED = "must be of a planar theory, cycle_speed, or simulate with Friction and Gravity"
+"""What an energy needs, in words."""
+
 
 @dataclass(frozen=True, eq=False)
 class RigidSpeed(Shown):
@@ -65,8 +69,8 @@ class CrawlSpeed(Drawable, Tabular):
     beyond_reach: why a theory of small growth is not valid at this alpha (see `reach`), in words; empty
     if it is. Such results are never converged.
     wave_error: the part of error due to a measured wave (see `wave_error`), 0 for an exact one.
-    energy: power of growth and friction, None if not known; `power`, `cost_of_transport` and
-    `efficiency` are made of it.
+    energy: power of growth and friction, None if not known, as for the plate to second order; `power`,
+    `cost_of_transport` and `efficiency` are made of it.
     deformation: the deformation of the sheet, for pictures (see `drawn.Deformation`); None if there
     is no shape. It is not part of the value and is not copied or pickled.
 
@@ -187,8 +191,8 @@ class CrawlSpeed(Drawable, Tabular):
         """
         strain = checked_strain(friction_strain)
         if self.deformation is None or self.energy is None:
-            missing = "shape" if self.deformation is None else "known power of friction"
-            raise ValueError(f"speed: has no {missing}, must be of a sheet that was solved here")
+            needed = f"shape, {SOLVED}" if self.deformation is None else f"known power, {POWERED}"
+            raise ValueError(f"speed: has no {needed}")
         drive = self.deformation.drive
         times = growth_times(drive.period)
         spent = np.interp(times, self.times, self.energy.spent, period=drive.period)

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from linear_theory.common import validation
 from linear_theory.common.shown import Shown, Value
-from linear_theory.speed.result import CrawlSpeed
+from linear_theory.speed.result import POWERED, CrawlSpeed
 
 
 class _EnergySI(NamedTuple):
@@ -72,7 +72,7 @@ class Scale(Value):
         """
         force = validation.positive("weight_n", weight_n) * validation.positive("friction", friction)
         if speed.energy is None:
-            raise ValueError("speed: has no known energy, must be of a sheet with known friction")
+            raise ValueError(f"speed: has no known power, {POWERED}")
         power = force * self.speed(speed.power.value)
         cost = friction * speed.cost_of_transport.value
         return EnergySI(power, power * self.period_s, cost)
