@@ -15,7 +15,7 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from figures.common import style
-from figures.draw.speed_map import Grid, draw_speeds, grid
+from figures.draw.speed_map import Grid, draw_places, draw_speeds, grid, is_map
 from figures.measure.paper.trapezoids import GAITS, TABLE, Row
 
 OPTIMUM = {"forward": 0.9, "backward": 1.4}
@@ -50,7 +50,12 @@ def of(rows: Sequence[Row], gait: str, reading: str = "thickness", friction: str
 
 def draw_gait(ax: Axes, gait: str, found: Grid, most: float) -> Any:
     """One panel; its image."""
-    image = draw_speeds(ax, found._replace(x=np.log2(found.x)), most)
+    if is_map(found):
+        image = draw_speeds(ax, found._replace(x=np.log2(found.x)), most)
+    else:
+        x, y = np.meshgrid(np.log2(found.x), found.y)
+        image = draw_places(ax, x.ravel(), y.ravel(), found.speed.ravel(), most)
+        ax.set_xlim(-2.2, 2.2)
     tops = optimum(found, WAY[gait])
     ax.plot(
         np.log2(list(tops)),

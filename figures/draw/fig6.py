@@ -15,7 +15,7 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from figures.common import style
-from figures.draw.speed_map import MISSING, draw_speeds, grid
+from figures.draw.speed_map import MISSING, draw_places, draw_speeds, grid
 from figures.measure.paper.terrain import FORMS, MOST, SHOWN, TABLE, Row
 
 LAWS = ("viscous", "dry")
@@ -27,13 +27,20 @@ TITLES = {"printed": r"$\sin\,\sin$ (eq. 13)", "cosine": r"$\cos\,\cos$"}
 
 
 def draw_ground(ax: Axes, rows: Sequence[Row], most: float) -> Any:
-    """One panel; its image, None where the table has no map."""
+    """One panel; its image, None where the table has nothing. Few grounds are discs beside letters."""
     ax.set_facecolor(MISSING)
-    image = draw_speeds(ax, grid(rows, "nx", "ny"), most) if len(rows) >= FEWEST else None
+    image = None
+    if len(rows) >= FEWEST:
+        image = draw_speeds(ax, grid(rows, "nx", "ny"), most)
+    elif rows:
+        x, y = [r.nx for r in rows], [r.ny for r in rows]
+        image = draw_places(ax, x, y, [r.third for r in rows], most)
     for letter, place in SHOWN.items():
         ax.annotate(
             letter,
             place,
+            xytext=(11, 0) if 0 < len(rows) < FEWEST else (0, 0),
+            textcoords="offset points",
             ha="center",
             va="center",
             size=7,

@@ -61,3 +61,19 @@ def draw_speeds(ax: Axes, found: Grid, most: float) -> Any:
     y, x = np.nonzero(found.crossed > 0)
     ax.plot(found.x[x], found.y[y], ".", color="0.25", markersize=2)
     return image
+
+
+FEWEST = 3
+"""Values each way from which places are a map."""
+
+
+def is_map(found: Grid) -> bool:
+    """Whether there are places enough for a map; if not, `draw_places` shows them."""
+    return min(found.speed.shape) >= FEWEST
+
+
+def draw_places(ax: Axes, x: Any, y: Any, speed: Any, most: float) -> Any:
+    """Single places as discs on a scale of +-most; their image."""
+    ax.set_facecolor("0.93")
+    look: dict[str, Any] = {"cmap": "RdBu_r", "vmin": -most, "vmax": most, "linewidth": 0.6}
+    return ax.scatter(x, y, c=speed, s=90, edgecolors="black", zorder=2, **look)
