@@ -19,7 +19,7 @@ class Estimate(Value, _Estimate):
     >>> print(f"{found.value:.2f}", found.error < 1e-2 * found.value)
     0.11 True
     >>> print(found._replace(error=0.002))
-    Estimate(0.106 ± 0.002)
+    Estimate(0.1059 ± 0.0020)
     """
 
     def over(self, other: "Estimate") -> "Estimate":

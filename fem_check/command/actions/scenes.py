@@ -65,7 +65,9 @@ def answerable(path: Path) -> tuple[SceneFile, str]:
             if table is None and found.run.level == "auto":
                 raise SceneFileError(f"{path}: {words}") from None
             if table is None:
-                mistakes.add(("run", "level"), f"level = {found.run.level!r}: {words}")
+                mistakes.add(
+                    ("run", "level"), f"level = {found.run.level!r}: {words.removeprefix('effects: ')}"
+                )
             else:
                 mistakes.add_raised((table,), words)
             raise mistakes.error(path, text) from None
