@@ -45,7 +45,8 @@ the growth coupling alpha and the curvature coupling beta (eq. 4, rest curvature
 
 with V_a = 0 for a sine. `second_order(scene).coefficients` gives all four with their errors in about
 0.1 s for a sine and a second for a pulse, and `crawl_speed(scene, order=2)` the speed of a scene with
-`Bending`, `Gravity` and level `Ground`.
+`Bending`, `Gravity` and level `Ground`. It has no power, hence no cost of transport and no efficiency,
+which are NaN: `cycle_speed` and `simulate` have them.
 
 **The theory.** On a ground linearised about the depth at which it carries the weight (eq. 2:
 s = 2 sqrt(k ρg)) the deflection beta w, upwards, obeys D∇⁴w + s w = −D(1 + ν)∇²c with free edges. The
