@@ -207,3 +207,26 @@ def test_bad_input(arguments: dict[str, object], words: str) -> None:
 def test_a_heading_has_no_meaning_on_a_line() -> None:
     with pytest.raises(ValueError, match=r"heading = 0\.3: must be 0 on a line"):
         line_balance(SineWave(), 0.1, friction=Directional(1, 2, heading=0.3))
+
+
+@pytest.mark.parametrize("r", [-0.5, 0.3, 0.8])
+def test_power_of_a_standing_wave_is_that_of_a_fine_grid(r: float) -> None:
+    """The weight that slips forward meets forward friction; load by area, literally."""
+    alpha, law, places, times = 0.3, ratchet(r), 2000, 400
+    y = (np.arange(places) + 0.5) / places - 0.5
+    powers = []
+    for t in (np.arange(times) + 0.5) / times:
+        # c = cos(2 pi y + 1) sin(2 pi t), and the velocity of what it stretches
+        c = np.cos(2 * np.pi * y + 1) * np.sin(2 * np.pi * t)
+        own = alpha * np.sin(2 * np.pi * y + 1) * np.cos(2 * np.pi * t)
+        weight, order = 1 + alpha * c, np.argsort(own)
+        below = np.cumsum(weight[order]) / weight.sum()
+        # slip own + V: what is below slips backward, and bears (1 + r) of its weight
+        slip = own - own[order][np.searchsorted(below, (1 - r) / 2)]
+        powers.append(np.mean(weight * np.where(slip > 0, (1 - r) * slip, -(1 + r) * slip)))
+    wave = FieldWave(
+        lambda x, y, t: np.cos(2 * np.pi * y + 1) * np.sin(2 * np.pi * t) + 0 * x, period=1.0
+    )
+    found = line_balance(wave, alpha, friction=law, rtol=1e-4, length=1.0)
+    # The grid: a cell of the quantile moves the power at second order, the times likewise
+    assert found.power.value == pytest.approx(np.mean(powers), rel=3e-4)
