@@ -216,16 +216,10 @@ class Response(Shown):
 
 
 @dataclass(frozen=True)
-class Opposite(FrictionLaw):
-    """The law of opposite velocities, for one that is not `reversible`."""
+class Derived(FrictionLaw):
+    """A law made from another one, `law`, with its axes and its width."""
 
     law: FrictionLaw
-    name: ClassVar[str] = "opposite"
-
-    @property
-    def mirrored(self) -> bool:
-        """See FrictionLaw."""
-        return self.law.mirrored
 
     @property
     def crease(self) -> tuple[float, float] | None:
@@ -246,6 +240,18 @@ class Opposite(FrictionLaw):
     def width(self) -> float:
         """See FrictionLaw."""
         return self.law.width
+
+
+@dataclass(frozen=True)
+class Opposite(Derived):
+    """The law of opposite velocities, for one that is not `reversible`."""
+
+    name: ClassVar[str] = "opposite"
+
+    @property
+    def mirrored(self) -> bool:
+        """See FrictionLaw."""
+        return self.law.mirrored
 
     @property
     def words(self) -> str:

@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from linear_theory.common import validation
 from linear_theory.common.shown import Value
-from linear_theory.friction.law import ALL, FrictionLaw, Response
+from linear_theory.friction.law import ALL, Derived, FrictionLaw, Response
 
 Array = NDArray[np.float64]
 
@@ -206,7 +206,7 @@ def _patch(number: int, patch: Sequence[float]) -> tuple[float, ...]:
 
 
 @dataclass(frozen=True)
-class Mapped(FrictionLaw):
+class Mapped(Derived):
     """A law whose coefficient differs from place to place by a map.
 
     law: any law but a mapped one; map: `Patches` or a `GivenMap`. Raises ValueError for anything else.
@@ -218,7 +218,6 @@ class Mapped(FrictionLaw):
     dry friction times 0.5 forward, 1.5 backward, 1 sideways, fixed to the body times a map on the body
     """
 
-    law: FrictionLaw
     map: FrictionMap  # type: ignore[misc]  # None of laws without one, in their class
     name: ClassVar[str] = "mapped"
 
@@ -242,26 +241,6 @@ class Mapped(FrictionLaw):
     def reversible(self) -> bool:
         """See FrictionLaw; not if the map is kinetic, as the other half of the period has another."""
         return self.law.reversible and not self.map.kinetic
-
-    @property
-    def crease(self) -> tuple[float, float] | None:
-        """See FrictionLaw."""
-        return self.law.crease
-
-    @property
-    def follows_body(self) -> bool:
-        """See FrictionLaw."""
-        return self.law.follows_body
-
-    @property
-    def follows_ground(self) -> bool:
-        """See FrictionLaw."""
-        return self.law.follows_ground
-
-    @property
-    def width(self) -> float:
-        """See FrictionLaw."""
-        return self.law.width
 
     @property
     def limits(self) -> tuple[float, float]:
