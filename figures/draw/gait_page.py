@@ -9,7 +9,7 @@ from pathlib import Path
 
 from figures.common.command import parser
 from figures.common.output import replacing
-from figures.draw.gait_statements import statements
+from figures.draw.gait_statements import by_steps, number, statements
 from figures.measure.paper.gait_map import BILAYER, TABLE, Row
 from figures.measure.paper.paper_gait import BACKWARD, FORWARD, FRICTIONS, READINGS, kept
 
@@ -65,8 +65,9 @@ its area L²/2 agree.
 With sines, as eq. 13 has it, ground with ridges along one axis only (B, C) would be flat, so that
 "cosine" ground is run too. The paper's viscous friction, weight times v/v0, is some thousandths of the
 weight at 0.1 L a cycle; slopes reach 0.6. Under dry friction a sheet that buckles may
-take another way with other steps: on flat ground V of the forward gait is +0.109 with 48 steps a cycle
-and +0.121 to +0.122 with 64 to 192. That difference is the least error of all grounds above.
+take another way with other steps: on flat ground V of the forward gait is
+SPEEDS.
+That range is the least error of all grounds above.
 
 ![Speed on uneven ground](../figures/gallery/fig6.png)
 
@@ -81,8 +82,13 @@ def page(rows: Sequence[Row]) -> str:
     def found(alpha: float, kappa: float, friction: str) -> Row | None:
         return known.get((kept(alpha), kept(kappa), friction))
 
-    told = [*statements(), "", *_gaits(found), *_bilayers(found), TAIL]
+    told = [*statements(), "", *_gaits(found), *_bilayers(found), TAIL.replace("SPEEDS", _speeds())]
     return "\n".join([HEAD + told[0], *told[1:]])
+
+
+def _speeds() -> str:
+    """V of the forward gait by its steps, in words."""
+    return ", ".join(f"{number(v)} with {n} steps a cycle" for n, v in by_steps("forward").items())
 
 
 Found = Callable[[float, float, str], Row | None]

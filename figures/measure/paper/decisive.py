@@ -33,6 +33,9 @@ from figures.measure.paper.paper_gait import (
 
 STEPS = 64
 
+OTHER_STEPS = {"48 steps": 48, "96 steps": 96, "128 steps": 128}
+"""With which a sheet that buckles may take another way; under dry friction."""
+
 GAITS = {"backward": BACKWARD, "forward": FORWARD}
 
 CHANGES: dict[str, dict[str, Any]] = {
@@ -42,11 +45,14 @@ CHANGES: dict[str, dict[str, Any]] = {
     "tenth of the weight": {"weight": WEIGHT / 10},
     "wave printed": {"waves": "printed"},
     "wave nu = -0.05": {"waves": "nu = -0.05"},
+    **{change: {} for change in OTHER_STEPS},
 }
 """Arguments of `paper_scene`."""
 
-DRY = ("none", "finer mesh", "stiff ground", "tenth of the weight")
-"""Those that are also run under dry friction."""
+DRY = ("none", "finer mesh", "stiff ground", "tenth of the weight", *OTHER_STEPS)
+"""Those that are run under dry friction."""
+
+VISCOUS = tuple(change for change in CHANGES if change not in OTHER_STEPS)
 
 
 @dataclass(frozen=True)
@@ -76,7 +82,7 @@ TABLE = Table(
 
 def places() -> Iterator[Place]:
     """All of them, viscous friction first."""
-    for friction, changes in (("viscous", tuple(CHANGES)), ("dry", DRY)):
+    for friction, changes in (("viscous", VISCOUS), ("dry", DRY)):
         yield from (Place(gait, friction, change) for change in changes for gait in GAITS)
 
 
@@ -90,7 +96,7 @@ def row(place: Place) -> Row:
     begin, (alpha, beta) = time.process_time(), GAITS[place.gait]
     kappa = kept(beta * READINGS["thickness"])
     scene = paper_scene(alpha, kappa, place.friction, **CHANGES[place.change])
-    found = moved(scene, STEPS, mesh_error=True)
+    found = moved(scene, OTHER_STEPS.get(place.change, STEPS), mesh_error=True)
     speeds = told(found, found.errors.mesh, time.process_time() - begin)
     return Row(**vars(place), **vars(speeds), depth=depth(found))
 
