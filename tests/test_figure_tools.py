@@ -14,8 +14,10 @@ from matplotlib.image import imread
 
 from fem_check.output import progress
 from figures.common import output, records, style
+from figures.draw import excitable as excitable_picture
 from figures.measure import (
     directional,
+    excitable,
     model_error,
     nonlinear,
     reach,
@@ -281,3 +283,8 @@ def test_si_refuses_what_is_no_size(bad: float) -> None:
         Scale(bad, 1.0)
     with pytest.raises(ValueError, match="period_s"):
         speed_si(1.0, 1.0, bad)
+
+
+def test_each_wave_along_the_sheet_is_measured_and_drawn() -> None:
+    assert list(excitable_picture.LABELS) == list(excitable.WAVES)
+    assert list(dict.fromkeys(row.preset for row in excitable.TABLE.read())) == list(excitable.WAVES)

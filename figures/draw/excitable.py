@@ -1,4 +1,4 @@
-"""Kymographs of c under the four presets of the excitable wave.
+"""Kymographs of c under the presets of the excitable wave that run along a sheet.
 
     python -m figures.draw.excitable [--out FOLDER] [--formats png pdf]
 
@@ -44,9 +44,9 @@ LABELS = {
 def draw() -> Figure:
     """The figure."""
     fig = style.figure(style.COLUMN_CM, 11.0)
-    panels = fig.subplots(len(PRESETS), sharex=True)
-    for axes, (name, chosen) in zip(panels, PRESETS.items(), strict=True):
-        kymograph(axes, chosen.equation.on(SHEET, SPAN, RTOL), LABELS[name])
+    panels = fig.subplots(len(LABELS), sharex=True)
+    for axes, (name, label) in zip(panels, LABELS.items(), strict=True):
+        kymograph(axes, PRESETS[name].equation.on(SHEET, SPAN, RTOL), label)
     panels[-1].set_xlabel("time (units of the reaction)")
     return fig
 

@@ -25,6 +25,9 @@ SHEET = Sheet()
 ALPHA, RTOL, WAVE_RTOL = 0.1, 1e-2, 3e-3
 """Growth per c, tolerance of the speeds and of c."""
 
+WAVES = ("printed", "nu = -0.1", "nu = -0.05", "pulse train")
+"""The presets that run along a sheet; a spiral turns about a place on a square one."""
+
 FRICTION = {"dry": Coulomb(), "viscous": Viscous()}
 
 CYCLES = (0, 1, 3, -1)
@@ -88,7 +91,7 @@ def shown(rows: Sequence[Row]) -> str:
 def main(arguments: Sequence[str] | None = None) -> None:
     """Measure, write and print the table."""
     options = TABLE.options(__doc__, arguments, alpha=(ALPHA, "growth per c"))
-    rows = [row for name in tracked("presets", list(PRESETS)) for row in measure(name, options.alpha)]
+    rows = [row for name in tracked("presets", WAVES) for row in measure(name, options.alpha)]
     TABLE.write(rows, options.out)
     print(shown(rows))
 
