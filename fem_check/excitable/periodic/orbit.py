@@ -232,7 +232,7 @@ def _returned(
 
 
 def _options(system: System) -> dict[str, object]:
-    """Explicit or implicit as `Adaptive`."""
+    """Explicit or implicit as `Adaptive`; of higher order than there, for tolerances so small."""
     tolerances: dict[str, object] = {"rtol": RTOL, "atol": ATOL, "max_step": longest_step(system)}
     if is_stiff(system):
         return {**tolerances, "method": "Radau", "jac": system.jacobian}
