@@ -287,11 +287,11 @@ def test_progress_counts_further_runs() -> None:
 def test_progress_never_falls_when_a_further_run_turns_out_to_be_needed() -> None:
     shares: list[float] = []
     whole = Whole(lambda p: shares.append(p.share), {})
-    for task, planned in (("the motion", False), ("with longer steps", True)):
+    for task, planned in (("the motion", False), ("with other steps", True)):
         listener = whole.of(task)
         for k in range(1, 9):
             if k == 7:
-                whole.plan("with longer steps", 0.7)
+                whole.plan("with other steps", 0.7)
             listener(Progress(k / 8, 1.0, k, 0, k, 8.0 - k))
         assert planned or 0.75 < shares[-1] < 0.9
     assert np.all(np.diff(shares) > 0)

@@ -18,6 +18,7 @@ from fem_check.shell.statics.equilibrium import ConvergenceError
 from fem_check.shell.statics.newton import Factorised
 from fem_check.shell.statics.secants import Secants
 from fem_check.shell.stepping.between import probe_region
+from fem_check.shell.stepping.further.branching import DECISIVE, may_branch
 from fem_check.shell.stepping.further.progress import Listener, Progress
 from fem_check.shell.stepping.power import Ledger, Moment, Works
 from fem_check.shell.stepping.record import COLUMNS, NO_COUNTS, Counts, Record
@@ -29,7 +30,7 @@ from fem_check.shell.stepping.snapshot import check_writable, load_snapshot, sav
 from fem_check.shell.stepping.start import first_history
 from fem_check.shell.stepping.step_control import GROWTH, LANDED, step_size
 from fem_check.shell.stepping.stepper import Stepper, StepResult
-from fem_check.shell.stepping.trajectory import Trajectory, may_branch
+from fem_check.shell.stepping.trajectory import Trajectory
 from linear_theory.common.threads import one_blas_thread
 from linear_theory.scene.scene import Scene
 
@@ -44,9 +45,6 @@ HARD = 50
 CHECKED = 8
 """Interval, in steps, of checks for negative curvature at the end of a step, which cost a Hessian: a
 reused factor, or symmetry, can hide it from the minimisations."""
-
-BRANCHING = [COLUMNS.index(name) for name in ("buckled", "snapped")]
-"""Columns of the record that say whether the sheet buckled or jumped in a step."""
 
 MOMENT = ("area", "sliding", "drag", "velocity")
 """Arrays of a Moment that only some scenes have."""
@@ -115,7 +113,8 @@ class Run:
     def branches(self) -> bool:
         """Whether the sheet could have taken another way in the last period, see `Trajectory`."""
         rows = np.array([row for row in self.record.rows if row[0] > self.marks[-2]])
-        return may_branch(self.model, *rows[:, BRANCHING].T) if rows.size else False
+        wanted = [COLUMNS.index(name) for name in DECISIVE]
+        return may_branch(self.model, *rows[:, wanted].T) if rows.size else False
 
     @one_blas_thread
     def finish(self, target: Target | None, report: Listener | None) -> None:

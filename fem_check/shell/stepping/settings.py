@@ -12,6 +12,10 @@ from linear_theory.common import validation
 Array = NDArray[np.float64]
 
 
+LONGER = 0.75
+"""Number of equal steps relative to that of a run, above which steps count as no longer than there."""
+
+
 @dataclass(frozen=True, eq=False)
 class Settings:
     """Arguments of `simulate` that determine its results; numpy numbers become plain ones.
@@ -62,12 +66,17 @@ class Settings:
         step = None if self.scheme is None else self.scheme.step
         return self.steps if step is None else math.ceil(period / step * (1 - 1e-9))
 
-    def rougher(self) -> "Settings":
-        """The same with steps about twice as long."""
+    def with_other_steps(self, fewest: int) -> "Settings":
+        """The same with steps about twice as long; a third shorter if the wave allows no longer ones.
+
+        fewest: equal steps per period that resolve the wave.
+        """
         if self.rtol is not None:
             return replace(self, rtol=min(2 * self.rtol, 0.9))
         if self.steps is not None:
-            return replace(self, steps=self.steps // 2)
+            longer = max(self.steps // 2, fewest)
+            found = longer if longer <= LONGER * self.steps else math.ceil(1.5 * self.steps)
+            return replace(self, steps=found)
         assert self.scheme is not None
         assert self.scheme.step is not None
         return replace(self, scheme=replace(self.scheme, step=2 * self.scheme.step))  # type: ignore

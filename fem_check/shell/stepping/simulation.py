@@ -51,9 +51,9 @@ def simulate(
     progress: True prints, a function is called after each step, of further runs too (`Progress`).
 
     Steps are short enough to resolve the significant harmonics in time of the wave. A sheet that
-    snaps through in the last period, or buckles and has inertia, is simulated a second time with longer
-    steps, for the error of V: it may take another way. So is one whose strain acts back on its wave
-    (`StrainFeedback`): the two are then stepped together, at second order.
+    snaps through in the last period, or buckles and has inertia or dry friction, is simulated a second
+    time with other steps, for the error of V: it may take another way. So is one whose strain acts back
+    on its wave (`StrainFeedback`): the two are then stepped together, at second order.
 
     A scene without Friction and Inertia is not time dependent; use `cycle_speed.cycle_speed`.
     Raises ValueError for such scenes, for values out of range, for too few `steps` to resolve the wave
@@ -128,7 +128,7 @@ def _watching(run: Run, whole: Whole) -> Listener:
 
     def heard(progress: Progress) -> None:
         if run.branches:
-            whole.plan(second_runs.LONGER, second_runs.LONGER_WORK)
+            whole.plan(second_runs.OTHER, second_runs.LONGER_WORK)
         listener(progress)
 
     return heard

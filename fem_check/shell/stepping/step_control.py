@@ -124,7 +124,7 @@ def step_size(
     Raises ValueError for too few steps, or a wave too rough to be resolved.
     """
     if steps is not None:
-        needed = FEWEST * _harmonic(rates, GIVEN_SHARE)
+        needed = fewest_steps(rates)
         if steps < needed:
             raise ValueError(
                 f"steps = {steps}: must be >= {needed}, {FEWEST} per period of harmonic "
@@ -144,6 +144,14 @@ def step_size(
         rtol,
         natural=natural,
     )
+
+
+def fewest_steps(rates: Spectrum) -> int:
+    """Equal steps per period that resolve a wave with that spectrum of its rate.
+
+    Raises ValueError as `step_size`.
+    """
+    return FEWEST * _harmonic(rates, GIVEN_SHARE)
 
 
 def _harmonic(rates: Spectrum, share: float) -> int:

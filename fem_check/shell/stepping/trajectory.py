@@ -14,6 +14,7 @@ from fem_check.shell.kinematics.crossing import crossed, crossing_words
 from fem_check.shell.model import ShellModel
 from fem_check.shell.stepping import columns
 from fem_check.shell.stepping.between import between, interpolation_error, motion_around
+from fem_check.shell.stepping.further.branching import DECISIVE, may_branch
 from fem_check.shell.stepping.power import Works, energy_of
 from fem_check.shell.stepping.sliding import COMPARED
 from fem_check.shell.stepping.step_control import LANDED
@@ -265,7 +266,7 @@ class Trajectory(Drawable, Tabular):
     def branches(self) -> bool:
         """Whether it could have taken another way within the last period, see `may_branch`."""
         last = self._last(1)
-        return may_branch(self.model, self.buckled[last], self.snapped[last])
+        return may_branch(self.model, *(self.table[name][last] for name in DECISIVE))
 
     @cached_property
     def path(self) -> Poses:
@@ -435,12 +436,3 @@ class Trajectory(Drawable, Tabular):
         steps = np.diff(self.times)[last.start - 1 :]
         values = self.table[name][last]
         return float((np.abs(values) if size else values) @ steps / steps.sum())
-
-
-def may_branch(model: ShellModel, buckled: ArrayLike, snapped: ArrayLike) -> bool:
-    """Whether another way was open to a sheet in steps with these flags, (n,) each.
-
-    Where it jumps; and, with inertia, where negative curvature was met: long steps damp vibrations by
-    which it would leave a shape that is not stable.
-    """
-    return bool(np.any(snapped)) or (model.heavy and bool(np.any(buckled)))

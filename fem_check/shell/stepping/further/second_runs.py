@@ -1,4 +1,4 @@
-"""Errors of the mean speed from further runs: on a coarser mesh, and with longer steps."""
+"""Errors of the mean speed from further runs: on a coarser mesh, and with other steps."""
 
 from typing import NamedTuple
 
@@ -8,6 +8,7 @@ from fem_check.mesh.elements import default_cells
 from fem_check.shell.statics.equilibrium import ConvergenceError
 from fem_check.shell.stepping.further.progress import Whole
 from fem_check.shell.stepping.run import Run
+from fem_check.shell.stepping.step_control import fewest_steps
 from fem_check.shell.stepping.trajectory import Trajectory
 from linear_theory.scene.scene import Scene
 
@@ -16,7 +17,7 @@ MESH_MARGIN = 2
 with dry friction the quadrature of a discontinuous force dominates, which converges irregularly."""
 
 SNAP_MARGIN = 2
-"""Error of a speed with buckling or snap-throughs relative to the difference to a run with longer
+"""Error of a speed with buckling or snap-throughs relative to the difference to a run with other
 steps, whose snaps start elsewhere and take another way."""
 
 FEEDBACK_MARGIN = 2
@@ -25,7 +26,7 @@ half the tolerance or half as many steps. Of second order, errors there are twic
 large."""
 
 COARSER = "on a coarser mesh"
-LONGER = "with longer steps"
+OTHER = "with other steps"
 ROUGHER = "with a rougher wave"
 """Tasks of the further runs, in words."""
 
@@ -46,7 +47,7 @@ def mesh_change(found: Trajectory, coarse: Trajectory) -> float:
 
 
 def snap_error(run: Run, whole: Whole | None) -> float:
-    """Error of the mean speed of a sheet that may take another way, from a run with longer steps.
+    """Error of the mean speed of a sheet that may take another way, from a run with other steps.
 
     NaN if no other way was open in the last period, infinite if that run fails.
     """
@@ -54,14 +55,19 @@ def snap_error(run: Run, whole: Whole | None) -> float:
     if not found.branches:
         return np.nan
     if whole is not None:
-        whole.plan(LONGER, LONGER_WORK)
+        whole.plan(OTHER, LONGER_WORK)
     try:
-        rough = Run(run.scene, run.settings.rougher())
-        rough.finish(None, None if whole is None else whole.of(LONGER))
+        rough = _with_other_steps(run)
+        rough.finish(None, None if whole is None else whole.of(OTHER))
     except (ConvergenceError, ValueError):
         return np.inf
     difference = rough.trajectory().mean_speed - found.mean_speed
     return float(SNAP_MARGIN * abs(difference))
+
+
+def _with_other_steps(run: Run, coarse: bool = False) -> Run:
+    settings = run.settings.with_other_steps(fewest_steps(run.scene.drive.rates))
+    return Run(run.scene, settings, coarse)
 
 
 class FeedbackErrors(NamedTuple):
@@ -80,7 +86,7 @@ def feedback_errors(run: Run, whole: Whole | None) -> FeedbackErrors:
     if not run.scene.drive.has_state:
         return FeedbackErrors()
     try:
-        rough = Run(run.scene, run.settings.rougher(), coarse=True)
+        rough = _with_other_steps(run, coarse=True)
         rough.finish(None, None if whole is None else whole.of(ROUGHER))
     except (ConvergenceError, ValueError):
         return FeedbackErrors(np.inf, np.inf)
