@@ -155,7 +155,7 @@ def line(rng: np.random.Generator) -> Outcome:
 
 
 def prediction(rng: np.random.Generator) -> Outcome:
-    """`predict`, against the nonlinear sheet on twice the default elements each way, a tenth as far off."""
+    """`predict`, against the nonlinear sheet on twice the default elements each way."""
     sheet = Sheet(width=float(rng.uniform(0.1, 1.0)), poisson=float(rng.uniform(0, 0.5)))
     wave, alpha = SineWave(int(rng.choice([1, -1, 2]))), an_alpha(rng, 0.25)
     load, law = str(rng.choice(LOADS)), str(rng.choice(LAWS))

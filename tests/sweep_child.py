@@ -1,4 +1,4 @@
-"""A sweep in a process of its own, to be killed: python -m tests.sweep_child FILE WORKERS|ADDRESS SCENES."""
+"""A sweep in a process to be killed: python -m tests.sweep_child FILE WORKERS|ADDRESS SCENES."""
 
 import sys
 from pathlib import Path

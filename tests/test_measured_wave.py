@@ -163,7 +163,7 @@ LEVELS = {
 
 
 def check_wave_error(solve, wave):
-    """The noise is within what is claimed of it alone: both speeds have the same error of the numbers."""
+    """What noise does is within the claim for it alone: numerical errors of both speeds are alike."""
     true = solve(wave)
     speeds = [solve(noisy(wave, seed)) for seed in SEEDS]
     errors = np.array([abs(speed.mean - true.mean) for speed in speeds])
