@@ -71,8 +71,8 @@ PRESETS = {
         Preset(
             "turbulent",
             "on a sheet as wide as long, 100 diffusion lengths each way: a spiral forms, breaks up by "
-            "t = 700, and 1 to 10 cores come and go for ever; two solutions that are all but equal part "
-            "by a factor of e in 80 to 100 units of time, so that c has an error that is known for the "
+            "t = 700, and 1 to 10 cores come and go for ever; solutions that are all but equal part by "
+            "a factor of e in 80 to 100 units of time, so that c has an error that is known for the "
             "first some hundred only, and statistics are what can be said beyond.",
             FitzHughNagumo(-0.05, 1e-4, 0.03, 0.01, CrossedStart()),
             300.0,
