@@ -23,7 +23,9 @@ from fem_check.choice.prediction import METHODS, predict
 from fem_check.command import BAD_ARGUMENTS, CLOSED_PIPE, INTERRUPTED, MET, MISSED, main, screens
 from fem_check.command.actions.speed import HINTS
 from fem_check.command.options import Options
+from fem_check.command.quantities import WAVE_RTOL, asked
 from fem_check.command.waiting import PATIENCE, Waiting
+from fem_check.excitable import PRESETS
 from linear_theory import Sheet, SineWave, TravellingWave, pulse_wave
 from linear_theory.common.progress import Progress
 from linear_theory.friction.laws import FRICTION_LAWS as LAWS
