@@ -63,7 +63,7 @@ test: $(STAMP)
 	$(RUN) -m ruff check .
 	$(RUN) -m ruff format --check .
 	$(RUN) -m mypy
-	$(RUN) -m pytest -n $(WORKERS)
+	$(RUN) -m pytest -n $(WORKERS) --dist loadfile
 
 # One test after the other, since times are measured. CI_BROWSER=1 makes a missing browser an error.
 BROWSER = /usr/bin/chromium /usr/bin/chromedriver

@@ -112,3 +112,54 @@ def multipliers(numbers: Numbers, halves: list[int]) -> list[float]:
         end = solve_ivp(rates, (0, period), state, **options).y[2:, -1]
         found.append(float(abs(np.linalg.eigvals(end.reshape(2, 2))).max()))
     return found
+
+
+def spread(c: Array) -> Array:
+    """Differences of second order to the four neighbours in the last two axes, nothing across edges."""
+    found = np.zeros_like(c)
+    for axis in (-1, -2):
+        step = np.moveaxis(np.diff(c, axis=axis), axis, -1)
+        sides = np.moveaxis(found, axis, -1)
+        sides[..., :-1] += step
+        sides[..., 1:] -= step
+    return found
+
+
+def cores(c: Array, w: Array) -> int:
+    """Squares of four points around which the phase of (c - 0.1, 4 w) winds."""
+    phase = np.arctan2(4 * w, c - 0.1)
+    corners = [phase[:-1, :-1], phase[1:, :-1], phase[1:, 1:], phase[:-1, 1:]]
+    turns = [np.roll(corners, -1, 0)[i] - corners[i] for i in range(4)]
+    winding = sum((turn + np.pi) % (2 * np.pi) - np.pi for turn in turns)
+    return int((abs(winding) > np.pi).sum())
+
+
+def twins(numbers: Numbers, cells: int, until: float, every: float = 20.0) -> tuple[float, list[int]]:
+    """A square from a crossed start, twice with a difference of 1e-6: e-foldings per time at which
+    they part in the second half of the time, and the number of cores at every so many units of time."""
+    threshold, decay, rate, length = numbers
+    x = (np.arange(cells) + 0.5) / cells - 0.5
+    c = np.stack(2 * [np.broadcast_to(0.5 * np.tanh(x / 0.1), (cells, cells))])
+    w = np.stack(2 * [np.broadcast_to(0.1 * np.tanh(x / 0.1)[:, None], (cells, cells))])
+    c[1] += 1e-6 * np.random.default_rng(0).normal(size=c[1].shape)
+    share = (length * cells) ** 2
+    dt = min(0.2 / share, 0.3)
+
+    def rates(c: Array, w: Array) -> tuple[Array, Array]:
+        dc = share * spread(c) + c * (1 - c) * (c - threshold) - w
+        return dc, rate * (c - decay * w)
+
+    growth, count, found = 0.0, 0, []
+    steps = round(every / dt)
+    for k in range(round(until / every)):
+        for _ in range(steps):
+            (dc, dw) = rates(c, w)
+            (ec, ew) = rates(c + dt * dc, w + dt * dw)
+            c, w = c + dt / 2 * (dc + ec), w + dt / 2 * (dw + ew)
+        apart = float(np.sqrt(np.mean((c[1] - c[0]) ** 2 + (w[1] - w[0]) ** 2)))
+        if k > until / every / 2:
+            growth, count = growth + np.log(apart / 1e-6), count + 1
+        for one in (c, w):
+            one[1] = one[0] + (one[1] - one[0]) * 1e-6 / apart
+        found.append(cores(c[0], w[0]))
+    return growth / (count * steps * dt), found

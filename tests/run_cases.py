@@ -1,5 +1,23 @@
 """Scenes that are run to folders in a moment."""
 
+from collections.abc import Iterator
+
+import pytest
+
+from fem_check.runs import pictures
+
+FRAMES = 6
+"""Of a period of a film, where its files matter and not how smooth it is: drawing takes the longest."""
+
+
+@pytest.fixture(scope="module", autouse=True)
+def short_films() -> Iterator[None]:
+    """Films of a few frames, for the tests of a module that imports this."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(pictures, "PER_PERIOD", FRAMES)
+        yield
+
+
 PLANE = """
 [sheet]
 length = "40 mm"

@@ -1,4 +1,4 @@
-"""A sweep in a process of its own, to be killed: python -m tests.sweep_child FILE WORKERS|ADDRESS."""
+"""A sweep in a process to be killed: python -m tests.sweep_child FILE WORKERS|ADDRESS SCENES."""
 
 import sys
 from pathlib import Path
@@ -8,13 +8,13 @@ from linear_theory import SheetcrawlError
 from tests import sweep_cases
 
 
-def main(file: str, means: str) -> None:
+def main(file: str, means: str, scenes: str) -> None:
     """Begin it, or go on."""
     address = means if means.startswith("tcp") else None
     workers = None if address else int(means)
     try:
         run(
-            *(sweep_cases.plan(), Path(file)),
+            *(sweep_cases.plan(int(scenes)), Path(file)),
             workers=workers,
             scheduler=address,
             answering=sweep_cases.logged,

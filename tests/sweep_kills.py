@@ -13,6 +13,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
+from typing import Any
 
 import psutil
 
@@ -66,9 +67,9 @@ class Trial:
 
 
 @cache
-def truth() -> dict[str, tuple[float, float]]:
+def truth(scenes: int) -> dict[str, tuple[float, float]]:
     """Speeds and errors by key, without any sweep."""
-    plan = sweep_cases.plan()
+    plan = sweep_cases.plan(scenes)
     found = {}
     for point in plan.points():
         question = plan.question(point)
@@ -79,16 +80,17 @@ def truth() -> dict[str, tuple[float, float]]:
     return found
 
 
-def trial(kind: str, seed: int, folder: Path) -> Trial:
-    """One sweep, killed at a random instant while it works."""
+def trial(kind: str, seed: int, folder: Path, scenes: int = 200) -> Trial:
+    """One sweep of so many scenes, killed at a random instant while it works."""
     chance = random.Random(seed)
     file, log = folder / f"kill{seed}.sqlite", folder / f"kill{seed}.log"
-    target = chance.randrange(1, len(truth()))  # so many records are there when it happens
+    right = truth(scenes)
+    target = chance.randrange(1, len(right))  # so many records are there when it happens
     delay = chance.random() * 0.02
     around = {**environment(), sweep_cases.LOG: str(log)}
     with _cluster(around) if kind == SCHEDULER else contextlib.nullcontext("") as address:
         means = {CLIENT: "2", ALONE: "1", WORKER: "2"}.get(kind, address)
-        child = _start(file, means, around)
+        child = _start(file, means, scenes, around)
         if kind in (CLIENT, ALONE) and chance.random() < EARLY:
             time.sleep(chance.random() * START)
         else:
@@ -105,13 +107,14 @@ def trial(kind: str, seed: int, folder: Path) -> Trial:
     wait_until(lambda: not any(p.is_running() for p in family), 10.0)
     left = sum(p.is_running() for p in family)
     if kind != WORKER:
-        assert _start(file, "1", around).wait(PATIENCE) == 0
-    return _judged(kind, seed, kept, computed, file, log, status, left)
+        assert _start(file, "1", scenes, around).wait(PATIENCE) == 0
+    return _judged(kind, seed, right, kept, computed, file, log, status, left)
 
 
 def _judged(
     kind: str,
     seed: int,
+    right: dict[str, tuple[float, float]],
     kept: dict[str, tuple[object, ...]],
     computed: list[str],
     file: Path,
@@ -121,7 +124,6 @@ def _judged(
 ) -> Trial:
     final, lines = _records(file), _lines(log)
     later = set(lines[len(computed) :])
-    right = truth()
     with contextlib.closing(sqlite3.connect(file)) as db:
         damage = db.execute("PRAGMA integrity_check").fetchone()[0]
     return Trial(
@@ -155,8 +157,10 @@ def _kill(
         child.send_signal(signal.SIGKILL)
 
 
-def _start(file: Path, means: str, environment: dict[str, str]) -> "subprocess.Popen[bytes]":
-    words = [sys.executable, "-m", "tests.sweep_child", str(file), means]
+def _start(
+    file: Path, means: str, scenes: int, environment: dict[str, str]
+) -> "subprocess.Popen[bytes]":
+    words = [sys.executable, "-m", "tests.sweep_child", str(file), means, str(scenes)]
     return subprocess.Popen(words, env=environment, stderr=subprocess.DEVNULL)
 
 
@@ -207,7 +211,7 @@ def wait_until(done: Callable[[], bool], seconds: float = PATIENCE) -> None:
     """Until it is done, or so long."""
     end = time.monotonic() + seconds
     while not done() and time.monotonic() < end:
-        time.sleep(0.002)
+        time.sleep(0.005)
 
 
 def environment() -> dict[str, str]:
@@ -218,19 +222,24 @@ def environment() -> dict[str, str]:
 
 def count(file: Path) -> int:
     """Records in a file."""
-    return len(_records(file))
+    return sum(row[0] for row in _asked(file, "SELECT COUNT(*) FROM records"))
 
 
 def _records(file: Path) -> dict[str, tuple[object, ...]]:
-    """Speed, error, process and time of each record by its key; none of a file that is not yet one."""
+    """Speed, error, process and time of each record by its key."""
+    rows = _asked(file, "SELECT key, mean, error, worker, ended FROM records")
+    return {row[0]: tuple(row[1:]) for row in rows}
+
+
+def _asked(file: Path, question: str) -> list[tuple[Any, ...]]:
+    """What a file answers; nothing while it is not yet a file of records."""
     if not file.exists():
-        return {}
+        return []
     with contextlib.closing(sqlite3.connect(file, timeout=30.0)) as db:
         try:
-            rows = db.execute("SELECT key, mean, error, worker, ended FROM records").fetchall()
+            return db.execute(question).fetchall()
         except sqlite3.OperationalError:
-            return {}
-    return {row[0]: tuple(row[1:]) for row in rows}
+            return []
 
 
 def _lines(log: Path) -> list[str]:

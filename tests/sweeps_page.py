@@ -16,7 +16,7 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
-from tests import sweep_cost, sweep_kills
+from tests import sweep_cases, sweep_cost, sweep_kills
 
 FOLDER = Path(__file__).parents[1] / "docs"
 DATA, PAGE = FOLDER / "sweeps.json", FOLDER / "sweeps.md"
@@ -110,7 +110,7 @@ def _table(trials: list[Numbers]) -> list[str]:
 
 def _write(found: Numbers) -> None:
     data = json.loads(DATA.read_text()) if DATA.exists() else {}
-    data |= {"scenes": len(sweep_kills.truth()), **found}
+    data |= {"scenes": sweep_cases.plan().size, **found}
     DATA.write_text(json.dumps(data, indent=1) + "\n")
 
 

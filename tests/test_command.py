@@ -23,7 +23,9 @@ from fem_check.choice.prediction import METHODS, predict
 from fem_check.command import BAD_ARGUMENTS, CLOSED_PIPE, INTERRUPTED, MET, MISSED, main, screens
 from fem_check.command.actions.speed import HINTS
 from fem_check.command.options import Options
+from fem_check.command.quantities import WAVE_RTOL, asked
 from fem_check.command.waiting import PATIENCE, Waiting
+from fem_check.excitable import PRESETS
 from linear_theory import Sheet, SineWave, TravellingWave, pulse_wave
 from linear_theory.common.progress import Progress
 from linear_theory.friction.laws import FRICTION_LAWS as LAWS
@@ -33,6 +35,7 @@ from linear_theory.growth.laws import GROWTH_LAWS
 from tests.processes import interruptible
 
 SPEED = ("speed", "--growth", "5 %")
+PACED = (*SPEED, "--wave", "excitable:pulse-train")
 
 
 def run(capsys, *arguments):
@@ -136,6 +139,11 @@ def test_wave_of_harmonics_and_all_options(capsys):
         ([*SPEED, "--alpha", "0.1"], "must not be combined with --alpha"),
         ([*SPEED, "--pulse", "1.2"], "--pulse 1.2: must be in"),
         ([*SPEED, "--pulse", "0.2", "--sine", "1"], "must not be combined with --sine"),
+        ([*SPEED, "--wave", "sine"], "--wave 'sine': must be excitable:pulse-train"),
+        ([*SPEED, "--wave", "excitable:nu=-0.1"], "does not repeat, so that it has no single speed"),
+        ([*PACED, "--length", "4 cm"], "must have plain numbers beside it"),
+        ([*PACED, "--period", "3"], "must not be combined with --period"),
+        ([*PACED, "--pulse", "0.2"], "must not be combined with --pulse"),
         ([*SPEED, "--plot", "crawl.docx"], "must end in .png"),
         ([*SPEED, "--movie", "crawl.avi"], "must end in .gif or .mp4"),
         ([*SPEED, "--json", "--csv"], "--json: must not be combined with --csv"),
@@ -488,3 +496,12 @@ def test_pulse_is_the_wave_of_that_name(capsys):
     found = json.loads(run(capsys, "speed", *words)[1])
     expected = predict(Sheet(), pulse_wave(0.3), 0.05, method="strip")
     assert found["mean"] == expected.mean
+
+
+def test_an_excitable_wave_by_name_is_the_orbit_of_its_preset_scaled_to_the_sheet():
+    preset = PRESETS["pulse train"]
+    question = asked(Options(alpha=0.1, length="40", wave="excitable:pulse-train"))
+    sheet = Sheet(length=40.0)
+    equation = preset.equation.scaled(40.0)
+    assert question.scene.wave == equation.on(sheet, preset.until, WAVE_RTOL).periodic()
+    assert (question.scene.sheet, question.units) == (sheet, None)

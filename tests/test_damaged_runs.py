@@ -20,7 +20,7 @@ from fem_check.files import read
 from fem_check.runs import finished, run
 from fem_check.runs.folder import SNAPSHOT, TRAJECTORY
 from tests.processes import interruptible
-from tests.run_cases import PLANE, STEPPED
+from tests.run_cases import PLANE, STEPPED, short_films  # noqa: F401
 
 IN_MM = (
     STEPPED.replace("young = 1.0", 'length = "40 mm"\nwidth = "20 mm"\nyoung = "1 MPa"')

@@ -365,6 +365,35 @@ def test_a_scene_with_an_excitable_wave_is_data() -> None:
     assert again.key() == scene.key()
 
 
+def test_turbulence_parts_twins_and_makes_cores_and_a_spiral_does_neither() -> None:
+    """On far cruder differences of their own; both begin as one spiral."""
+    growth, cores = reference.twins(_numbers("turbulent"), 80, 1000.0)
+    assert cores[5] == 1
+    assert 0.005 < growth < 0.02
+    assert min(cores[35:]) >= 1
+    assert max(cores[35:]) >= 4
+    growth, cores = reference.twins(_numbers("spiral"), 40, 600.0)
+    assert growth < 0.003
+    assert max(cores) <= 1
+
+
+def _numbers(name: str) -> reference.Numbers:
+    e = excitable_preset(name)
+    return e.threshold, e.recovery_decay, e.recovery_rate, e.diffusion_length
+
+
+def test_turbulence_is_known_until_it_is_not() -> None:
+    """c and its error at first, while one spiral turns, against finer elements."""
+    square = Sheet(length=1.0, width=1.0)
+    wave = excitable_preset("turbulent").on(square, 30.0, 0.2)
+    assert wave.converged
+    finer = Excitation(wave.equation, square, 30.0)._solved(0.015, Adaptive(1e-2))
+    x, y = np.random.default_rng(2).uniform(-0.5, 0.5, (2, 200))
+    for t in (10.0, 30.0):
+        apart = abs(wave.value(x, y, t) - finer.value(x, y, t)).max()
+        assert apart <= np.interp(t, wave.times, wave.error)
+
+
 def test_the_spiral_winds_and_drives_a_wide_sheet() -> None:
     """The phase of (c, dc/dt) turns once around the centre of a square sheet; seven turns on, too."""
     square = Sheet(length=1.0, width=1.0)

@@ -2,6 +2,7 @@
 
 import pickle
 import warnings
+from functools import cache
 
 import numpy as np
 import pytest
@@ -32,6 +33,7 @@ def smooth(y, t, x=0.0):
     return 0.3 + first + 0.2 * (y + x**2) * np.cos(2 * W * t)
 
 
+@cache
 def noisy(wave, seed, noise=0.02):
     """A wave as it is measured at 60 places and 40 times."""
     exact = wave.value(0 * Y[:, None], Y[:, None], T)
@@ -136,8 +138,9 @@ class TestPeriod:
     @pytest.mark.parametrize("cycles", [1.5, 4.2])
     def test_is_found_within_its_error(self, wave, cycles):
         t = np.linspace(0, 2.3 * cycles, 80)
-        c = wave.value(0 * Y[:, None], Y[:, None], t)
-        found = SampledWave(Y, t, c + 0.02 * np.random.default_rng(1).normal(size=c.shape))
+        y = Y[::3]
+        c = wave.value(0 * y[:, None], y[:, None], t)
+        found = SampledWave(y, t, c + 0.02 * np.random.default_rng(1).normal(size=c.shape))
         assert abs(found.period - 2.3) < 4 * found.period_error < 0.02 * 2.3
 
     def test_that_is_not_there_is_refused(self):
@@ -152,16 +155,26 @@ class TestPeriod:
 
 LEVELS = {
     "line": lambda wave: line_balance(wave, 0.25, length=1.0),
-    "order 1": lambda wave: crawl_speed(Sheet(), wave, 0.25),
-    "order 2": lambda wave: crawl_speed(Sheet(), wave, 0.25, order=2),
-    "predict": lambda wave: predict(Sheet(), wave, 0.25, method="cycle").speed,
+    "order 1": lambda wave: crawl_speed(Sheet(), wave, 0.25, rtol=3e-2),
+    "order 2": lambda wave: crawl_speed(Sheet(), wave, 0.25, rtol=3e-2, order=2),
+    "predict": lambda wave: predict(Sheet(), wave, 0.25, method="cycle", rtol=3e-2).speed,
 }
+"""The error of the wave, 1 to 4 %, does not depend on that of the numbers."""
+
+
+def check_wave_error(solve, wave):
+    """What noise does is within the claim for it alone: numerical errors of both speeds are alike."""
+    true = solve(wave)
+    speeds = [solve(noisy(wave, seed)) for seed in SEEDS]
+    errors = np.array([abs(speed.mean - true.mean) for speed in speeds])
+    claimed = np.array([speed.wave_error for speed in speeds])
+    assert np.all(errors <= claimed + 0.1 * true.error)
+    assert np.median(claimed) < 12 * np.median(errors)
+    assert all(0 < speed.wave_error <= speed.error for speed in speeds)
 
 
 class TestErrorOfSpeeds:
     """2 % noise on a sine: the speed is that of the sine within its claimed error, for ten seeds.
-
-    Of order 2 and predict four: they count the same error of the wave as order 1 does, and take longer.
 
     FACTOR root mean squares of 16 waves leave 0.3 % beyond: none of ten is to be seen there. The median
     of a normal error is 0.67 of its standard deviation, and what was dropped is counted as uncertain:
@@ -170,24 +183,11 @@ class TestErrorOfSpeeds:
 
     @pytest.mark.parametrize("level", LEVELS)
     def test_sine_within_the_claimed_error(self, level):
-        solve, seeds = LEVELS[level], SEEDS[:4] if level in ("order 2", "predict") else SEEDS
-        true = solve(SineWave())
-        speeds = [solve(noisy(SineWave(), seed)) for seed in seeds]
-        errors = np.array([abs(speed.mean - true.mean) for speed in speeds])
-        claimed = np.array([speed.error for speed in speeds])
-        assert np.all(errors <= claimed + true.error)
-        assert np.median(claimed) < 12 * np.median(errors)
-        assert all(0 < speed.wave_error <= speed.error for speed in speeds)
+        check_wave_error(LEVELS[level], SineWave())
 
     @pytest.mark.parametrize("level", ["line", "order 1"])
     def test_pulse_within_the_claimed_error(self, level):
-        solve, pulse = LEVELS[level], pulse_wave(0.2)
-        true = solve(pulse)
-        speeds = [solve(noisy(pulse, seed)) for seed in (SEEDS if level == "line" else SEEDS[:5])]
-        errors = np.array([abs(speed.mean - true.mean) for speed in speeds])
-        claimed = np.array([speed.error for speed in speeds])
-        assert np.all(errors <= claimed + true.error)
-        assert np.median(claimed) < 12 * np.median(errors)
+        check_wave_error(LEVELS[level], pulse_wave(0.2))
 
     def test_goes_with_the_noise(self):
         errors = [
@@ -195,6 +195,20 @@ class TestErrorOfSpeeds:
             for noise in (1e-6, 1e-3)
         ]
         assert errors[0] < 2e-3 * errors[1]
+
+    def test_is_that_of_the_question(self):
+        """It is kept for the levels that are asked in turn: not for another growth, load or sheet."""
+        wave = noisy(SineWave(), 0)
+        questions = [(Sheet(), 0.1, "current"), (Sheet(), 0.2, "current"), (Sheet(), 0.2, "material")]
+        questions += [(Sheet(width=0.2), 0.2, "material")]
+
+        def ask(wave, sheet, alpha, load):
+            return crawl_speed(sheet, wave, alpha, load=load, rtol=0.3).wave_error
+
+        found = [ask(wave, *question) for question in questions]
+        fresh = [ask(pickle.loads(pickle.dumps(wave)), *question) for question in questions[1:]]
+        assert found[1:] == fresh
+        assert len(set(found)) == 4
 
     def test_in_units_of_length(self):
         one = noisy(SineWave(), 0)
@@ -212,8 +226,8 @@ class TestErrorOfSpeeds:
         c = exact + 0.02 * np.random.default_rng(0).normal(size=exact.shape)
         wave = SampledWave(x, Y, T, c, period=1.0)
         oblique = FieldWave(lambda x, y, t: np.sin(W * (y - t + x / 2)), period=1.0)
-        true = crawl_speed(Sheet(), oblique, 0.25, rtol=1e-3)
-        found = crawl_speed(Sheet(), wave, 0.25, rtol=1e-2)
+        true = crawl_speed(Sheet(), oblique, 0.25, rtol=3e-3)
+        found = crawl_speed(Sheet(), wave, 0.25, rtol=2e-2)
         assert np.all(abs(found.rigid_mean - true.rigid_mean) <= found.rigid_error + true.rigid_error)
         assert np.all(found.rigid_error > 0)
 
@@ -304,7 +318,7 @@ class TestSources:
 
 class TestValue:
     def test_pickle_key_and_equality(self):
-        one, same, other = noisy(SineWave(), 0), noisy(SineWave(), 0), noisy(SineWave(), 1)
+        one, same, other = noisy(SineWave(), 0), noisy.__wrapped__(SineWave(), 0), noisy(SineWave(), 1)
         again = pickle.loads(pickle.dumps(one))
         assert one == same == again != other
         assert hash(one) == hash(same)

@@ -1,6 +1,7 @@
 """`predict`: the cheapest level that is known to be near enough, and an honest error."""
 
 import math
+import warnings
 
 import numpy as np
 import pytest
@@ -9,6 +10,7 @@ from fem_check.choice.levels import LEVELS, MESHES, TARGET, cycle, finer
 from fem_check.choice.prediction import predict
 from fem_check.shell.cycle.speed import cycle_speed
 from linear_theory import (
+    BeyondReachWarning,
     Contact,
     FieldWave,
     Scene,
@@ -135,3 +137,16 @@ def test_a_strip_refuses_a_wave_that_it_does_not_see():
     with pytest.raises(ValueError, match="'strip': must be 'cycle' for a wave that depends on x"):
         predict(Sheet(), lopsided, 0.1, method="strip")
     assert predict(Sheet(), lopsided, 0.1, rtol=0.5).level == TARGET
+
+
+@pytest.mark.parametrize("method", ["auto", "second order", "cycle"])
+def test_a_sheet_too_wide_is_refused_by_name_and_not_after_minutes(method):
+    with pytest.raises(ValueError, match=r"width = 100: must be <= 20 times the length, 1, for method"):
+        predict(Sheet(width=100.0), SineWave(), 0.1, method=method)
+
+
+def test_a_wide_sheet_has_an_answer_of_first_order():
+    with warnings.catch_warnings(action="ignore", category=BeyondReachWarning):
+        found = predict(Sheet(width=100.0), SineWave(), 0.1, rtol=0.3, method="first order")
+    other = crawl_speed(Sheet(width=100.0), SineWave(), 0.1, rtol=0.03, method="ritz")
+    assert abs(found.mean - other.mean) <= found.speed.error + other.error

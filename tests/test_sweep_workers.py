@@ -126,15 +126,20 @@ def test_workers_that_do_not_come_back_are_replaced_and_not_waited_for_without_e
 
 KILLS = {
     11: sweep_kills.ALONE,
+    12: sweep_kills.ALONE,
     13: sweep_kills.CLIENT,
     14: sweep_kills.WORKER,
     15: sweep_kills.SCHEDULER,
 }
 
 
-@pytest.mark.parametrize("seed", KILLS)  # the page has sixty of them and more
+SCENES = 48
+"""Enough for a kill in the middle; the page has a hundred kills of sweeps of 200."""
+
+
+@pytest.mark.parametrize("seed", KILLS)
 def test_nothing_is_lost_and_nothing_comes_twice(seed: int, tmp_path: Path) -> None:
-    found = sweep_kills.trial(KILLS[seed], seed, tmp_path)
+    found = sweep_kills.trial(KILLS[seed], seed, tmp_path, SCENES)
     assert found.fine, found
 
 

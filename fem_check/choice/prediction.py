@@ -39,6 +39,11 @@ METHODS = ("auto", *LEVELS)
 SHARE = 0.5
 """Fraction of the tolerance allotted to the numerical error; the rest is for the model error."""
 
+WIDEST = 20.0
+"""Lengths, up to which a sheet may be wide for the levels that are not in THEORIES."""
+
+THEORIES = ("strip", "first order")
+
 
 @dataclass(frozen=True)
 class Prediction(Drawable, Shown):
@@ -139,6 +144,16 @@ class _Passed(NamedTuple):
     seconds: float
 
 
+def _require_reach(scene: Scene, method: str) -> None:
+    """Raise ValueError for a sheet so wide that its edge layers would take the levels minutes."""
+    sheet = scene.sheet
+    if method not in THEORIES and sheet.width > WIDEST * sheet.length:
+        raise ValueError(
+            f"width = {sheet.width:g}: must be <= {WIDEST:g} times the length, {sheet.length:g}, for "
+            f"method = {method!r}; only 'first order' answers wider sheets, as far as that theory holds"
+        )
+
+
 class Passed(Shown, _Passed):
     """A level that was not chosen, why (in words), and the time spent on it in seconds."""
 
@@ -171,7 +186,8 @@ def predict(
     these effects use `cycle_speed` and `simulate`. progress: True prints on stderr, a function is
     called with a `linear_theory.common.progress.Progress`.
 
-    Raises ValueError for bad input and what the chosen level raises. Warns as `crawl_speed` does, for
+    Raises ValueError for bad input, for sheets wider than WIDEST lengths unless by method "strip" or
+    "first order", and what the chosen level raises. Warns as `crawl_speed` does, for
     the level that gives the answer.
 
     >>> from fem_check import predict
@@ -187,6 +203,7 @@ def predict(
     THEORY.require(scene)
     tolerance = Tolerance(rtol, atol).of_speed(scene.alpha, scene.unit)
     validation.choice("method", method, METHODS)
+    _require_reach(scene, method)
     with watched(progress, "predict"):
         if method == "auto":
             found = _cheapest(scene, tolerance)

@@ -34,6 +34,9 @@ class Options:
     """Period of the wave, e.g. "8 s"; 1 by default."""
     count: Annotated[int, In(group=WAVE)] = 1
     """Number of waves on the sheet; a negative number runs towards -y."""
+    wave: Annotated[str | None, In(group=WAVE)] = None
+    """An excitable wave instead (eq. 12), on its periodic orbit: excitable:pulse-train. Its
+    unit of time is that of the reaction; other numbers are plain."""
     pulse: Annotated[float | None, In(group=WAVE)] = None
     """A smooth pulse instead of a sine; its width at half height in wavelengths, 0.02 to 1:
     c = exp(k (cos phi - 1)), k = ln 2/(1 - cos(pi share)), phi = 2 pi (count y/L - t/T)."""

@@ -24,6 +24,8 @@ from linear_theory.wave.travelling import SineWave, TravellingWave
 if TYPE_CHECKING:
     import pint
 
+    from fem_check.excitable.presets import Preset
+
 OPTIONS = {
     "length": "length",
     "width": "length",
@@ -33,6 +35,9 @@ OPTIONS = {
     "atol": "speed",
 }
 """Dimension of each option that has one."""
+
+WAVE_RTOL = 1e-2
+"""Of c of an excitable wave, whose error is counted in that of the speed."""
 
 FORMULAS = ("count", "pulse", "sine", "cosine")
 """Options of a wave by a formula."""
@@ -57,10 +62,11 @@ def asked(options: Options) -> Asked:
         for name, kind in OPTIONS.items()
         if (text := getattr(options, name)) is not None
     }
+    preset = None if options.wave is None else _preset(options, [*given.values()])
     names = _common_units(given)
     numbers = {name: _in(names, OPTIONS[name], one) for name, one in given.items()}
     sheet = _sheet(numbers, names is not None, options.poisson)
-    wave = _wave(options, numbers.get("period"))
+    wave = _wave(options, numbers.get("period")) if preset is None else _orbit(preset, sheet)
     alpha, law = _alpha(options, wave, sheet), options.growth_law
     contact = Contact(options.load, _friction(options, numbers.get("slip_speed")))
     scene = Scene(sheet, wave, alpha, growth_law=law, area=options.area, contact=contact)
@@ -155,6 +161,39 @@ def _wave(options: Options, period: float | None) -> Wave:
     if not Path(options.wave_csv).is_file():
         raise ValueError(f"--wave-csv {options.wave_csv!r}: there is no such file")
     return SampledWave.from_csv(options.wave_csv, period=period)
+
+
+def _preset(options: Options, given: list[Quantity]) -> "Preset":
+    """The equation named by --wave. Raises ValueError for one that does not repeat, and for units."""
+    from fem_check.excitable.presets import PRESETS  # here: it loads finite elements
+
+    said = f"--wave {options.wave!r}"
+    named = {f"excitable:{n.replace(' = ', '=').replace(' ', '-')}": one for n, one in PRESETS.items()}
+    repeating = " or ".join(w for w, one in named.items() if one.equation.pacing is not None)
+    if options.wave not in named:
+        raise ValueError(f"{said}: must be {repeating}")
+    found = named[options.wave]
+    if found.equation.pacing is None:
+        raise ValueError(
+            f"{said}: does not repeat, so that it has no single speed; must be {repeating}, or be in a "
+            "scene file that is stepped through time, by sheetcrawl new excitable"
+        )
+    default = Options()
+    for name in ("wave_csv", "period", *FORMULAS):
+        if getattr(options, name) != getattr(default, name):
+            raise ValueError(f"{said}: must not be combined with {_option(name)}")
+    if any(one.unit is not None for one in given):
+        raise ValueError(
+            f"{said}: must have plain numbers beside it, its unit of time is that of the reaction; "
+            "units may stand in a scene file, by sheetcrawl new excitable"
+        )
+    return found
+
+
+def _orbit(preset: "Preset", sheet: Sheet) -> Wave:
+    """The wave on the sheet that repeats."""
+    equation = preset.equation.scaled(sheet.length)
+    return equation.on(sheet, preset.until, WAVE_RTOL).periodic()
 
 
 def _series(options: Options, period: float) -> TravellingWave:

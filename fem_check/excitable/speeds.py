@@ -126,7 +126,8 @@ def speeds(
     >>> print((found.displacement * 1e3).round(1), found.settled)
     [-14.9 -16.3 -15.1] False
     """
-    wave, body = scene.wave, validation.choice("body", body, BODIES)
+    wave = validation.instance("scene", scene, Scene).wave
+    body = validation.choice("body", body, BODIES)
     if not isinstance(wave, Excitation):
         raise ValueError(
             f"wave = {validation.shown(wave)}: must be an Excitation, made by "

@@ -53,7 +53,9 @@ class PacingTable(Table):
 class EquationTable(Table):
     """Eq. 12, in the file's unit of time, by a preset or by its numbers."""
 
-    preset: Literal["printed", "nu = -0.1", "nu = -0.05", "pulse train", "spiral"] | None = None
+    preset: (
+        Literal["printed", "nu = -0.1", "nu = -0.05", "pulse train", "spiral", "turbulent"] | None
+    ) = None
     """Numbers, start and pacing by name, lengths in lengths of the sheet; what else is said replaces
     those of the preset."""
     threshold: float | None = None

@@ -4,6 +4,8 @@ import json
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
+from linear_theory.common.validation import shown
+
 LINE = 100
 """Characters, beyond which a list of lists has a line for each."""
 
@@ -47,7 +49,7 @@ def _value(value: Any) -> str:
         return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
     if isinstance(value, Sequence):
         return _list(value)
-    raise ValueError(f"{value!r}: must be a number, text or a list, to stand in TOML")
+    raise ValueError(f"{shown(value)}: must be a number, text or a list, to stand in TOML")
 
 
 def _list(values: Sequence[Any]) -> str:

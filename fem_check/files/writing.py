@@ -22,6 +22,7 @@ from fem_check.shell.effects.koiter import Bending, Membrane
 from fem_check.shell.effects.loads import DeadLoad
 from fem_check.shell.effects.terrain import Terrain
 from linear_theory.common import validation
+from linear_theory.common.validation import shown
 from linear_theory.growth.laws import GROWTH_LAWS
 from linear_theory.identity import content_key
 from linear_theory.scene.effects import contact_of
@@ -81,7 +82,9 @@ def _sheet(scene: Scene) -> Entries:
     if scene.effects:
         first = scene.effects[0]
         if type(first) is not Membrane:
-            raise ValueError(f"effects[0] = {first!r}: must be Membrane to be written to a scene file")
+            raise ValueError(
+                f"effects[0] = {shown(first)}: must be Membrane to be written to a scene file"
+            )
         entries["young"] = first.material.young
     return entries
 
@@ -112,7 +115,7 @@ def _growth(scene: Scene) -> Entries:
     growth = scene.growth
     if GROWTH_LAWS.get(growth.law.name) != growth.law:
         raise ValueError(
-            f"law = {growth.law!r}: must be one of {', '.join(GROWTH_LAWS)} in a scene file"
+            f"law = {shown(growth.law)}: must be one of {', '.join(GROWTH_LAWS)} in a scene file"
         )
     entries = {"law": growth.law.name, "area": str(growth.energy_area)}
     coupling = {"curvature_coupling": growth.curvature_coupling, "curvature": str(growth.curvature)}
@@ -153,7 +156,9 @@ def _terrain(terrain: Terrain) -> Entries:
         sizes = {"width": height.width, "length": height.length, "smoothing": height.smoothing}
         return {"heights": height.heights.tolist(), **sizes}
     if not is_expression(height):
-        raise ValueError(f"height = {height!r}: a scene file holds no functions; give an expression")
+        raise ValueError(
+            f"height = {shown(height)}: a scene file holds no functions; give an expression"
+        )
     return {"expression": formula_of(height)}
 
 

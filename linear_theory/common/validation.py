@@ -195,5 +195,5 @@ def flag(name: str, value: object) -> bool:
 def label(name: str, value: object) -> str:
     """`value`, which must be non-empty text."""
     if not isinstance(value, str) or not value:
-        raise ValueError(f"{name} = {value!r}: must be non-empty text")
+        raise ValueError(f"{name} = {shown(value)}: must be non-empty text")
     return value

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linear_theory.common import validation
+from linear_theory.common.validation import shown
 from linear_theory.friction.isotropic import Isotropic, IsotropicResponse
 from linear_theory.friction.law import FrictionLaw
 from linear_theory.friction.trial import check_law
@@ -206,7 +207,7 @@ def friction_law(
     """
     if isinstance(friction, FrictionLaw):
         if slip_speed is not None:
-            raise ValueError(f"slip_speed = {slip_speed!r}: must be None beside {friction!r}")
+            raise ValueError(f"slip_speed = {shown(slip_speed)}: must be None beside {shown(friction)}")
         return checked_law(friction, 2, argument)
     name = validation.choice(argument, friction, FRICTION_LAWS)
     if name == Tanh.name:
@@ -214,5 +215,5 @@ def friction_law(
             raise ValueError(f"slip_speed = None: must be > 0 for {argument} = 'tanh'")
         return Tanh(slip_speed)  # type: ignore[arg-type]  # checked there
     if slip_speed is not None:
-        raise ValueError(f"slip_speed = {slip_speed!r}: only {argument} = 'tanh' has one")
+        raise ValueError(f"slip_speed = {shown(slip_speed)}: only {argument} = 'tanh' has one")
     return Coulomb() if name == Coulomb.name else Viscous()

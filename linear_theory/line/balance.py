@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from linear_theory.common import validation
 from linear_theory.common.threads import one_blas_thread
 from linear_theory.common.tolerance import Tolerance
+from linear_theory.common.validation import shown
 from linear_theory.energy.energy import Energy
 from linear_theory.friction.contact import Contact
 from linear_theory.friction.directional import Directional
@@ -111,11 +112,12 @@ def line_crawl(scene: Scene, tolerance: Tolerance, body: str) -> CrawlSpeed:
     start, law, length = time.perf_counter(), scene.contact.friction, scene.sheet.length
     if not _integrable(law):
         names = ", ".join([*(kind.__name__ for kind in FRICTION_LAWS.values()), "Directional"])
-        raise ValueError(f"friction = {law!r}: must be one of {names} for a body on a line")
+        raise ValueError(f"friction = {shown(law)}: must be one of {names} for a body on a line")
     law.potential(np.ones((1, 1)))  # raises ValueError for a heading, which a line has not
     if map_on_ground(scene):
-        shown = validation.shown(law)
-        raise ValueError(f"friction = {shown}: must have no map on the ground for a body on a line")
+        raise ValueError(
+            f"friction = {shown(law)}: must have no map on the ground for a body on a line"
+        )
     piece = Piece.of(scene.growth.law, scene.contact.load, body)
     tolerance = tolerance.of_speed(scene.alpha, scene.unit)
     error = _wave_error(scene, piece)
@@ -171,7 +173,7 @@ def _checked_length(length: float | None, wave: Wave) -> float:
     if drive(wave, Sheet()).series is not None:
         return 1.0
     raise ValueError(
-        f"length = None: must be given, > 0, for wave = {wave!r}, which is a function of y in some "
+        f"length = None: must be given, > 0, for wave = {shown(wave)}, a function of y in some "
         "unit of length; only a TravellingWave is a function of y/length"
     )
 

@@ -5,7 +5,7 @@ from collections.abc import Iterable
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Protocol, runtime_checkable
 
-from linear_theory.common import validation
+from linear_theory.common.validation import shown
 from linear_theory.friction.contact import Contact
 from linear_theory.friction.law import FrictionLaw
 from linear_theory.friction.load import Load
@@ -78,8 +78,8 @@ def contact_of(effects: Iterable[NamedEffect], components: int, said: Contact | 
         )
     if said is not None and said.friction != found.friction:
         raise ValueError(
-            f"friction = {said.friction!r}: must be None or that of the scene, which names Friction "
-            f"with {law!r}"
+            f"friction = {shown(said.friction)}: must be None or that of the scene, which names "
+            f"Friction with {shown(law)}"
         )
     return found
 
@@ -95,13 +95,14 @@ def checked_effects(effects: Any) -> tuple[Any, ...]:
     if _is_effect(effects):
         return (effects,)
     if isinstance(effects, type | str) or not isinstance(effects, Iterable):
-        shown = validation.shown(effects)
-        raise ValueError(f"effects = {shown}: must be a sequence of effects, as [Membrane(material)]")
+        raise ValueError(
+            f"effects = {shown(effects)}: must be a sequence of effects, as [Membrane(material)]"
+        )
     found = tuple(effects)
     for i, effect in enumerate(found):
         if not _is_effect(effect):
             hint = "an instance, made with its arguments" if isinstance(effect, type) else "an effect"
-            raise ValueError(f"effects[{i}] = {validation.shown(effect)}: must be {hint}")
+            raise ValueError(f"effects[{i}] = {shown(effect)}: must be {hint}")
         if type(effect) in map(type, found[:i]):
             raise ValueError(f"effects: {type(effect).__name__} is named twice, must be named once")
     return found

@@ -15,6 +15,7 @@ import math
 from collections.abc import Callable
 from dataclasses import replace
 from typing import NamedTuple
+from weakref import WeakKeyDictionary
 
 import numpy as np
 from numpy.typing import NDArray
@@ -147,8 +148,25 @@ def _with_wave_error(
     tolerance = tolerance.of_speed(scene.alpha, scene.unit)
     scene.drive.check()
     norm = _norm(scene)
-    error = wave_error(uncertainty, scene.wave, _Coarse.of(scene).mean)
+    error = _known_error(uncertainty, scene)
     return error.joins(solve(error.leaves(tolerance, norm)), tolerance, norm)
+
+
+_LAST: "WeakKeyDictionary[Wave, tuple[object, WaveError]]" = WeakKeyDictionary()
+"""Of each wave: sheet, growth and contact that it was last asked for, and the error."""
+
+
+def _known_error(uncertainty: Uncertainty, scene: Scene) -> WaveError:
+    """The error, found once for all levels that `predict` asks in turn."""
+    question = scene.sheet, scene.alpha, scene.contact
+    try:
+        last = _LAST.get(scene.wave)
+    except TypeError:  # a wave of a user that cannot be hashed
+        return wave_error(uncertainty, scene.wave, _Coarse.of(scene).mean)
+    if last is None or last[0] != question:
+        last = question, wave_error(uncertainty, scene.wave, _Coarse.of(scene).mean)
+        _LAST[scene.wave] = last
+    return last[1]
 
 
 def _norm(scene: Scene) -> RigidNorm:

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from linear_theory.common import validation
 from linear_theory.common.errors import Unidentifiable
 from linear_theory.common.shown import Value
+from linear_theory.common.validation import shown
 from linear_theory.identity import content_key
 from linear_theory.sheet.rectangle import Sheet
 from linear_theory.wave.places import Places
@@ -152,7 +153,7 @@ class FieldDrive(SampledDrive):
 
 def _function(name: str, value: Growth) -> Growth:
     if not callable(value):
-        raise ValueError(f"{name} = {value!r}: must be a function of (x, y, t)")
+        raise ValueError(f"{name} = {shown(value)}: must be a function of (x, y, t)")
     return value
 
 

@@ -20,6 +20,7 @@ from fem_check.files.equations import EquationTable, PacingTable, StartTable
 from fem_check.files.system import System
 from fem_check.files.tables import WaveTable
 from linear_theory.common import validation
+from linear_theory.common.validation import shown
 from linear_theory.sheet.rectangle import Sheet
 from linear_theory.wave.protocol import Wave
 
@@ -110,7 +111,7 @@ def entries_of(wave: Excitation | PeriodicExcitation) -> Entries:
     """What stands in [wave] for it, in full. Raises ValueError for what a file cannot say."""
     validation.instance("body", wave.body, Sheet, "a scene file says waves on rectangles only")
     if wave.method != Adaptive():
-        raise ValueError(f"method = {wave.method!r}: must be Adaptive() in a scene file")
+        raise ValueError(f"method = {shown(wave.method)}: must be Adaptive() in a scene file")
     periodic = isinstance(wave, PeriodicExcitation)
     until = wave.after if isinstance(wave, PeriodicExcitation) else wave.until
     entries: Entries = {"kind": "excitable", "until": until, "rtol": wave.rtol}

@@ -15,6 +15,7 @@ from fem_check.shell.kinematics.region import Entries
 from linear_theory.common import validation
 from linear_theory.common.pairs import PAIRS, pairs_among
 from linear_theory.common.shown import Value
+from linear_theory.common.validation import shown
 from linear_theory.friction.law import FrictionLaw, Response
 from linear_theory.friction.laws import Tanh, checked_law, friction_law
 from linear_theory.scene.scene import Scene
@@ -156,7 +157,7 @@ def _law(slip_speed: float | None, law: FrictionLaw | str | None) -> FrictionLaw
     found = friction_law(Tanh.name if law is None else law, slip_speed, "law")
     if found.width == 0:
         raise ValueError(
-            f"law = {found!r}: must have a derivative at rest, which a step in time needs; use "
+            f"law = {shown(found)}: must have a derivative at rest, which a step in time needs; use "
             "Tanh(slip_speed), dry friction for speeds well above its slip speed"
         )
     return found

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fem_check.shell.effects import differences
+from linear_theory.common.validation import shown
 
 Array = NDArray[np.float64]
 Function = Callable[[Array, Array], Any]
@@ -118,7 +119,7 @@ def source(function: Any, step: float | None) -> Source:
             found = np.asarray(function(origin, origin))
     except Exception as error:
         raise ValueError(
-            f"height = {function!r}: must take arrays x, y of one shape (np.sin and np.where, not "
+            f"height = {shown(function)}: must take arrays x, y of one shape (np.sin and np.where, not "
             f"math.sin and if), and failed on them: {error}"
         ) from error
     if found.dtype.kind not in "iuf":

@@ -13,6 +13,7 @@ from fem_check.shell.kinematics.region import Entries
 from linear_theory.common import validation
 from linear_theory.common.pairs import outer
 from linear_theory.common.shown import Value
+from linear_theory.common.validation import shown
 from linear_theory.scene.scene import Scene
 
 Array = NDArray[np.float64]
@@ -85,7 +86,7 @@ class EdgeMoment(Value, Effect):
         validation.real("moment", self.moment)
         validation.real("angle", self.angle)
         if self.entry not in (1, 2):
-            raise ValueError(f"entry = {self.entry!r}: must be 1 or 2")
+            raise ValueError(f"entry = {shown(self.entry)}: must be 1 or 2")
 
     @property
     def entries(self) -> Entries:  # type: ignore[override]

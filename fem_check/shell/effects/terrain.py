@@ -20,6 +20,7 @@ from fem_check.shell.effects.height_sources import (
 )
 from linear_theory.common import validation
 from linear_theory.common.shown import Value
+from linear_theory.common.validation import shown
 from linear_theory.scene.data import NotRestorable
 from linear_theory.sheet.rectangle import Sheet
 
@@ -86,8 +87,8 @@ class Terrain(Value):
             _ = self._source
         elif not callable(self.height):
             raise ValueError(
-                f"height = {self.height!r}: must be a function z = f(x, y), one that returns the rows "
-                f"{', '.join(ENTRIES)}, or a sympy expression in x and y"
+                f"height = {shown(self.height)}: must be a function z = f(x, y), one that returns the "
+                f"rows {', '.join(ENTRIES)}, or a sympy expression in x and y"
             )
 
     def identified_by(self) -> object:
@@ -113,7 +114,7 @@ class Terrain(Value):
             return cls(formula.parsed(height), name, length)
         except ValueError as problem:
             raise NotRestorable(
-                f"a Terrain cannot be restored from data, its height = {height!r} {problem}"
+                f"a Terrain cannot be restored from data, its height = {shown(height)} {problem}"
             ) from None
 
     def under(self, sheet: Sheet) -> "Terrain":

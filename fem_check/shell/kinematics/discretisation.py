@@ -18,6 +18,7 @@ from fem_check.shell.kinematics.surface import Flat, Surface
 from linear_theory.common import validation
 from linear_theory.common.shown import Shown
 from linear_theory.common.units import power_of_two
+from linear_theory.common.validation import shown
 
 Array = NDArray[np.float64]
 Where = Callable[[Array], NDArray[np.bool_]]
@@ -54,7 +55,7 @@ class Discretisation(Shown):
         elements.check_element(mesh, element)
         elements.check_rectangles(mesh, element)
         if components not in (2, 3):
-            raise ValueError(f"components = {components!r}: must be 2 (planar) or 3")
+            raise ValueError(f"components = {shown(components)}: must be 2 (planar) or 3")
         self.mesh, self.element = mesh, element
         self.surface = Flat() if surface is None else surface
         self.components = components
@@ -63,7 +64,7 @@ class Discretisation(Shown):
         self._dofs = skfem.Dofs(mesh, element)
         if components == 2 and np.abs(self._full_reference()[1:, 2]).max() > 0:
             raise ValueError(
-                f"surface = {self.surface!r}: must lie in a plane z = const for 2 components"
+                f"surface = {shown(self.surface)}: must lie in a plane z = const for 2 components"
             )
 
     def _title(self) -> str:

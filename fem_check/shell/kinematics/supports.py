@@ -7,6 +7,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from fem_check.shell.kinematics.discretisation import Discretisation, Where
 from fem_check.shell.kinematics.shape_functions import is_global
+from linear_theory.common.validation import shown
 
 Array = NDArray[np.float64]
 
@@ -80,7 +81,7 @@ class Supports:
         (along x suffices for "xy").
         """
         if motions not in ("xy", "xyz"):
-            raise ValueError(f"motions = {motions!r}: must be 'xy' or 'xyz'")
+            raise ValueError(f"motions = {shown(motions)}: must be 'xy' or 'xyz'")
         dofs = self.discretisation.dofs_at(xi)
         self.held[dofs["u"], : len(motions) if self.discretisation.components == 3 else 2] = True
         if "u_x" not in dofs:
@@ -121,7 +122,9 @@ class Supports:
     def _hold(self, where: Where, components: Collection[int], across: bool) -> "Supports":
         wrong = [c for c in components if c not in range(self.discretisation.components)]
         if wrong:
-            raise ValueError(f"components = {components!r}: must be in 0 ... {self.held.shape[1] - 1}")
+            raise ValueError(
+                f"components = {shown(components)}: must be in 0 ... {self.held.shape[1] - 1}"
+            )
         for axis, dofs in self._by_direction(where):
             for name in self._names(axis, across):
                 if name in dofs:

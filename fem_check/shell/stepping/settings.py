@@ -8,6 +8,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from fem_check.shell.stepping.schemes import Scheme
 from linear_theory.common import validation
+from linear_theory.common.validation import shown
 
 Array = NDArray[np.float64]
 
@@ -50,7 +51,9 @@ class Settings:
             self._set("rtol", validation.tolerance(1e-2 if self.rtol is None else self.rtol))
             return
         if self.rtol is not None:
-            raise ValueError(f"steps = {self.steps!r}: must be None if rtol = {self.rtol!r} is given")
+            raise ValueError(
+                f"steps = {shown(self.steps)}: must be None if rtol = {shown(self.rtol)} is given"
+            )
         self._set("steps", validation.integer("steps", self.steps, 4))
 
     def _check_step(self, step: float) -> None:

@@ -13,6 +13,7 @@ from fem_check.shell.statics.newton import Minimiser
 from fem_check.shell.stepping.schemes import BackwardDifferences, History, Newmark, Scheme
 from fem_check.shell.stepping.stepper import Stepper
 from linear_theory.common import validation
+from linear_theory.common.validation import shown
 
 Array = NDArray[np.float64]
 
@@ -62,7 +63,7 @@ def first_history(
     history = History.at_rest(resting_state(stepper), dt, scheme)
     if not any(effect.areal_mass for effect in model.effects):
         if velocity is not None:
-            raise ValueError(f"velocity = {velocity!r}: must be None without Inertia")
+            raise ValueError(f"velocity = {shown(velocity)}: must be None without Inertia")
         if isinstance(scheme, Newmark):
             raise ValueError(f"scheme = {scheme}: must be BackwardDifferences without Inertia")
         return history

@@ -14,6 +14,7 @@ from fem_check.sweeps.points.fields import checked, takes_whole_numbers
 from fem_check.sweeps.points.measures import in_unit, measured, tidied, unit_name
 from linear_theory.common import validation
 from linear_theory.common.shown import Value, plain
+from linear_theory.common.validation import shown
 
 SPACINGS = ("linear", "log")
 
@@ -223,7 +224,7 @@ def _check_alike(values: Sequence[Any]) -> None:
     """Raise ValueError unless all values or none are quantities with units of one dimension."""
     for value in values:
         if value is None or (isinstance(value, float) and not math.isfinite(value)):
-            raise ValueError(f"{value!r}: must be finite")
+            raise ValueError(f"{shown(value)}: must be finite")
     parts = [measured(value) if isinstance(value, str) else None for value in values]
     united = [part for part in parts if part is not None and part.unit is not None]
     if united and len(united) < len(values):
