@@ -14,10 +14,8 @@ from scipy.integrate import quad
 from scipy.optimize import brentq
 
 from fem_check import (
-    Bending,
     Friction,
     Gravity,
-    Ground,
     Material,
     Membrane,
     Scene,
@@ -465,22 +463,6 @@ def test_efficiency_on_a_mapped_ground_is_unknown_and_says_so():
     assert "efficiency unknown: a map of friction on the ground" in " ".join(repr(speed).split())
     found = replace(predict(SHEET, SINE, 0.1, method="first order", rtol=1e-2), speed=speed)
     assert "efficiency unknown, for a map of friction on the ground" in energy(found)
-
-
-# levels without
-
-
-def test_a_plate_to_second_order_has_no_power_and_says_so():
-    bending = [Membrane(MATERIAL), Bending(MATERIAL), Gravity(2.5e-4), Ground(0.5)]
-    effects = [*bending, Friction(0.02, slip_speed=6e-3)]
-    asked = Scene(SHEET, SINE, alpha=0.02, curvature_coupling=0.05, effects=effects, cells=(2, 4))
-    found = crawl_speed(asked, order=2, rtol=1e-2)
-    numbers = found.power, found.cost_of_transport, found.efficiency
-    assert found.energy is None
-    assert np.isnan(numbers).all()
-    for asks in (found.growth_power, lambda mu: Scale(0.04, 8.0).energy(found, 1.0, mu)):
-        with pytest.raises(ValueError, match="speed: has no known power, must be of a planar theory"):
-            asks(0.1)
 
 
 # motions sideways
