@@ -100,7 +100,7 @@ def test_a_wave_that_changes_the_weight_has_a_power_but_no_course_of_it():
 def test_bending_alone_and_no_coupling_at_all():
     """Without growth the slip is beta^2 v_b; dry, so is the power. Without both nothing is spent."""
     one, other = (
-        crawl_speed(saddle.scene(PLACE, SKEW, Tanh(1e-9), 1e-9, b).but(alpha=0.0), order=2, rtol=5e-2)
+        crawl_speed(saddle.scene(PLACE, SKEW, Tanh(1e-9), 1.0, b).but(alpha=0.0), order=2, rtol=5e-2)
         for b in (0.1, 0.2)
     )
     assert other.power.value == pytest.approx(4 * one.power.value, rel=1e-6)
@@ -108,6 +108,6 @@ def test_bending_alone_and_no_coupling_at_all():
     used = Scale(0.04, 8.0).energy(other, weight_n=2e-3, friction=0.5)
     assert used.power_w == pytest.approx(0.5 * 2e-3 * other.power.value * 0.04 / 8)
     still = crawl_speed(
-        saddle.scene(PLACE, SKEW, Viscous(), 1e-9, 0.0).but(alpha=0.0), order=2, rtol=1e-2
+        saddle.scene(PLACE, SKEW, Viscous(), 1.0, 0.0).but(alpha=0.0), order=2, rtol=1e-2
     )
     assert still.power == (0.0, 0.0)
