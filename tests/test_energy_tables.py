@@ -1,4 +1,4 @@
-"""Tables and figure on energy: errors of random sheets, gaits with bristles, the sheet that bends alone."""
+"""Tables and figure on energy: errors on random sheets, gaits with bristles, bending alone."""
 
 import math
 import warnings

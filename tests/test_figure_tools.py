@@ -17,6 +17,8 @@ from figures.common import output, records, style
 from figures.draw import excitable as excitable_picture
 from figures.measure import (
     directional,
+    energy_error,
+    energy_gaits,
     excitable,
     model_error,
     nonlinear,
@@ -26,7 +28,7 @@ from figures.measure import (
     second_order,
     turning,
 )
-from figures.measure.plate import lower_face, saddle_range
+from figures.measure.plate import bent_alone, lower_face, saddle_range
 from linear_theory.speed.si import Scale, speed_si
 from paper.numbers import shell
 
@@ -125,7 +127,10 @@ TABLES = [
     *(
         module.TABLE
         for module in (
+            bent_alone,
             directional,
+            energy_error,
+            energy_gaits,
             lower_face,
             model_error,
             nonlinear,

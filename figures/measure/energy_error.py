@@ -43,6 +43,7 @@ from linear_theory import (
     pulse_wave,
 )
 from linear_theory.friction.contact import Contact
+from linear_theory.wave.protocol import Wave
 
 FINE, FINEST = 1e-2, 1e-5
 """Tolerance of the finer answer over that of the first; not below FINEST."""
@@ -157,7 +158,7 @@ def _sampled(case: Case) -> CrawlSpeed:
     return _on_line(case, given)
 
 
-def _on_line(case: Case, wave: object) -> CrawlSpeed:
+def _on_line(case: Case, wave: Wave) -> CrawlSpeed:
     asked, contact = case.scene, case.scene.contact
     law, rtol = contact.friction, case.rtol
     return line_balance(wave, asked.alpha, contact.load, law, rtol=rtol, length=1.0)
@@ -172,7 +173,7 @@ def _by_theory(order: int, share: float, method: str = "auto") -> Answer:
 
 
 def _by_finer_cycle(case: Case) -> CrawlSpeed:
-    across, along = case.scene.cells
+    across, along = case.scene.cells or CELLS
     cells = FINER_CELLS * across, FINER_CELLS * along
     return cycle_speed(case.scene.but(cells=cells), rtol=case.rtol / 10)
 

@@ -59,8 +59,8 @@ def lower_face() -> Step:
         prove("slip", sp.diff(moved, time), BETA * H / 2 * sp.diff(w, place, time))
     return Step(
         "Lower face",
-        "$x - (h\\/2) n$, $n prop (-beta nabla zeta, 1)$ from the tangents of $(x, y, beta zeta)$: along "
-        "the ground its points are displaced, and slip in addition, by",
+        "$x - (h\\/2) n$, $n prop (-beta nabla zeta, 1)$ from the tangents of "
+        "$(x, y, beta zeta)$: along the ground its points are displaced, and slip in addition, by",
         ("+frac(h, 2) beta nabla zeta + O(beta^3), quad +frac(h, 2) beta nabla zeta_t + O(beta^3)",),
     )
 

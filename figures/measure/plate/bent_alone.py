@@ -27,7 +27,7 @@ from linear_theory.wave.protocol import Wave
 Array = NDArray[np.float64]
 
 WAVES: dict[str, Wave] = {
-    "two harmonics": TravellingWave([1.0, 0.4], [0.0, 0.3]),
+    "two harmonics": TravellingWave(np.array([1.0, 0.4]), np.array([0.0, 0.3])),
     "short pulse": pulse_wave(0.2),
 }
 
