@@ -51,7 +51,7 @@ figures: $(STAMP)
 	$(RUN) -m figures.draw.cost $(FIGURE_OUT)
 	$(RUN) -m figures.draw.regimes $(FIGURE_OUT)
 	$(RUN) -m figures.draw.directional $(FIGURE_OUT)
-	$(RUN) -m figures.draw.energy_gaits $(FIGURE_OUT)
+	$(RUN) -m figures.draw.energy $(FIGURE_OUT)
 	$(RUN) -m figures.draw.saddle $(FIGURE_OUT)
 	$(RUN) -m figures.draw.excitable $(FIGURE_OUT)
 	$(RUN) -m figures.draw.fig2 $(FIGURE_OUT)
@@ -105,8 +105,8 @@ tables: $(STAMP)
 	$(RUN) -m figures.measure.reach
 	$(RUN) -m figures.measure.regimes
 	$(RUN) -m figures.measure.directional
-	$(RUN) -m figures.measure.energy_gaits
-	$(RUN) -m figures.measure.energy_error
+	$(RUN) -m figures.measure.energy.gaits
+	$(RUN) -m figures.measure.energy.errors
 	$(RUN) -m figures.measure.saddle
 	$(RUN) -m figures.measure.plate.saddle_range
 	$(RUN) -m figures.measure.plate.lower_face

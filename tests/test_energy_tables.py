@@ -7,8 +7,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from figures.draw import energy_gaits as figure
-from figures.measure import energy_error, energy_gaits
+from figures.draw.energy import figure
+from figures.measure.energy import errors as energy_error
+from figures.measure.energy import gaits as energy_gaits
 from figures.measure.plate import bent_alone
 from linear_theory import BeyondReachWarning, ViscousRegimeWarning
 
@@ -106,8 +107,8 @@ def test_rows_of_gaits_are_what_is_computed():
 
 def test_the_figure_writes_what_it_shows(tmp_path):
     assert [p.name for p in figure.write(GAITS, tmp_path, ["png"])] == [
-        "energy_gaits.png",
-        "energy_gaits.json",
+        "energy.png",
+        "energy.json",
     ]
     left, middle, right = figure.draw(GAITS).axes
     drawn = {

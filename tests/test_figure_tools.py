@@ -17,8 +17,6 @@ from figures.common import output, records, style
 from figures.draw import excitable as excitable_picture
 from figures.measure import (
     directional,
-    energy_error,
-    energy_gaits,
     excitable,
     model_error,
     nonlinear,
@@ -28,6 +26,8 @@ from figures.measure import (
     second_order,
     turning,
 )
+from figures.measure.energy import errors as energy_errors
+from figures.measure.energy import gaits as energy_gaits
 from figures.measure.plate import bent_alone, lower_face, saddle_range
 from linear_theory.speed.si import Scale, speed_si
 from paper.numbers import shell
@@ -129,7 +129,7 @@ TABLES = [
         for module in (
             bent_alone,
             directional,
-            energy_error,
+            energy_errors,
             energy_gaits,
             lower_face,
             model_error,

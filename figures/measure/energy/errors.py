@@ -1,6 +1,6 @@
 """Numerical errors of power and cost of transport, claimed and true, for random sheets.
 
-    python -m figures.measure.energy_error [--out FILE] [--count 60]
+    python -m figures.measure.energy.errors [--out FILE] [--count 60]
 
 Writes figures/data/energy_error.csv, ten minutes of the processor; it goes on where the file ends. Each
 case is answered twice: at a tolerance as a user may ask for, and much finer, by other means where there
@@ -83,7 +83,7 @@ class Row:
 TABLE = Table(
     DATA / "energy_error.csv",
     Row,
-    "python -m figures.measure.energy_error",
+    "python -m figures.measure.energy.errors",
     "power in L/T over mu weight, cost of transport over mu, beta in 1/L",
     5,
 )

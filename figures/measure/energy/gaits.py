@@ -1,8 +1,8 @@
 """What crawling costs under friction with a direction: a wave and a sheet that breathes.
 
-    python -m figures.measure.energy_gaits [--out FILE] [--rtol 3e-3]
+    python -m figures.measure.energy.gaits [--out FILE] [--rtol 3e-3]
 
-Writes figures/data/energy_gaits.csv, which `figures.draw.energy_gaits` draws: a minute of computing.
+Writes figures/data/energy_gaits.csv, which `figures.draw.energy` draws: a minute of computing.
 Gaits, dry friction 1 - r forward, 1 + r backward and 1 sideways, and models as in
 `figures.measure.directional`, here "line" and "nonlinear": over r at ALPHA, and over alpha at RS.
 """
@@ -50,7 +50,7 @@ class Row:
 TABLE = Table(
     DATA / "energy_gaits.csv",
     Row,
-    "python -m figures.measure.energy_gaits",
+    "python -m figures.measure.energy.gaits",
     "r: (backward - forward)/(backward + forward); cost of transport over mu = (backward + forward)/2",
     6,
 )

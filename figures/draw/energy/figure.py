@@ -1,8 +1,8 @@
 """Figure on energy: what a wave and a breath cost, with bristles and without.
 
-    python -m figures.draw.energy_gaits [--out FOLDER] [--formats png pdf]
+    python -m figures.draw.energy [--out FOLDER] [--formats png pdf]
 
-From the table of `figures.measure.energy_gaits`; lines are the body on a line, symbols the nonlinear
+From the table of `figures.measure.energy.gaits`; lines are the body on a line, symbols the nonlinear
 2:1 sheet, whose estimated errors are smaller. Left: cost of transport over mu against r = (mu_b -
 mu_f)/(mu_b + mu_f), with that of the sheet that is dragged forward, 1 - r. Middle: efficiency, the
 quotient of both. Right: cost of transport against alpha.
@@ -19,7 +19,7 @@ from matplotlib.ticker import NullFormatter
 from numpy.typing import NDArray
 
 from figures.common import output, style
-from figures.measure import energy_gaits as table
+from figures.measure.energy import gaits as table
 
 Array = NDArray[np.float64]
 
@@ -113,14 +113,14 @@ def numbers_shown(rows: Sequence[table.Row]) -> dict[str, object]:
 def write(rows: Sequence[table.Row], out: Path | None, formats: Sequence[str]) -> list[Path]:
     """Figure and numbers (JSON) in the folder `out`; returns their paths. Its data are the table."""
     return [
-        *style.save(draw(rows), "energy_gaits", out, tuple(formats)),
-        output.write_json(style.output_path("energy_gaits.json", out), numbers_shown(rows)),
+        *style.save(draw(rows), "energy", out, tuple(formats)),
+        output.write_json(style.output_path("energy.json", out), numbers_shown(rows)),
     ]
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
     """Draw the figure from its table."""
-    options = style.options("energy_gaits", __doc__, arguments)
+    options = style.options("energy", __doc__, arguments)
     for path in write(table.TABLE.read(), options.out, options.formats):
         print(path)
 
