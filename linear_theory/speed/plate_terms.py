@@ -103,7 +103,8 @@ class PlateCoefficients(Coefficients):
     def work_errors(self, motion: RigidMotion) -> Array:
         """See Crawl."""
         second = weighted_error(self.terms, self.weights, motion.fastest)
-        return np.array([self.field.error * motion.fastest, 2 * second])
+        errors = np.array([self.field.error * motion.fastest, 2 * second])
+        return self.power_per_speed(motion) * errors
 
     def _motion(self, times: Array) -> Motion:
         motion, w = super()._motion(times), self.weights
@@ -152,7 +153,7 @@ class BendingAlone(Crawl):
 
     def work_errors(self, motion: RigidMotion) -> Array:
         """See Crawl."""
-        return np.array([self._slip_error, 0.0])
+        return np.array([self.power_per_speed(motion) * self._slip_error, 0.0])
 
     @property
     def _slip_error(self) -> float:

@@ -225,7 +225,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
         for kind in (BeyondReachWarning, ViscousRegimeWarning):
             warnings.simplefilter("ignore", kind)
         for number in tracked("cases", [n for n in range(options.count) if n not in known]):
-            rows.append(row(number))
+            rows = sorted([*rows, row(number)], key=lambda r: r.case)
             TABLE.write(rows, options.out)
 
 
