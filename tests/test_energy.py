@@ -270,6 +270,17 @@ def test_noise_of_a_measured_wave_is_in_the_error():
     assert found.power.error > 1e-3 * found.power.value
 
 
+def test_errors_scale_with_the_force_of_friction():
+    """That of the deformation, too, whose slope the law gives: a claim in speeds would not do."""
+    for order in (1, 2):
+        plain, other = (
+            crawl_speed(SHEET, PULSE, 0.1, friction=law, rtol=3e-2, order=order).power
+            for law in (Viscous(), Viscous(speed=1e-3))
+        )
+        assert other.value == pytest.approx(1e3 * plain.value, rel=1e-9)
+        assert other.error == pytest.approx(1e3 * plain.error, rel=1e-3)
+
+
 # levels
 
 
