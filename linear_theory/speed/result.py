@@ -24,7 +24,7 @@ Array = NDArray[np.float64]
 UNKNOWN = Estimate(np.nan, np.nan)
 
 SOLVED = "must be of a sheet that was solved here"
-POWERED = "must be of a planar theory, cycle_speed, or simulate with Friction and Gravity"
+POWERED = "must be of a theory, cycle_speed, or simulate with Friction and Gravity"
 """What an energy needs, in words."""
 
 
