@@ -51,6 +51,7 @@ figures: $(STAMP)
 	$(RUN) -m figures.draw.cost $(FIGURE_OUT)
 	$(RUN) -m figures.draw.regimes $(FIGURE_OUT)
 	$(RUN) -m figures.draw.directional $(FIGURE_OUT)
+	$(RUN) -m figures.draw.energy $(FIGURE_OUT)
 	$(RUN) -m figures.draw.saddle $(FIGURE_OUT)
 	$(RUN) -m figures.draw.excitable $(FIGURE_OUT)
 	$(RUN) -m figures.draw.fig2 $(FIGURE_OUT)
@@ -104,9 +105,12 @@ tables: $(STAMP)
 	$(RUN) -m figures.measure.reach
 	$(RUN) -m figures.measure.regimes
 	$(RUN) -m figures.measure.directional
+	$(RUN) -m figures.measure.energy.gaits
+	$(RUN) -m figures.measure.energy.errors
 	$(RUN) -m figures.measure.saddle
 	$(RUN) -m figures.measure.plate.saddle_range
 	$(RUN) -m figures.measure.plate.lower_face
+	$(RUN) -m figures.measure.plate.bent_alone
 	$(RUN) -m figures.draw.saddle.page
 	$(RUN) -m figures.measure.schemes
 	$(RUN) -m figures.measure.turning

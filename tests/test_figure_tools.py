@@ -26,7 +26,9 @@ from figures.measure import (
     second_order,
     turning,
 )
-from figures.measure.plate import lower_face, saddle_range
+from figures.measure.energy import errors as energy_errors
+from figures.measure.energy import gaits as energy_gaits
+from figures.measure.plate import bent_alone, lower_face, saddle_range
 from linear_theory.speed.si import Scale, speed_si
 from paper.numbers import shell
 
@@ -125,7 +127,10 @@ TABLES = [
     *(
         module.TABLE
         for module in (
+            bent_alone,
             directional,
+            energy_errors,
+            energy_gaits,
             lower_face,
             model_error,
             nonlinear,

@@ -161,7 +161,10 @@ def test_words_that_stand_for_numbers():
     assert stored("reaction.later") < 0.2  # "no pulse of order one"
 
 
-FAST = ("balance", "viscous", "edges", "tails", "second_source", "convexity")
+FAST = (
+    *("balance", "viscous", "edges", "tails", "second_source", "convexity"),
+    *("quantile", "ground_and_plate", "mixed_order", "lower_face"),
+)
 
 
 @pytest.mark.parametrize("name", FAST)

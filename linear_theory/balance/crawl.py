@@ -25,6 +25,9 @@ MOST_WORK = 8_000_000
 """Limits of the number of times and of the work at all times together (see `Crawl.work`), some tens of
 seconds."""
 
+SMALL_SHARE = 1e-4
+"""Of a slip, for the slope of the dissipation along it."""
+
 BATCH = 10_000
 """Points per batch; halving of cells makes ten times as many, which fit in the cache."""
 
@@ -187,8 +190,23 @@ class Crawl:
         That of velocities; friction is balanced, so that what follows of V does no work. The load has
         the error of the strain, which is larger: twice is assumed.
         """
-        speed = self.field.error * motion.fastest
-        return np.array([speed, 0.0 if self.contact.load is Load.MATERIAL else 2 * speed])
+        power = self.power_per_speed(motion) * self.field.error * motion.fastest
+        return np.array([power, 0.0 if self.contact.load is Load.MATERIAL else 2 * power])
+
+    def power_per_speed(self, motion: RigidMotion) -> float:
+        """Most that friction dissipates more per speed, at slips of any direction up to the fastest.
+
+        1 for dry friction, 2 |v|/v_1 for viscous friction of the unit v_1, both times a map.
+        """
+        if not motion.fastest:
+            return 0.0
+        law, angles = self.contact.friction.per(self.alpha), 2 * np.pi / 16 * np.arange(16.0)
+        slip = motion.fastest * np.stack([np.cos(angles), np.sin(angles)])
+        more = law.dissipation((1 + SMALL_SHARE) * slip) - law.dissipation(slip)
+        steepest = float(more.max()) / (SMALL_SHARE * motion.fastest)
+        if law.map is None:
+            return steepest
+        return steepest * float(law.map.values(*self._motion(np.zeros(1)).position, 0.0).max())
 
     def _motion(self, times: Array) -> Motion:
         field, r = self.field, self.resolution

@@ -51,11 +51,13 @@ def travelling_power(
         full = half = body.profile.mean(density)
     else:
         width = max(law.width, NARROWEST * abs(unit) * (body.range[1] - body.range[0]))
+        # panels of the width resolve a smooth law to rounding, not one with a corner at rest
         shares = (
             quadrature(body.profile, lambda g: velocity(g)[None] / width, widest)
-            for widest in (0.5, 1.0)
+            for widest in ((1.0,) if law.reversible else (0.5, 1.0))
         )
-        full, half = (float(measure @ density(g)) for measure, g in shares)
+        found = [float(measure @ density(g)) for measure, g in shares]
+        full, half = found[0], found[-1]
     return Estimate(at_rest * full, at_rest * (abs(full - half) + ROUNDING * full))
 
 

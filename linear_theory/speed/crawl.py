@@ -17,7 +17,7 @@ from linear_theory.common.threads import one_blas_thread
 from linear_theory.common.tolerance import Tolerance
 from linear_theory.deformation.airy import airy_series
 from linear_theory.deformation.field import LinearField, checked_field
-from linear_theory.deformation.plate import foundation
+from linear_theory.deformation.plate import foundation, plate_field
 from linear_theory.deformation.ritz import ritz_field
 from linear_theory.energy.energy import Energy
 from linear_theory.friction.contact import Contact
@@ -31,7 +31,7 @@ from linear_theory.motion.motion import CellGrid
 from linear_theory.scene.level import PLATE, THEORY
 from linear_theory.scene.scene import Scene
 from linear_theory.sheet.rectangle import Sheet
-from linear_theory.speed.drawn import LinearDeformation
+from linear_theory.speed.drawn import BentDeformation, LinearDeformation
 from linear_theory.speed.model_error import LEVELS, model_error
 from linear_theory.speed.power_error import with_power_error
 from linear_theory.speed.reach import judged, too_large_growth, warn_if_beyond
@@ -138,10 +138,13 @@ def _first(scene: Scene, method: str, tolerance: Tolerance) -> CrawlSpeed:
 
 def drawn_deformation(scene: Scene, method: str = "ritz") -> LinearDeformation:
     """The small-strain deformation of the sheet of a scene, for pictures."""
-    contact = scene.contact
-    if not scene.planar:
-        contact = replace(contact, load=foundation(scene.effects).load)
-    return LinearDeformation(partial(_field, scene, SHOWN_RTOL, method), scene.alpha, contact)
+    find, contact = partial(_field, scene, SHOWN_RTOL, method), scene.contact
+    if scene.planar:
+        return LinearDeformation(find, scene.alpha, contact)
+    ground = foundation(scene.effects)
+    plate = partial(plate_field, scene.sheet, scene.wave, ground, SHOWN_RTOL)
+    couplings = scene.alpha, scene.curvature_coupling
+    return BentDeformation(find, plate, couplings, replace(contact, load=ground.load))
 
 
 def field_speed(

@@ -54,7 +54,8 @@ class Coefficients(Crawl):
     def work_errors(self, motion: RigidMotion) -> Array:
         """See Crawl."""
         second = second_field_error(self.field, motion.fastest)
-        return np.array([self.field.error * motion.fastest, 2 * second])
+        errors = np.array([self.field.error * motion.fastest, 2 * second])
+        return self.power_per_speed(motion) * errors
 
 
 def field_tolerance(rtol: float) -> float:

@@ -3,7 +3,12 @@
     V = V_a alpha + V_aa alpha^2 + V_ab alpha beta + V_bb beta^2
 
 for a sheet in full contact, see `plate_terms`. Friction acts on the mid-surface, as in the paper and in
-the shell.
+the shell. Its power is that of the same slip and load,
+
+    P = int (1 + alpha e + beta p) f(w) . w dA,    w = alpha v_1 + alpha^2 v_2 + beta^2 v_b + V,
+
+exact to one order beyond the leading one: for dry friction alpha, alpha^2, alpha beta and beta^2. What
+the sheet stores by bending, and on the ground, returns over a period.
 """
 
 import math
@@ -17,8 +22,10 @@ from numpy.typing import NDArray
 from linear_theory.balance.crawl import first_resolution
 from linear_theory.balance.period import Period, average
 from linear_theory.common.tolerance import Tolerance
+from linear_theory.energy.energy import Energy
 from linear_theory.friction.contact import Contact
 from linear_theory.motion.rigid import RigidNorm
+from linear_theory.scene.dragged import mean_map_of
 from linear_theory.scene.scene import Scene
 from linear_theory.speed.expansion import POINTS, TINY_ALPHA, field_errors, fine_cells, tiny
 from linear_theory.speed.plate_terms import (
@@ -68,9 +75,11 @@ def average_of(terms: PlateTerms, weights: Weights, contact: Contact, rtol: floa
 
 
 class _Motion(NamedTuple):
-    """Rigid motion at the couplings of a scene: over the period (3, T), mean and error (3,)."""
+    """Rigid motion at the couplings of a scene: over the period (3, T), mean and error (3,); size: the
+    alpha, or beta^2, that its period counts per unit of."""
 
     period: Period
+    size: float
     rigid: Array
     mean: Array
     error: Array
@@ -108,6 +117,7 @@ def plate_speed(scene: Scene, tolerance: Tolerance) -> CrawlSpeed:
         second_order=found.second,
         sticks=found.period.sticks,
         turning=None if mirrored else turning,
+        energy=Energy(*found.period.works.at(found.size), law, mean_map_of(scene)),
     )
     places = (p.ravel() for p in np.broadcast_arrays(*terms.plane.places(POINTS)))
     beyond = too_large_growth(scene.drive, scene.alpha, *places)
@@ -127,6 +137,7 @@ def _grown(terms: PlateTerms, scene: Scene, contact: Contact, tolerance: Toleran
     second = period.mean_errors[1] + norm.each(weighted_error(terms, weights, fastest))
     return _Motion(
         period,
+        alpha,
         rigid=alpha * orders[0] + alpha**2 * orders[1],
         mean=alpha * period.means[0] + alpha**2 * period.means[1],
         error=abs(alpha) * first + alpha**2 * second,
@@ -144,6 +155,7 @@ def _bent(terms: PlateTerms, scene: Scene, contact: Contact, tolerance: Toleranc
     share = 1.0 if square else 0.0
     return _Motion(
         period,
+        square,
         rigid=share * period.rigid,
         mean=share * period.rigid_mean,
         error=share * period.rigid_error,

@@ -100,6 +100,12 @@ class PlateCoefficients(Coefficients):
         """Error of the weighted second order due to the errors of the deformation."""
         return self.alpha**2 * weighted_error(self.terms, self.weights, motion.fastest)
 
+    def work_errors(self, motion: RigidMotion) -> Array:
+        """See Crawl."""
+        second = weighted_error(self.terms, self.weights, motion.fastest)
+        errors = np.array([self.field.error * motion.fastest, 2 * second])
+        return self.power_per_speed(motion) * errors
+
     def _motion(self, times: Array) -> Motion:
         motion, w = super()._motion(times), self.weights
         second = w.growth * np.asarray(motion.second)
@@ -143,8 +149,17 @@ class BendingAlone(Crawl):
 
     def field_error(self, motion: RigidMotion) -> float:
         """Error of V due to that of v_b."""
+        return abs(self.alpha) * SECOND_SHARE * self._slip_error
+
+    def work_errors(self, motion: RigidMotion) -> Array:
+        """See Crawl."""
+        return np.array([self.power_per_speed(motion) * self._slip_error, 0.0])
+
+    @property
+    def _slip_error(self) -> float:
+        """Of v_b."""
         stretch, plate = self.terms.stretch, self.terms.plate
-        return abs(self.alpha) * SECOND_SHARE * (stretch.error + 2 * plate.error) * stretch.speed
+        return (stretch.error + 2 * plate.error) * stretch.speed
 
     def _motion(self, times: Array) -> Motion:
         motion = super()._motion(times)

@@ -24,7 +24,7 @@ Array = NDArray[np.float64]
 UNKNOWN = Estimate(np.nan, np.nan)
 
 SOLVED = "must be of a sheet that was solved here"
-POWERED = "must be of a planar theory, cycle_speed, or simulate with Friction and Gravity"
+POWERED = "must be of a theory, cycle_speed, or simulate with Friction and Gravity"
 """What an energy needs, in words."""
 
 
@@ -69,8 +69,8 @@ class CrawlSpeed(Drawable, Tabular):
     beyond_reach: why a theory of small growth is not valid at this alpha (see `reach`), in words; empty
     if it is. Such results are never converged.
     wave_error: the part of error due to a measured wave (see `wave_error`), 0 for an exact one.
-    energy: power of growth and friction, None if not known, as for the plate to second order; `power`,
-    `cost_of_transport` and `efficiency` are made of it.
+    energy: power of growth and friction, None if not known, as for steps without weight or friction;
+    `power`, `cost_of_transport` and `efficiency` are made of it.
     deformation: the deformation of the sheet, for pictures (see `drawn.Deformation`); None if there
     is no shape. It is not part of the value and is not copied or pickled.
 

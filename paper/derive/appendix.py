@@ -14,6 +14,7 @@ from pathlib import Path
 from figures.common import output
 from figures.common.command import parser
 from paper.derive import line as proofs_line
+from paper.derive import plate as proofs_plate
 from paper.derive import sheet as proofs_sheet
 from paper.derive.proof import Step
 
@@ -35,6 +36,12 @@ STEPS = (
     proofs_sheet.strip_limit,
     proofs_sheet.second_source,
     proofs_line.convexity,
+    proofs_plate.quantile,
+    proofs_plate.directional_sine,
+    proofs_plate.ground_and_plate,
+    proofs_plate.mixed_order,
+    proofs_plate.lower_face,
+    proofs_plate.power,
 )
 
 

@@ -3,7 +3,7 @@
 import sympy as sp
 from sympy.printing.printer import Printer
 
-NAMES = {"alpha", "nu", "phi", "theta", "lambda", "gamma", "delta", "epsilon"}
+NAMES = {"alpha", "nu", "mu", "phi", "theta", "lambda", "gamma", "delta", "epsilon"}
 """Greek letters, which Typst knows by the same names; other names longer than a letter are quoted."""
 
 FUNCTIONS = {"sin", "cos", "tan", "sinh", "cosh", "tanh", "coth", "exp", "log"}

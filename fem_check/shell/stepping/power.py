@@ -8,7 +8,8 @@ the rest state, the potential energy U of the sheet, its weight and the ground c
 
 exactly, where growth is the trapezoidal rule for the integral of dU/dr dr, so that no derivative with
 respect to the rest state is needed. The work of dissipative forces is the mean of both ends times the
-displacement. The residual of the balance is of second order in the step.
+displacement. The residual of the balance, of second order in the step, is the dissipation of the
+scheme: what the forces at the end of a step, with inertia, do along it beyond these changes and means.
 """
 
 import math
@@ -56,7 +57,7 @@ class Works(Shown, _Works):
 
     @property
     def residual(self) -> Array:
-        """Residual of the balance: the error of the sums over steps."""
+        """Residual of the balance: dissipation of the scheme, the error of the sums over steps."""
         return np.asarray(self.growth - sum(self[1:]))
 
 

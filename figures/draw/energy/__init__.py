@@ -1,0 +1,1 @@
+"""The figure on energy: what a wave and a breath cost."""
