@@ -166,6 +166,12 @@ class Trajectory(Drawable, Tabular):
         """
         return crossed(self.model.discretisation, self.states)
 
+    @cached_property
+    def touching(self) -> NDArray[np.bool_]:
+        """Whether parts of the sheet press on each other at `stored_times`, (n,); see `SelfContact`."""
+        couplings = self.model.couplings
+        return np.array([any(c.touches(u) for c in couplings) for u in self.states], bool)
+
     @property
     def iterations(self) -> int:
         """Newton iterations of all accepted steps."""

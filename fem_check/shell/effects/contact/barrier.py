@@ -130,6 +130,8 @@ class Barrier:
         """See Coupling."""
         start, end = self.vertices(u), self.vertices(u + change)
         far = _furthest(start, end)
+        if 2 * far < SAFE * (min(self.distance(u), self.thickness + self.gap) - self.thickness):
+            return 1.0
         most = 1.0 if far <= self._furthest else self._furthest / far
         end = np.asfortranarray(start + most * (end - start))
         share = self._on_the_way(start, end).compute_collision_free_stepsize(

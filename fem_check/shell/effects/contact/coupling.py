@@ -18,6 +18,9 @@ class Coupling(Protocol):
     def begin(self, u: Array) -> None:
         """Forget what earlier states have left: all else then follows from u and what is asked next."""
 
+    def touches(self, u: Array) -> bool:
+        """Whether distant parts of the sheet press on each other at u."""
+
     def energy_and_gradient(self, u: Array) -> tuple[float, Array]:
         """Energy, force times length, infinite where the sheet may not be; its derivative, (size,)."""
 

@@ -25,7 +25,7 @@ Array = NDArray[np.float64]
 GAP = 0.5
 """Default gap in thicknesses."""
 
-SAGITTA = 0.1
+SAGITTA = 0.2
 """Largest distance between the sheet and its triangles, in thicknesses."""
 
 MOST_PIECES = 8
