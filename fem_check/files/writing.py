@@ -11,8 +11,8 @@ from fem_check.files.parts import excitable, friction
 from fem_check.files.reading import parsed
 from fem_check.files.toml import text_of
 from fem_check.output.files import replacing
-from fem_check.shell.effects.formula import text_of as formula_of
 from fem_check.shell.effects.contact.self_contact import SelfContact
+from fem_check.shell.effects.formula import text_of as formula_of
 from fem_check.shell.effects.friction import Friction
 from fem_check.shell.effects.gravity import Gravity
 from fem_check.shell.effects.ground import Ground

@@ -132,6 +132,13 @@ def crossing_words(crossed: Flags | None, times: Array) -> str:
     return f"passes through itself from t = {times[crossed][0]:.4g}" if crossed.any() else ""
 
 
+def touching_words(touching: Flags, times: Array) -> str:
+    """What such flags say of a sheet that presses on itself; nothing if it does not."""
+    if not touching.any():
+        return ""
+    return f"touches itself from t = {times[touching][0]:.4g}, without friction between its layers"
+
+
 def _edges(corners: Array) -> Array:
     """Two sides of triangles (components, m, 3), as columns, (components, 2, m)."""
     first, second, third = np.moveaxis(corners, -1, 0)

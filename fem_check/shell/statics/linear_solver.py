@@ -1,8 +1,8 @@
 """Direct solution with the symmetric matrix of a step, and the test for positive definiteness.
 
 For a long, narrow sheet a banded Cholesky factor after reverse Cuthill-McKee numbering is faster than
-sparse solvers; a wide unstructured outline uses SuperLU. Distant parts of a sheet that touch are coupled
-outside the band: then a small matrix is factorised as a dense one, a large one by SuperLU.
+sparse solvers; a wide unstructured outline uses SuperLU. Where distant parts of a sheet touch, entries
+lie outside the band: then a small matrix is factorised as a dense one, a large one by SuperLU.
 """
 
 from typing import Any, Protocol

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from fem_check.shell.cycle.frame import poses
-from fem_check.shell.kinematics.crossing import crossed, crossing_words
+from fem_check.shell.kinematics.crossing import crossed, crossing_words, touching_words
 from fem_check.shell.model import ShellModel
 from fem_check.shell.stepping import columns
 from fem_check.shell.stepping.between import between, interpolation_error, motion_around
@@ -373,11 +373,12 @@ class Trajectory(Drawable, Tabular):
         unknown = "mesh error not estimated" if np.isnan(errors.mesh) else ""
         snapped = "snaps over" if self.snaps else ""
         crossing = crossing_words(self.crossed, self.stored_times)
+        touching = touching_words(self.touching, self.stored_times)
         crosses = self.crossed is not None and bool(self.crossed.any())
         shape, scene = "Koiter shell stepped in time", self.scene
         rubs = any(effect.law for effect in self.model.effects)
         contact = scene.contact if rubs else None
-        model = model_words(shape, scene.growth, contact, unknown, snapped, crossing)
+        model = model_words(shape, scene.growth, contact, unknown, snapped, crossing, touching)
         mean = self.mean_speed
         error = float(np.nansum([e for name, e in errors._asdict().items() if name != "slip_speed"]))
         times = self.times[last]

@@ -1,1 +1,1 @@
-"""Contact of the sheet with itself: the effect, its barrier, and what distant parts do to each other."""
+"""Contact of the sheet with itself: the effect, its barrier, and forces between distant parts."""

@@ -137,7 +137,9 @@ class SelfContact(Value, Effect):
     def check(self, components: int, step: Step | None) -> None:
         """Raise ValueError in the plane, where a sheet cannot touch itself."""
         if components == 2:
-            raise ValueError("effects: SelfContact must not be named in a planar scene (components = 2)")
+            raise ValueError(
+                "effects: SelfContact must not be named in a planar scene (components = 2)"
+            )
 
 
 def _least_stretch(scene: Scene) -> float:
