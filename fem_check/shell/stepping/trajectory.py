@@ -58,6 +58,7 @@ class _Errors(NamedTuple):
     slip_speed: float
     snaps: float
     feedback: float = np.nan
+    contact: float = np.nan
 
 
 class SpeedErrors(Shown, _Errors):
@@ -71,6 +72,8 @@ class SpeedErrors(Shown, _Errors):
     path through snap-throughs in the last period (and buckling, of a sheet with inertia), from a run
     with longer steps; NaN if there are none. feedback: of a wave that the strain acts back on, by its
     own error and the steps, from a run with longer steps and larger elements of the wave; NaN without.
+    contact: of a sheet that touched itself in the last period, by the gap of `SelfContact`, from a run
+    with twice the gap; NaN if it did not.
     """
 
 
@@ -87,8 +90,8 @@ class Trajectory(Drawable, Tabular):
     ramp of growth. table: columns of `record.COLUMNS`. stored_times (n,), states (n, size): kept
     states. probes (steps + 1, points, components): positions of a few points at all `times`. rejected:
     repeated steps. resumed_at: time of the snapshot from which the run resumed, NaN if none.
-    mesh_error, snap_error, feedback_error: see `SpeedErrors`. corrects: whether the estimated step
-    error is removed from the speed. growth_error: estimated error of c where the strain acts back on it
+    mesh_error, snap_error, feedback_error, contact_error: see `SpeedErrors`. corrects: whether the
+    estimated step error is removed from the speed. growth_error: estimated error of c where the strain acts back on it
     (`model.growth` is then c as it was in this motion), else NaN. seconds: computing time, that before
     the snapshot included.
 
@@ -116,6 +119,7 @@ class Trajectory(Drawable, Tabular):
     corrects: bool = False
     feedback_error: float = np.nan
     growth_error: float = np.nan
+    contact_error: float = np.nan
 
     @property
     def scene(self) -> Scene:
@@ -171,6 +175,12 @@ class Trajectory(Drawable, Tabular):
         """Whether parts of the sheet press on each other at `stored_times`, (n,); see `SelfContact`."""
         couplings = self.model.couplings
         return np.array([any(c.touches(u) for c in couplings) for u in self.states], bool)
+
+    @property
+    def presses(self) -> bool:
+        """Whether the sheet touches itself within the last period."""
+        late = self.stored_times >= self.times[self.last_period.start - 1]
+        return bool(self.model.couplings) and bool(self.touching[late].any())
 
     @property
     def iterations(self) -> int:
@@ -321,7 +331,7 @@ class Trajectory(Drawable, Tabular):
         The errors of step and spread are those of x; the others, which are known along y, are taken to
         be as large.
         """
-        along, shared = self.errors, ("mesh", "snaps", "feedback")
+        along, shared = self.errors, ("mesh", "snaps", "feedback", "contact")
         own = abs(np.diff(self._period_speeds("x")[-2:])).sum() + self._step_error("x")
         error = float(own + np.nansum([getattr(along, name) for name in shared]))
         return Estimate(self._velocity("x"), error)
@@ -358,6 +368,7 @@ class Trajectory(Drawable, Tabular):
             slip,
             self.snap_error,
             self.feedback_error,
+            self.contact_error,
         )
 
     @cached_property
@@ -365,8 +376,8 @@ class Trajectory(Drawable, Tabular):
         """Mean velocity of the last period, see `mean_speed`.
 
         error: sum of the errors of step, mesh (if requested), spread between periods, path through
-        snap-throughs and feedback on the wave; model_error: distance to dry friction, see
-        `SpeedErrors`. The speed of a sheet that has passed through itself (`crossed`), which no real
+        snap-throughs, feedback on the wave and the gap of SelfContact; model_error: distance to dry
+        friction, see `SpeedErrors`. The speed of a sheet that has passed through itself (`crossed`), which no real
         sheet does, is never converged.
         """
         last, errors = self._last(1), self.errors
