@@ -91,9 +91,9 @@ class Trajectory(Drawable, Tabular):
     states. probes (steps + 1, points, components): positions of a few points at all `times`. rejected:
     repeated steps. resumed_at: time of the snapshot from which the run resumed, NaN if none.
     mesh_error, snap_error, feedback_error, contact_error: see `SpeedErrors`. corrects: whether the
-    estimated step error is removed from the speed. growth_error: estimated error of c where the strain acts back on it
-    (`model.growth` is then c as it was in this motion), else NaN. seconds: computing time, that before
-    the snapshot included.
+    estimated step error is removed from the speed. growth_error: estimated error of c where the strain
+    acts back on it (`model.growth` is then c as it was in this motion), else NaN. seconds: computing
+    time, that before the snapshot included.
 
     >>> from fem_check import Friction, Gravity, Material, Membrane, Scene, simulate
     >>> from linear_theory import Sheet, SineWave
@@ -377,8 +377,8 @@ class Trajectory(Drawable, Tabular):
 
         error: sum of the errors of step, mesh (if requested), spread between periods, path through
         snap-throughs, feedback on the wave and the gap of SelfContact; model_error: distance to dry
-        friction, see `SpeedErrors`. The speed of a sheet that has passed through itself (`crossed`), which no real
-        sheet does, is never converged.
+        friction, see `SpeedErrors`. The speed of a sheet that has passed through itself (`crossed`),
+        which no real sheet does, is never converged.
         """
         last, errors = self._last(1), self.errors
         unknown = "mesh error not estimated" if np.isnan(errors.mesh) else ""

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fem_check.shell.effects.contact.barrier import Barrier
+from fem_check.shell.effects.contact.coupling import Coupling
 from fem_check.shell.effects.effect import Effect
 from fem_check.shell.effects.koiter import Bending
 from fem_check.shell.kinematics.discretisation import Discretisation
@@ -93,7 +94,7 @@ class SelfContact(Value, Effect):
     def hessian(self, state: PointState) -> None:
         """Vanishes at single points."""
 
-    def coupling(self, discretisation: Discretisation, scene: Scene) -> Barrier:
+    def coupling(self, discretisation: Discretisation, scene: Scene) -> Coupling:
         """The barrier on a triangulation whose sagitta is a small part of the thickness.
 
         Raises ValueError for elements too long for the curvature of the sheet, and for a sheet that
