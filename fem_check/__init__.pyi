@@ -16,6 +16,7 @@ from .output.paraview import write_paraview
 from .plane_stress.field import PlaneStressField, plane_stress_field
 from .scene import Scene, bilayer
 from .shell.cycle.speed import cycle_speed
+from .shell.effects.contact.self_contact import SelfContact
 from .shell.effects.friction import Friction
 from .shell.effects.gravity import Gravity
 from .shell.effects.ground import Ground
@@ -52,6 +53,7 @@ __all__ = [
     "RigidGround",
     "RunSettings",
     "Scene",
+    "SelfContact",
     "StrainFeedback",
     "Terrain",
     "Trajectory",

@@ -22,6 +22,7 @@ from fem_check import (
 from fem_check.shell import effects as effect_classes
 from fem_check.shell.abilities import CYCLE, LEVELS, STEPPED, WORDS
 from fem_check.shell.cycle.contact import creep
+from fem_check.shell.effects.contact.self_contact import SelfContact
 from fem_check.shell.effects.effect import Effect
 from fem_check.shell.effects.friction import WEAK, friction_over_growth
 from fem_check.shell.effects.loads import EdgeMoment
@@ -75,10 +76,13 @@ def test_an_effect_that_knows_of_no_level_is_refused_by_all(level: object) -> No
 
 
 def test_every_effect_has_words_for_what_leaves_it_out() -> None:
-    """`left_out` tells of all but stretching and loads, which are a user's own."""
+    """`left_out` tells of all but stretching and loads, which are a user's own.
+
+    Nor of contact with itself: an answer says so where a sheet without it passes through itself.
+    """
     named = {kind for kind in vars(effect_classes).values() if isinstance(kind, type)}
     effects = {kind for kind in named if issubclass(kind, Effect)}
-    assert effects - {Effect, Membrane, DeadLoad, EdgeMoment} == set(WORDS)
+    assert effects - {Effect, Membrane, DeadLoad, EdgeMoment, SelfContact} == set(WORDS)
 
 
 GROUNDED = (BENDING, Gravity(WEIGHT), Ground(0.5))

@@ -204,6 +204,7 @@ MADE = {
     "HeightMap": lambda: fem_check.HeightMap(np.zeros((9, 9)), 1.0, 2.0),
     "Growth": lambda: linear_theory.Growth(0.25),
     "Inertia": lambda: fem_check.Inertia(1.0, MATERIAL),
+    "SelfContact": lambda: fem_check.SelfContact(MATERIAL),
     "Directional": lambda: linear_theory.Directional(0.5, 1.5, 0.7, 0.2),
     "DirectionalResponse": lambda: linear_theory.Directional(0.5, 1.5).at(np.ones((2, 3))),
     "GivenMap": lambda: linear_theory.GivenMap(lambda x, y: 1.0),

@@ -218,6 +218,15 @@ class InertiaTable(Table):
     """Mass per volume, e.g. "1100 kg/m^3"."""
 
 
+class SelfContactTable(Table):
+    """Parts of the sheet that meet keep apart by its thickness, without friction between them."""
+
+    gap: Length | None = None
+    """Between two faces, from which they repel each other; half the thickness unless given."""
+    stiffness: Pressure | None = None
+    """Pressure at which the gap is about a third of that; a tenth of Young's modulus unless given."""
+
+
 class DeadLoadTable(Table):
     """A force per undeformed area that keeps its size and direction."""
 
@@ -252,6 +261,7 @@ TABLES: dict[str, type[Table]] = {
     "gravity": GravityTable,
     "ground": GroundTable,
     "inertia": InertiaTable,
+    "self_contact": SelfContactTable,
     "dead_load": DeadLoadTable,
     "run": RunTable,
 }

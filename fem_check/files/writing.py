@@ -11,6 +11,7 @@ from fem_check.files.parts import excitable, friction
 from fem_check.files.reading import parsed
 from fem_check.files.toml import text_of
 from fem_check.output.files import replacing
+from fem_check.shell.effects.contact.self_contact import SelfContact
 from fem_check.shell.effects.formula import text_of as formula_of
 from fem_check.shell.effects.friction import Friction
 from fem_check.shell.effects.gravity import Gravity
@@ -174,6 +175,10 @@ TABLES_OF: dict[type, tuple[str, Callable[[Any], Entries]]] = {
         lambda effect: {"coefficient": effect.coefficient, **friction.entries_of(effect.law)},
     ),
     Inertia: ("inertia", lambda effect: {"density": effect.density}),
+    SelfContact: (
+        "self_contact",
+        lambda effect: {"gap": effect.gap, "stiffness": effect.stiffness},
+    ),
     DeadLoad: ("dead_load", lambda effect: {"force": list(effect.force)}),
 }
 """The table of an effect, and its entries."""

@@ -53,7 +53,8 @@ WORDS: Mapping[type, str] = {
     Friction: "deformation by friction",
     Inertia: "inertia",
 }
-"""Effects besides stretching, in words for people."""
+"""Effects besides stretching, in words for people. SelfContact is not among them: a sheet that needs it
+passes through itself, which the answer says."""
 
 
 def left_out(named: Collection[type]) -> tuple[str, ...]:

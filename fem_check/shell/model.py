@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from fem_check.mesh.elements import default_cells, default_element, grid
+from fem_check.shell.effects.contact.coupling import Coupling
 from fem_check.shell.effects.effect import Effect
 from fem_check.shell.effects.koiter import Membrane
 from fem_check.shell.kinematics.discretisation import Discretisation
@@ -78,6 +79,11 @@ class ShellModel(Shown):
         degree = _quadrature(mesh, element)
         return Discretisation(mesh, element, components=self.components, degree=degree)
 
+    @cached_property
+    def couplings(self) -> tuple[Coupling, ...]:
+        """Of the effects between distant parts of the sheet."""
+        return tuple(e.coupling(self.discretisation, self.scene) for e in self.effects if e.couples)
+
     def growth(self, t: float, x: ArrayLike, y: ArrayLike) -> Array:
         """c at points of the undeformed sheet."""
         return np.asarray(self.drive.value(x, y, t))
@@ -96,7 +102,8 @@ class ShellModel(Shown):
     ) -> Potential:
         """The potential of all (or the given) effects with that rest state and step."""
         chosen = self.effects if effects is None else effects
-        return Potential(self.discretisation, chosen, rest, step)
+        couplings = self.couplings if any(effect.couples for effect in chosen) else ()
+        return Potential(self.discretisation, chosen, rest, step, couplings=couplings)
 
 
 def _quadrature(mesh: Any, element: Any) -> int | None:

@@ -16,7 +16,9 @@ from fem_check.files.tables import (
     GravityTable,
     GroundTable,
     InertiaTable,
+    SelfContactTable,
 )
+from fem_check.shell.effects.contact.self_contact import SelfContact
 from fem_check.shell.effects.friction import Friction
 from fem_check.shell.effects.gravity import Gravity
 from fem_check.shell.effects.ground import Ground
@@ -29,7 +31,7 @@ from linear_theory.friction.load import Load
 from linear_theory.scene.scene import Scene
 from linear_theory.sheet.rectangle import Sheet
 
-EFFECTS = ("friction", "bending", "gravity", "ground", "inertia", "dead_load")
+EFFECTS = ("friction", "bending", "gravity", "ground", "inertia", "self_contact", "dead_load")
 """Tables that are effects; [friction] is one where it has a coefficient."""
 
 STANDARD_GRAVITY = "9.80665 m/s^2"
@@ -55,6 +57,8 @@ class Effects:
             return Bending(material)
         if name == "inertia":
             return self._inertia(table, material)
+        if name == "self_contact":
+            return self._self_contact(table, material)
         makers: dict[str, Callable[[Any], Any]] = {
             "friction": self._friction,
             "gravity": self._gravity,
@@ -109,6 +113,10 @@ class Effects:
 
     def _inertia(self, table: InertiaTable, material: Material) -> Inertia:
         return Inertia(self.system.number(table.density), material)
+
+    def _self_contact(self, table: SelfContactTable, material: Material) -> SelfContact:
+        given = (table.gap, table.stiffness)
+        return SelfContact(material, *(None if q is None else self.system.number(q) for q in given))
 
     def _dead_load(self, table: DeadLoadTable) -> DeadLoad:
         return DeadLoad(tuple(map(self.system.number, table.force)))

@@ -1,5 +1,6 @@
 """The effects on a sheet, one file each; a scene names those that act."""
 
+from fem_check.shell.effects.contact.self_contact import SelfContact
 from fem_check.shell.effects.effect import Effect
 from fem_check.shell.effects.friction import Friction
 from fem_check.shell.effects.gravity import Gravity
@@ -21,5 +22,6 @@ __all__ = [
     "Inertia",
     "Material",
     "Membrane",
+    "SelfContact",
     "Terrain",
 ]

@@ -17,6 +17,8 @@ from typing import ClassVar, Self
 import numpy as np
 from numpy.typing import NDArray
 
+from fem_check.shell.effects.contact.coupling import Coupling
+from fem_check.shell.kinematics.discretisation import Discretisation
 from fem_check.shell.kinematics.point_state import PointState
 from fem_check.shell.kinematics.rates import Step
 from fem_check.shell.kinematics.region import Entries
@@ -40,7 +42,8 @@ class Effect(ABC):
     sheet in-plane stiffness. bends: whether it depends on a rest curvature. damps: whether part of its
     force is dissipative. load: the reference area of its force, if any. incline: of the ground,
     radians. law, mu: of friction. areal_mass: mass per undeformed area. stored_as: the entry of the
-    power balance (see `power.Works`) to which its energy belongs; None if it stores none.
+    power balance (see `power.Works`) to which its energy belongs; None if it stores none. couples:
+    whether it acts between distant parts of the sheet, see `coupling`.
     """
 
     entries: ClassVar[Entries]
@@ -51,6 +54,7 @@ class Effect(ABC):
     stretches: ClassVar[bool] = False
     bends: ClassVar[bool] = False
     damps: ClassVar[bool] = False
+    couples: ClassVar[bool] = False
     load: Load | None = None
     incline: float = 0.0
     law: FrictionLaw | None = None
@@ -84,6 +88,13 @@ class Effect(ABC):
 
     def normal_load(self, state: PointState) -> Array:
         """Normal force between sheet and ground at each point, (points,), if it presses."""
+        raise NotImplementedError
+
+    def coupling(self, discretisation: Discretisation, scene: Scene) -> Coupling:
+        """What it does between distant parts of the sheet, if it `couples`.
+
+        Raises ValueError for a mesh on which that cannot be computed.
+        """
         raise NotImplementedError
 
     @property

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fem_check.shell.kinematics.discretisation import Discretisation
+from fem_check.shell.kinematics.triangulation import Triangulation
 from linear_theory.common.errors import SheetcrawlError
 from linear_theory.common.extras import optional
 
@@ -49,24 +50,14 @@ class Crossings:
         self.discretisation = discretisation
 
     @cached_property
-    def _places(self) -> tuple[Array, Integers]:
-        """Vertices (2, n) of a triangulation of the parameter domain, and its triangles (m, 3)."""
-        mesh = self.discretisation.mesh
-        corners = mesh.p[:, mesh.t]
-        weights, local = _quadrilateral() if mesh.t.shape[0] == 4 else _triangle()
-        points = np.einsum("ik,ckt->cti", weights, corners)
-        count = points.shape[1]
-        triangles = (local[None] + len(weights) * np.arange(count)[:, None, None]).reshape(-1, 3)
-        flat = points.reshape(2, -1)
-        scale = 1e-9 * np.ptp(flat, axis=1).max()
-        _, first, index = np.unique(
-            np.round(flat / scale).astype(np.int64), axis=1, return_index=True, return_inverse=True
-        )
-        return flat[:, first], index.ravel()[triangles]
+    def surface(self) -> Triangulation:
+        """The triangulation that is looked at."""
+        return Triangulation(self.discretisation, PIECES)
 
-    @cached_property
-    def _region(self) -> Any:
-        return self.discretisation.points(self._places[0])
+    @property
+    def _places(self) -> tuple[Array, Integers]:
+        """Vertices (2, n) of the triangulation in the parameter domain, and its triangles (m, 3)."""
+        return self.surface.places, self.surface.triangles
 
     @cached_property
     def _convex(self) -> bool:
@@ -79,7 +70,7 @@ class Crossings:
 
     def vertices(self, u: Array) -> Array:
         """Places (3, n) of the vertices of the triangulation for unknowns u (size,)."""
-        return np.asarray(self._region.position(u, (0,))[0])
+        return self.surface.vertices(u)
 
     def found(self, u: Array) -> bool:
         """Whether the sheet with unknowns u (size,) crosses itself.
@@ -141,32 +132,11 @@ def crossing_words(crossed: Flags | None, times: Array) -> str:
     return f"passes through itself from t = {times[crossed][0]:.4g}" if crossed.any() else ""
 
 
-def _quadrilateral() -> tuple[Array, Integers]:
-    """Weights (points, 4) of the corners of an element, and triangles (m, 3) between its points."""
-    s = np.linspace(0, 1, PIECES + 1)
-    a, b = (v.ravel() for v in np.meshgrid(s, s, indexing="ij"))
-    weights = np.stack([(1 - a) * (1 - b), a * (1 - b), a * b, (1 - a) * b], axis=1)
-    number = np.arange((PIECES + 1) ** 2).reshape(PIECES + 1, -1)
-    one, two, three, four = number[:-1, :-1], number[1:, :-1], number[1:, 1:], number[:-1, 1:]
-    halves = [np.stack(v, axis=-1).reshape(-1, 3) for v in ((one, two, three), (one, three, four))]
-    return weights, np.concatenate(halves)
-
-
-def _triangle() -> tuple[Array, Integers]:
-    """The same for an element with three corners."""
-    number: dict[tuple[int, int], int] = {}
-    for i in range(PIECES + 1):
-        for j in range(PIECES + 1 - i):
-            number[i, j] = len(number)
-    places = np.array(list(number)) / PIECES
-    weights = np.column_stack([1 - places.sum(1), places])
-    up = [(number[i, j], number[i + 1, j], number[i, j + 1]) for i, j in number if i + j < PIECES]
-    down = [
-        (number[i, j], number[i, j + 1], number[i - 1, j + 1])
-        for i, j in number
-        if i > 0 and i + j < PIECES
-    ]
-    return weights, np.array(up + down)
+def touching_words(touching: Flags, times: Array) -> str:
+    """What such flags say of a sheet that presses on itself; nothing if it does not."""
+    if not touching.any():
+        return ""
+    return f"touches itself from t = {times[touching][0]:.4g}, without friction between its layers"
 
 
 def _edges(corners: Array) -> Array:

@@ -2,6 +2,7 @@
 
 import time
 from dataclasses import dataclass, field, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -101,31 +102,51 @@ class Minimiser:
         square = (self.region.displacement(change, (0,))[0] ** 2).sum(0)
         return float(np.sqrt(square @ self.region.measure / self.region.measure.sum()))
 
-    def factorised(self, potential: Potential, u: Array, shift: float) -> "Factorised":
-        """The Hessian at u, plus the smallest multiple of its diagonal that makes it definite."""
+    def factorised(
+        self, potential: Potential, u: Array, shift: float, convex: bool = True
+    ) -> "Factorised":
+        """The Hessian at u, plus the smallest multiple of its diagonal that makes it definite.
+
+        convex: of couplings take the semidefinite part, before a shift, if it is not definite. That is
+        a better model far from a minimum; close to one it would converge slowly.
+        """
         values = self.sparsity.assemble(potential.hessian_blocks(u))
         if not np.all(np.isfinite(values)):
             raise ConvergenceError("the Hessian is not finite", u)
-        factor, used = factorise(self.sparsity, values), 0.0
+        coupled = self._ordered(potential.coupled_hessian(u))
+        factor, used = factorise(self.sparsity, values, coupled), 0.0
+        if factor is None and coupled is not None and convex:
+            coupled = self._ordered(potential.coupled_hessian(u, convex=True))
         while factor is None:
             used = max(FIRST_SHIFT, shift / 10) if used == 0 else 10 * used
-            factor = factorise(self.sparsity, self._shifted(values, used))
-        return Factorised(values, self._scale(values), used, factor)
+            factor = factorise(self.sparsity, self._shifted(values, used, coupled), coupled)
+        return Factorised(values, self._scale(values, coupled), used, factor, coupled=coupled)
 
-    def factorised_again(self, values: Array, shift: float, secants: Secants) -> "Factorised":
-        """The factor with these entries, shift and secants, reproduced bit for bit."""
-        factor = factorise(self.sparsity, values if shift == 0 else self._shifted(values, shift))
+    def factorised_again(
+        self, values: Array, shift: float, secants: Secants, coupled: Any = None
+    ) -> "Factorised":
+        """The factor with these entries, shift, secants and couplings, reproduced bit for bit."""
+        shifted = values if shift == 0 else self._shifted(values, shift, coupled)
+        factor = factorise(self.sparsity, shifted, coupled)
         assert factor is not None
-        return Factorised(values, self._scale(values), shift, factor, secants)
+        return Factorised(values, self._scale(values, coupled), shift, factor, secants, coupled)
 
-    def _scale(self, values: Array) -> Array:
+    def _ordered(self, coupled: Any) -> Any:
+        """The Hessian of the couplings for the free unknowns in their order."""
+        order = self.sparsity.order
+        return None if coupled is None else coupled[order][:, order]
+
+    def _scale(self, values: Array, coupled: Any = None) -> Array:
         """Unit of the shifts of the diagonal, (n,)."""
-        diagonal = np.abs(values[self.sparsity.diagonal]) * self.units**2
+        diagonal = values[self.sparsity.diagonal]
+        if coupled is not None:
+            diagonal = diagonal + coupled.diagonal()
+        diagonal = np.abs(diagonal) * self.units**2
         return np.asarray(np.maximum(diagonal, 1e-12 * diagonal.max()) / self.units**2)
 
-    def _shifted(self, values: Array, shift: float) -> Array:
+    def _shifted(self, values: Array, shift: float, coupled: Any = None) -> Array:
         shifted = values.copy()
-        shifted[self.sparsity.diagonal] += shift * self._scale(values)
+        shifted[self.sparsity.diagonal] += shift * self._scale(values, coupled)
         return shifted
 
 
@@ -133,7 +154,8 @@ class Minimiser:
 class Factorised:
     """Stored entries of a Hessian, and the factor of values + shift * diag(scale).
 
-    secants: what steps since then have taught of it.
+    secants: what steps since then have taught of it. coupled: sparse (n, n), the part of the Hessian
+    between distant parts of the sheet; None if these do not act on each other.
     """
 
     values: Array
@@ -141,6 +163,7 @@ class Factorised:
     shift: float
     factor: Factor
     secants: Secants = NO_SECANTS
+    coupled: Any = None
 
 
 class _Search:
@@ -200,8 +223,9 @@ class _Search:
         size = self.minimiser.rms(change)
         if not self.fresh and (self.current.shift > 0 or size > CONTRACTION * self.correction):
             return None
-        share, slope, self.inverts = 1.0, float(step @ self.gradient), True
-        if size <= self.tolerance and self._accept_last(self.state + change, slope):
+        slope, self.inverts = float(step @ self.gradient), True
+        share = self.potential.reach(self.state, change)
+        if size <= self.tolerance and share == 1 and self._accept_last(self.state + change, slope):
             return size
         while share >= (SMALLEST_STEP if self.fresh else 1.0):
             before = self.gradient
@@ -237,6 +261,8 @@ class _Search:
             return False
         self.inverts = False
         energy, gradient = self.potential.energy_and_gradient(trial)
+        if not np.isfinite(energy):
+            return False
         allowed = self.energy + SUFFICIENT_DECREASE * slope + ROUNDOFF * abs(self.energy)
         unseen = -slope <= ROUNDOFF * max(abs(self.energy), abs(energy))
         force = gradient[self.minimiser.sparsity.order]
@@ -263,7 +289,7 @@ class _Search:
         sparsity = self.minimiser.sparsity
         if sparsity.size == 0:
             return np.nan, None
-        here = self.minimiser.factorised(self.potential, self.state, 0.0)
+        here = self.minimiser.factorised(self.potential, self.state, 0.0, convex=False)
         self.minimiser.kept = here
         if here.shift == 0:
             return np.nan, None

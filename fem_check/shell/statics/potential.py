@@ -6,6 +6,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from fem_check.shell.effects.contact.coupling import Coupling
 from fem_check.shell.effects.effect import Effect
 from fem_check.shell.kinematics.discretisation import Discretisation
 from fem_check.shell.kinematics.elements import require_h2
@@ -61,8 +62,9 @@ class Potential(Shown):
     """Energy, gradient and Hessian of the sum of some effects.
 
     effects act on the whole sheet, loads on their region. rest is needed by elastic effects, step by
-    inertia, friction and damping. Raises ValueError if either is missing, if effects contradict each
-    other and if the elements are unsuitable for an effect.
+    inertia, friction and damping. couplings: those of effects between distant parts of the sheet, see
+    `Effect.coupling`. Raises ValueError if one of these is missing, if effects contradict each other
+    and if the elements are unsuitable for an effect.
     """
 
     def __init__(
@@ -72,9 +74,10 @@ class Potential(Shown):
         rest: RestState | None = None,
         step: Step | None = None,
         loads: Sequence[Load] = (),
+        couplings: Sequence[Coupling] = (),
     ) -> None:
         self.discretisation, self.effects, self.loads = discretisation, tuple(effects), tuple(loads)
-        self.rest, self.step = rest, step
+        self.rest, self.step, self.couplings = rest, step, tuple(couplings)
         self._check()
         self._terms = [Term(discretisation.interior, self.effects, rest, step)] if effects else []
         self._terms += [Term(load.region, (load.effect,), None, None) for load in loads]
@@ -88,6 +91,9 @@ class Potential(Shown):
             raise ValueError("effects is empty: a scene must name at least one effect")
         if self.rest is None and any(effect.reads_rest for effect in self.effects):
             raise ValueError("rest = None: an effect of this scene needs a rest state")
+        coupled = [type(effect).__name__ for effect in self.effects if effect.couples]
+        if len(coupled) != len(self.couplings):
+            raise ValueError(f"couplings: must be those of {', '.join(coupled) or 'no effect'}")
         for effect in (*self.effects, *(load.effect for load in self.loads)):
             effect.check(self.discretisation.components, self.step)
             if max(effect.entries) > SECOND:
@@ -102,23 +108,40 @@ class Potential(Shown):
 
     def energy(self, u: Array) -> float:
         """Sum of the effects at unknowns u (size,), force times length."""
-        return sum(term.energy(u) for term in self._terms)
+        found = sum(term.energy(u) for term in self._terms)
+        return found + sum(coupling.energy_and_gradient(u)[0] for coupling in self.couplings)
 
     def gradient(self, u: Array) -> Array:
         """Derivative of `energy`, (size,)."""
         out = np.zeros(self.discretisation.size)
         for term in self._terms:
             term.add_gradient(u, out)
+        for coupling in self.couplings:
+            out += coupling.energy_and_gradient(u)[1]
         return out
 
     def energy_and_gradient(self, u: Array) -> tuple[float, Array]:
         """Both at once, with the kinematics computed once."""
         out = np.zeros(self.discretisation.size)
-        return sum(term.add_gradient(u, out) for term in self._terms), out
+        total = sum(term.add_gradient(u, out) for term in self._terms)
+        for coupling in self.couplings:
+            energy, gradient = coupling.energy_and_gradient(u)
+            total, out = total + energy, out + gradient
+        return total, out
 
     def hessian_blocks(self, u: Array) -> list[Blocks]:
         """Element Hessians at unknowns u, one entry per region."""
         return [Blocks(term.region, term.hessian(u)) for term in self._terms]
+
+    def coupled_hessian(self, u: Array, convex: bool = False) -> Any:
+        """Hessian of the couplings at unknowns u, sparse (size, size); None if they are inactive."""
+        found = [coupling.hessian(u, convex) for coupling in self.couplings]
+        active = [hessian for hessian in found if hessian is not None]
+        return sum(active[1:], active[0]) if active else None
+
+    def reach(self, u: Array, change: Array) -> float:
+        """Fraction of a change of the unknowns, in [0, 1], that no coupling forbids."""
+        return min((coupling.reach(u, change) for coupling in self.couplings), default=1.0)
 
 
 class Term:

@@ -105,7 +105,8 @@ def follow_mode(
         if result.mode is None:
             break
         push = result.mode * (size / minimiser.rms(result.mode))
-        lower = minimiser.minimise(potential, result.state + push, PATIENCE)
+        allowed = potential.reach(result.state, push)
+        lower = minimiser.minimise(potential, result.state + allowed * push, PATIENCE)
         seconds, iterations = result.seconds + lower.seconds, result.iterations + lower.iterations
         result = replace(lower, iterations=iterations, seconds=seconds)
     return result

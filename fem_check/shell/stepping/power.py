@@ -93,6 +93,7 @@ class Ledger:
             if e.stored_as is not None and not e.idle(model.components)
         ]
         self.entries = tuple(sorted({k for _, e in self.stored for k in e.entries}))
+        self.couplings = model.couplings
         self.areal_mass = sum(e.areal_mass for e in model.effects)
         self.damping = [e for e in model.effects if e.damps]
         self.friction: Friction | None = model.find(Friction)
@@ -130,6 +131,8 @@ class Ledger:
             state = shape.under(rest)
             for slot, effect in self.stored:
                 energies[slot] += effect.energy(state).sum()
+        for coupling in self.couplings:
+            out[:, STORES.index("elastic")] += coupling.energy_and_gradient(u)[0]
         return out
 
     def _kinetic(self, moment: Moment) -> float:

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
+import scipy.sparse as sp
 from numpy.typing import NDArray
 
 from fem_check.shell.coupling.dilation import longest_step
@@ -48,6 +49,10 @@ reused factor, or symmetry, can hide it from the minimisations."""
 
 MOMENT = ("area", "sliding", "drag", "velocity")
 """Arrays of a Moment that only some scenes have."""
+
+
+SPARSE = ("data", "indices", "indptr")
+"""Arrays of a sparse matrix in compressed rows."""
 
 
 class Target(NamedTuple):
@@ -307,6 +312,8 @@ class Run:
             secants = kept.secants
             if secants.steps:
                 found |= {"steps": np.array(secants.steps), "changes": np.array(secants.changes)}
+            if kept.coupled is not None:
+                found |= {f"coupled_{name}": getattr(kept.coupled, name) for name in SPARSE}
         return {name: value for name, value in found.items() if value is not None}
 
     def resume(self, target: Target) -> float:
@@ -337,6 +344,10 @@ class Run:
         if "hessian" in found:
             secants = Secants(*(tuple(found.get(name, ())) for name in ("steps", "changes")))
             shift = float(found["shift"])
-            minimiser.kept = minimiser.factorised_again(found["hessian"], shift, secants)
+            coupled = None
+            if "coupled_data" in found:
+                size = 2 * (minimiser.sparsity.size,)
+                coupled = sp.csr_array(tuple(found[f"coupled_{name}"] for name in SPARSE), shape=size)
+            minimiser.kept = minimiser.factorised_again(found["hessian"], shift, secants, coupled)
         self.landing = self._land()
         return self.history.time

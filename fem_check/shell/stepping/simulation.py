@@ -53,7 +53,9 @@ def simulate(
     Steps are short enough to resolve the significant harmonics in time of the wave. A sheet that
     snaps through in the last period, or buckles and has inertia or dry friction, is simulated a second
     time with other steps, for the error of V: it may take another way. So is one whose strain acts back
-    on its wave (`StrainFeedback`): the two are then stepped together, at second order.
+    on its wave (`StrainFeedback`): the two are then stepped together, at second order. A sheet that
+    touches itself in the last period (`SelfContact`) is simulated once more with twice the gap between
+    its layers.
 
     A scene without Friction and Inertia is not time dependent; use `cycle_speed.cycle_speed`.
     Raises ValueError for such scenes, for values out of range, for too few `steps` to resolve the wave
@@ -91,6 +93,7 @@ def simulate(
         run.finish(target, None if whole is None else _watching(run, whole))
         difference = second_runs.mesh_error(run, whole) if mesh_error else np.nan
         jumps = second_runs.snap_error(run, whole)
+        contact = second_runs.contact_error(run, whole)
         feedback = second_runs.feedback_errors(run, whole)
     except KeyboardInterrupt:
         # Not a subclass, for which Python would not exit with the status of an interrupted process;
@@ -107,6 +110,7 @@ def simulate(
         snap_error=jumps,
         feedback_error=feedback.speed,
         growth_error=feedback.growth,
+        contact_error=contact,
     )
     warn_if_viscous(scene.contact.friction, found.slip_ratio)
     return found

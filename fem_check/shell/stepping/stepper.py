@@ -65,9 +65,11 @@ class WatchedMinimiser(Minimiser):
 
     shifts: int = field(init=False, default=0)
 
-    def factorised(self, potential: Potential, u: Array, shift: float) -> Factorised:
+    def factorised(
+        self, potential: Potential, u: Array, shift: float, convex: bool = True
+    ) -> Factorised:
         """See Minimiser."""
-        found = super().factorised(potential, u, shift)
+        found = super().factorised(potential, u, shift, convex)
         self.shifts += found.shift > 0
         return found
 
@@ -135,6 +137,8 @@ class Stepper:
         t, shifts = history.time + dt, self.minimiser.shifts
         self.minimiser.check_stability = check
         rest = self.rest(t)
+        for coupling in self.model.couplings:
+            coupling.begin(history.state)
         velocity, acceleration = history.rules(dt)
         moving = Step(
             self.at_points(velocity), None if acceleration is None else self.at_points(acceleration)
@@ -160,8 +164,15 @@ class Stepper:
         raise ConvergenceError(text, guess)
 
     def _start(self, history: History, dt: float) -> Array:
-        """The predicted state, or the last one if the prediction is inverted."""
+        """The predicted state, or the last one if the prediction is inverted.
+
+        A sheet that would pass through itself on the way stops in front of that.
+        """
         orientation, guess = self.minimiser.orientation, history.prediction(dt)
+        for coupling in self.model.couplings:
+            way = guess - history.state
+            share = coupling.reach(history.state, way)
+            guess = guess if share == 1 else history.state + share * way
         before, after = orientation.directors(history.state), orientation.directors(guess)
         return guess if orientation.keeps(before, after) else history.state
 

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from fem_check.shell.cycle.frame import poses
-from fem_check.shell.kinematics.crossing import crossed, crossing_words
+from fem_check.shell.kinematics.crossing import crossed, crossing_words, touching_words
 from fem_check.shell.model import ShellModel
 from fem_check.shell.stepping import columns
 from fem_check.shell.stepping.between import between, interpolation_error, motion_around
@@ -59,6 +59,7 @@ class _Errors(NamedTuple):
     slip_speed: float
     snaps: float
     feedback: float = np.nan
+    contact: float = np.nan
 
 
 class SpeedErrors(Shown, _Errors):
@@ -72,6 +73,8 @@ class SpeedErrors(Shown, _Errors):
     path through snap-throughs in the last period (and buckling, of a sheet with inertia), from a run
     with longer steps; NaN if there are none. feedback: of a wave that the strain acts back on, by its
     own error and the steps, from a run with longer steps and larger elements of the wave; NaN without.
+    contact: of a sheet that touched itself in the last period, by the gap of `SelfContact`, from a run
+    with twice the gap; NaN if it did not.
     """
 
 
@@ -88,10 +91,10 @@ class Trajectory(Drawable, Tabular):
     ramp of growth. table: columns of `record.COLUMNS`. stored_times (n,), states (n, size): kept
     states. probes (steps + 1, points, components): positions of a few points at all `times`. rejected:
     repeated steps. resumed_at: time of the snapshot from which the run resumed, NaN if none.
-    mesh_error, snap_error, feedback_error: see `SpeedErrors`. corrects: whether the estimated step
-    error is removed from the speed. growth_error: estimated error of c where the strain acts back on it
-    (`model.growth` is then c as it was in this motion), else NaN. seconds: computing time, that before
-    the snapshot included.
+    mesh_error, snap_error, feedback_error, contact_error: see `SpeedErrors`. corrects: whether the
+    estimated step error is removed from the speed. growth_error: estimated error of c where the strain
+    acts back on it (`model.growth` is then c as it was in this motion), else NaN. seconds: computing
+    time, that before the snapshot included.
 
     >>> from fem_check import Friction, Gravity, Material, Membrane, Scene, simulate
     >>> from linear_theory import Sheet, SineWave
@@ -117,6 +120,7 @@ class Trajectory(Drawable, Tabular):
     corrects: bool = False
     feedback_error: float = np.nan
     growth_error: float = np.nan
+    contact_error: float = np.nan
 
     @property
     def scene(self) -> Scene:
@@ -166,6 +170,18 @@ class Trajectory(Drawable, Tabular):
         None if that could not be found out, for lack of ipctk.
         """
         return crossed(self.model.discretisation, self.states)
+
+    @cached_property
+    def touching(self) -> NDArray[np.bool_]:
+        """Whether parts of the sheet press on each other at `stored_times`, (n,); see `SelfContact`."""
+        couplings = self.model.couplings
+        return np.array([any(c.touches(u) for c in couplings) for u in self.states], bool)
+
+    @property
+    def presses(self) -> bool:
+        """Whether the sheet touches itself within the last period."""
+        late = self.stored_times >= self.times[self.last_period.start - 1]
+        return bool(self.model.couplings) and bool(self.touching[late].any())
 
     @property
     def iterations(self) -> int:
@@ -316,7 +332,7 @@ class Trajectory(Drawable, Tabular):
         The errors of step and spread are those of x; the others, which are known along y, are taken to
         be as large.
         """
-        along, shared = self.errors, ("mesh", "snaps", "feedback")
+        along, shared = self.errors, ("mesh", "snaps", "feedback", "contact")
         own = abs(np.diff(self._period_speeds("x")[-2:])).sum() + self._step_error("x")
         error = float(own + np.nansum([getattr(along, name) for name in shared]))
         return Estimate(self._velocity("x"), error)
@@ -353,6 +369,7 @@ class Trajectory(Drawable, Tabular):
             slip,
             self.snap_error,
             self.feedback_error,
+            self.contact_error,
         )
 
     @cached_property
@@ -360,19 +377,20 @@ class Trajectory(Drawable, Tabular):
         """Mean velocity of the last period, see `mean_speed`.
 
         error: sum of the errors of step, mesh (if requested), spread between periods, path through
-        snap-throughs and feedback on the wave; model_error: distance to dry friction, see
-        `SpeedErrors`. The speed of a sheet that has passed through itself (`crossed`), which no real
-        sheet does, is never converged.
+        snap-throughs, feedback on the wave and the gap of SelfContact; model_error: distance to dry
+        friction, see `SpeedErrors`. The speed of a sheet that has passed through itself (`crossed`),
+        which no real sheet does, is never converged.
         """
         last, errors = self._last(1), self.errors
         unknown = "mesh error not estimated" if np.isnan(errors.mesh) else ""
         snapped = "snaps over" if self.snaps else ""
         crossing = crossing_words(self.crossed, self.stored_times)
+        touching = touching_words(self.touching, self.stored_times)
         crosses = self.crossed is not None and bool(self.crossed.any())
         shape, scene = "Koiter shell stepped in time", self.scene
         rubs = any(effect.law for effect in self.model.effects)
         contact = scene.contact if rubs else None
-        model = model_words(shape, scene.growth, contact, unknown, snapped, crossing)
+        model = model_words(shape, scene.growth, contact, unknown, snapped, crossing, touching)
         mean = self.mean_speed
         error = float(np.nansum([e for name, e in errors._asdict().items() if name != "slip_speed"]))
         times = self.times[last]

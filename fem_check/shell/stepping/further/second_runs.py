@@ -5,6 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from fem_check.mesh.elements import default_cells
+from fem_check.shell.effects.contact.self_contact import SelfContact
 from fem_check.shell.statics.equilibrium import ConvergenceError
 from fem_check.shell.stepping.further.progress import Whole
 from fem_check.shell.stepping.run import Run
@@ -25,9 +26,15 @@ FEEDBACK_MARGIN = 2
 half the tolerance or half as many steps. Of second order, errors there are twice to four times as
 large."""
 
+GAP_MARGIN, WIDER = 2, 2.0
+"""Error of the speed of a sheet that touches itself relative to the difference to a run with a WIDER
+gap, by that factor. Gap and stiffness of the contact are a model: in the limit of none and of a rigid
+one the surfaces are those of the sheet."""
+
 COARSER = "on a coarser mesh"
 OTHER = "with other steps"
 ROUGHER = "with a rougher wave"
+LOOSER = "with a wider gap between layers"
 """Tasks of the further runs, in words."""
 
 COARSER_WORK, LONGER_WORK = 0.5, 0.7
@@ -68,6 +75,26 @@ def snap_error(run: Run, whole: Whole | None) -> float:
 def _with_other_steps(run: Run, coarse: bool = False) -> Run:
     settings = run.settings.with_other_steps(fewest_steps(run.scene.drive.rates))
     return Run(run.scene, settings, coarse)
+
+
+def contact_error(run: Run, whole: Whole | None) -> float:
+    """Error of the mean speed of a sheet that touches itself, from a run with a wider gap.
+
+    NaN if it did not touch itself in the last period, infinite if that run fails.
+    """
+    found, contact = run.trajectory(), run.scene.find(SelfContact)
+    if contact is None or not found.presses:
+        return np.nan
+    if whole is not None:
+        whole.plan(LOOSER, 1.0)
+    wider = SelfContact(contact.material, WIDER * contact.gap, contact.stiffness)
+    effects = tuple(wider if effect is contact else effect for effect in run.scene.effects)
+    try:
+        loose = Run(run.scene.but(effects=effects), run.settings)
+        loose.finish(None, None if whole is None else whole.of(LOOSER))
+    except (ConvergenceError, ValueError):
+        return np.inf
+    return float(GAP_MARGIN * abs(loose.trajectory().mean_speed - found.mean_speed))
 
 
 class FeedbackErrors(NamedTuple):
