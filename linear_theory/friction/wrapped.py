@@ -113,7 +113,7 @@ class OnLowerFace(Wrapped):
         return True
 
     @property
-    def map(self) -> Any:  # type: ignore[override]
+    def map(self) -> Any:
         """That of the law."""
         return self.law.map
 

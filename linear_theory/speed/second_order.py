@@ -179,7 +179,8 @@ def _of_plate(scene: Scene, contact: Contact, rtol: float, start: float) -> Seco
     contact = replace(contact, load=terms.plate.foundation.load)
     period = leading_period(terms.plane, contact, rtol)
     found = coefficients(terms.plane, period, contact, start)
-    mixed, bending = mixed_coefficients(terms, period.fastest / TINY_ALPHA, contact, rtol)
+    second, fastest = Estimate(found.second, found.second_error), period.fastest / TINY_ALPHA
+    mixed, bending = mixed_coefficients(terms, second, fastest, contact, rtol)
     return found._replace(
         mixed=mixed,
         bending=bending,

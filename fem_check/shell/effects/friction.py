@@ -105,7 +105,7 @@ class Friction(Value, Effect):
         return self._lower(state).position if self.law.on_lower_face else state.position
 
     def moved(self, state: PointState, change: Array) -> Array:
-        """Change of these points, to first order, for one of x, x_1, x_2, (entries, components, points)."""
+        """Their change to first order by that of the entries, (entries, components, points)."""
         return self._lower(state).moved(change) if self.law.on_lower_face else change[0]
 
     def slip(self, state: PointState) -> Array:

@@ -4,7 +4,8 @@ With p = x - d n, the unit normal n and the dual base a^c the variations are (se
 
     dn      = - a^c (n . da_c)
     d1 d2 n = - a^c (d1 n . d2 a_c) - d1 a^c (n . d2 a_c)
-            = a^d [(a^c . d1 a_d)(n . d2 a_c) + (a^c . d2 a_d)(n . d1 a_c)] - n a^cd (n . d1 a_c)(n . d2 a_d),
+            = a^d [(a^c . d1 a_d)(n . d2 a_c) + (a^c . d2 a_d)(n . d1 a_c)]
+              - n a^cd (n . d1 a_c)(n . d2 a_d),
 
 so that a potential of p with gradient f and Hessian T has, with respect to x, x_1, x_2, the gradient
 (f, d f^1 n, d f^2 n), f^c = f . a^c, and a Hessian of two parts: T between the changes of p, and minus

@@ -142,10 +142,7 @@ class Newmark(Value, Scheme):
 
     def slope(self, values: Array, times: Array, dt: float) -> Affine:
         """See Scheme."""
-        raise ValueError(
-            f"scheme = {self!r}: must be BackwardDifferences for friction on the lower face, whose "
-            "points have no acceleration here"
-        )
+        raise ValueError(f"scheme = {self!r}: must be BackwardDifferences for other points")
 
     def prediction(self, history: "History", dt: float) -> Array:
         """See Scheme: with constant acceleration."""

@@ -181,21 +181,22 @@ class Stepper:
 
     def face(self, history: History, dt: float) -> Face | None:
         """The face on which friction acts during a step; None for the mid-surface."""
-        if not self._on_lower_face:
+        if not self.on_lower_face:
             return None
         past = np.stack([self._lower(u).position for u in history.states[:2]])
         return Face(self._depth, history.slope(past, dt))
 
     def face_moving(self, u: Array, velocity: Array) -> Face | None:
         """Likewise of a sheet at u with a velocity (size,) of its unknowns."""
-        if not self._on_lower_face:
+        if not self.on_lower_face:
             return None
         lower = self._lower(u)
         moved = lower.moved(self.region.displacement(velocity, LowerFace.entries))
         return Face(self._depth, Affine(1.0, lower.position - moved))
 
     @property
-    def _on_lower_face(self) -> bool:
+    def on_lower_face(self) -> bool:
+        """Whether friction acts there."""
         return any(effect.law.on_lower_face for effect in self.model.effects if effect.law)
 
     @property
