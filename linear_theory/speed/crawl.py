@@ -33,6 +33,7 @@ from linear_theory.scene.scene import Scene
 from linear_theory.sheet.rectangle import Sheet
 from linear_theory.speed.drawn import LinearDeformation
 from linear_theory.speed.model_error import LEVELS, model_error
+from linear_theory.speed.plate_error import plate_error
 from linear_theory.speed.power_error import with_power_error
 from linear_theory.speed.reach import judged, too_large_growth, warn_if_beyond
 from linear_theory.speed.result import CrawlSpeed, RigidSpeed
@@ -126,7 +127,7 @@ def theory_speed(
     found = with_wave_error(scene, tolerance, solve)
     # Computed again for drawing, so that a speed does not keep a solution and its tables in memory.
     deformation = drawn_deformation(scene, method)
-    distance = model_error(LEVELS[order], scene) if scene.planar else math.nan
+    distance = model_error(LEVELS[order], scene) if scene.planar else plate_error(scene)
     found = with_power_error(found, LEVELS[order], scene) if scene.planar else found
     return replace(found, model_error=distance, deformation=deformation)
 

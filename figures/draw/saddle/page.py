@@ -225,8 +225,16 @@ def _at_lift_off(along: Sequence[saddle_range.Row], ground: str) -> str:
 
 
 def _lower(faces: Sequence[lower_face.Row]) -> Lines:
-    off = max(abs(r.cycle / r.lower - 1) for r in faces)
-    stepped = [abs(r.stepper / r.lower - 1) for r in faces if math.isfinite(r.stepper)]
+    sizes = [max(abs(r.lower), abs(r.middle)) for r in faces]  # in which terms of both signs cancel
+    cycles, steps = (
+        100
+        * max(
+            abs(getattr(r, way) - r.lower) / size
+            for r, size in zip(faces, sizes, strict=True)
+            if math.isfinite(getattr(r, way))
+        )
+        for way in ("cycle", "stepper")
+    )
     yield wrapped(
         "**The lower face.** Friction acts on the mid-surface above, as in the paper. A law that is",
         '`OnLowerFace(law)`, or `Friction(..., surface="bottom")`, acts on the lower face, a point',
@@ -235,10 +243,10 @@ def _lower(faces: Sequence[lower_face.Row]) -> Lines:
         "displaced by +(h/2) beta ∇w and slip by +(h/2) beta ∇ẇ in addition, of first order in beta.",
         "For w = A sin(ky − ωt) that is (h/2) beta k ω w along y: where the sheet is a trough and",
         "presses most, the lower face slips against the wave and pushes the sheet along it, for",
-        "either sign of beta: bending alone makes the sheet crawl. At second order the rotation of",
-        "the sheet in its plane counts, too, and with it the deflection of order alpha beta (growth",
-        "makes the sheet wider, and its forces in the plane pull at the slopes) and that of order",
-        "beta² (the pressure k z² is not linear).",
+        "either sign of beta: bending alone makes the sheet crawl. At second order the normal of the",
+        "sheet that has grown counts, too, and with it the deflection of order alpha beta (the grown",
+        "sheet is larger, and forces in its plane pull at its slopes) and that of order beta² (the",
+        "pressure k z² is not linear).",
     )
     yield wrapped(
         "Slips of order alpha and of order beta then compete. Under viscous friction V stays a",
@@ -247,9 +255,9 @@ def _lower(faces: Sequence[lower_face.Row]) -> Lines:
         "are NaN. Nothing that relates alpha beta and −alpha beta is left: turned upside down, the",
         "sheet rubs on the other face. V(−alpha, −beta) = V(alpha, beta) holds for a sine as before.",
         f"On both lines of two layers and both grounds (`{lower_face.TABLE.command}`) theory is",
-        f"within {100 * off:.1f} % of cycles and {100 * max(stepped):.1f} % of steps, extrapolated to",
-        "small couplings. The pressure still acts by the height of the mid-surface, and h is that of",
-        "the sheet before growth.",
+        f"within {cycles:.2g} % of cycles and {steps:.2g} % of steps, extrapolated to small couplings,",
+        "of the larger of V on both surfaces. The pressure still acts by the height of the",
+        "mid-surface, and h is that of the sheet before growth.",
     )
 
 
