@@ -1,4 +1,4 @@
-"""The bound of the distance of second order in (alpha, beta) to cycles, and `predict` for bending scenes."""
+"""The bound of the distance of second order to cycles of shapes, and `predict` for bending scenes."""
 
 import math
 from collections.abc import Sequence
@@ -22,6 +22,7 @@ from linear_theory import (
     Tanh,
     crawl_speed,
     pulse_wave,
+    second_order,
 )
 from linear_theory.deformation.plate import foundation
 from linear_theory.speed import plate_error as rule
@@ -86,22 +87,15 @@ def test_it_covers_both_lines_of_two_layers() -> None:
         assert abs(r.form - r.cycle) <= rule.bound(known, form.alpha_alpha.value, bent) + r.cycle_error
 
 
-@pytest.mark.parametrize("seed", [7, 24])
-def test_error_of_predict_covers_cycles_of_new_scenes(seed: int) -> None:
-    row = model_error.drawn(1000 + seed)
+def test_error_of_predict_covers_the_cycle_of_a_new_scene() -> None:
+    row = model_error.drawn(1007)
     row = replace(row, alpha=min(row.alpha, row.alpha / model_error.tension_of(row)))
     asked = model_error.scene(row, 0.0)
-    limit = predict_limit(asked)
+    limit = second_order(asked, rtol=1e-2).lift_off[1]
     asked = model_error.scene(row, row.share * limit)
     found, cycle = predict(asked, method="second order"), cycle_speed(asked, rtol=1e-2)
     assert math.isfinite(found.error)
     assert abs(found.mean - cycle.mean) <= found.error + cycle.error
-
-
-def predict_limit(asked: Scene) -> float:
-    from linear_theory import second_order
-
-    return second_order(asked, rtol=1e-2).lift_off[1]
 
 
 # ---- predict
@@ -126,9 +120,6 @@ def test_the_cycle_answers_elsewhere() -> None:
     tight = predict(scene(), rtol=5e-3)
     assert (tight.level, tight.passed[0].level) == ("cycle", "second order")
     assert "not second order: error" in tight.reason
-    lifted = predict(scene(beta=0.6, alpha=0.01), rtol=0.05)
-    assert lifted.level == "cycle"
-    assert "model error is unknown here" in lifted.reason
     both = predict(scene(), rtol=0.05), tight
     assert abs(both[0].mean - both[1].mean) <= both[0].error + both[1].error
 

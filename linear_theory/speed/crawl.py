@@ -72,7 +72,8 @@ def crawl_speed(
     """Mean speed of a rectangular sheet in small-strain theory (eqs 10 and 11), or to second order.
 
     sheet, wave, alpha: the sheet, the wave of growth and the growth coupling; or, instead of all three,
-    a planar `Scene`, whose load and friction must agree with any given here.
+    a planar `Scene`, whose load and friction must agree with any given here; for order = 2 also one
+    that bends on level ground, in full contact with it.
     load: normal load, "current" by default, "grown" or "material", see `Load`; friction: "coulomb" by
     default, "tanh" with its slip_speed (length per time), or "viscous"; rtol, atol: see `Tolerance`;
     for a motion without mirror symmetry they apply to the norms of rigid_error and rigid_mean (all
@@ -87,7 +88,8 @@ def crawl_speed(
     default; see `second_order`), with an error of order alpha^3, for a sine alpha^4; for any wave, by
     Ritz; not valid for large alpha. order = 1 depends on growth_law and area only through its
     `model_error`: the distance to the nonlinear sheet with that growth_law, area and load where it was
-    measured (`model_error.model_error`), else NaN.
+    measured (`model_error.model_error`), of a sheet that bends to a cycle of its shapes
+    (`plate_error.plate_error`), else NaN.
     progress: True prints on stderr, a function is called with a `progress.Progress`.
 
     Raises ValueError for bad input, including an alpha so large that the area element
