@@ -3,6 +3,7 @@
 import math
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import cache
 
 import pytest
 
@@ -27,6 +28,7 @@ from linear_theory import (
 from linear_theory.deformation.plate import foundation
 from linear_theory.speed import plate_error as rule
 from linear_theory.speed.plate_error import plate_error
+from linear_theory.speed.plate_terms import PlateTerms
 
 ROWS = model_error.TABLE.read()
 PAPER = saddle.PLACES["paper"]
@@ -43,6 +45,7 @@ def numbers(row: Row) -> dict[str, float]:
         "alpha": row.alpha,
         "share of lift-off": abs(row.share),
         "tension": model_error.tension_of(row),
+        "slip": row.slip,
     }
 
 
@@ -63,14 +66,21 @@ HELD = [row for row in ROWS if row.number >= rule.FITTED and within(row)]
 
 
 def test_the_bound_is_from_rows_that_it_covers_with_room() -> None:
-    assert len(FITTED) >= 9
-    assert max(off(row) / bound(row) for row in FITTED) < 0.7
+    assert len(FITTED) >= 20
+    seen = [row for row in FITTED if off(row) > row.error]
+    assert len(seen) >= 10
+    assert max(off(row) / bound(row) for row in seen) < 0.7
 
 
 def test_the_bound_covers_scenes_that_it_was_not_made_of() -> None:
-    assert len(HELD) >= 15
+    assert len(HELD) >= 10
     missed = [row for row in HELD if not off(row) <= bound(row) + row.error]
     assert len(missed) <= 0.05 * len(HELD), missed
+
+
+@cache
+def terms_of(ground: str) -> PlateTerms:
+    return PlateTerms.of(saddle.scene(saddle.PLACES[ground], SineWave(), Tanh(1.0), 0.01, 0.0), 1e-2)
 
 
 def test_it_covers_both_lines_of_two_layers() -> None:
@@ -79,9 +89,10 @@ def test_it_covers_both_lines_of_two_layers() -> None:
         if share > 0.95:
             continue
         form, alpha = saddle_range.form_on(r.ground, r.law), r.beta / saddle_range.BILAYER
-        asked = saddle.scene(saddle.PLACES[r.ground], SineWave(), Tanh(1.0), alpha, 0.0)
-        known = {"alpha": alpha, "share of lift-off": share}
-        known["tension"] = rule.tension(alpha, asked.sheet, foundation(asked.effects))
+        place, law = saddle.PLACES[r.ground], saddle.LAWS[r.law]
+        asked = saddle.scene(place, SineWave(), law, alpha, r.way * r.beta)
+        known = rule.groups(asked, terms_of(r.ground))
+        assert known["share of lift-off"] == pytest.approx(share, rel=1e-3)
         ratio = r.beta / alpha
         bent = abs(form.alpha_beta.value) * ratio + abs(form.beta_beta.value) * ratio**2
         assert abs(r.form - r.cycle) <= rule.bound(known, form.alpha_alpha.value, bent) + r.cycle_error
@@ -101,15 +112,15 @@ def test_error_of_predict_covers_the_cycle_of_a_new_scene() -> None:
 # ---- predict
 
 
-def scene(beta: float = -0.2, alpha: float = 0.002, law: FrictionLaw | None = None) -> Scene:
+def scene(beta: float = -0.1, alpha: float = 0.004, law: FrictionLaw | None = None) -> Scene:
     return saddle.scene(PAPER, SineWave(), law or Tanh(0.3), alpha, beta)
 
 
 def test_the_plate_answers_where_it_meets_the_tolerance() -> None:
-    found = predict(scene(), rtol=0.05)
+    found = predict(scene(), rtol=0.02)
     assert found.level == "second order"
     assert found.converged
-    assert found.error <= 0.05 * found.mean
+    assert found.error <= 0.02 * found.mean
     assert 0 < found.model_error == plate_error(scene()) == crawl_speed(scene(), order=2).model_error
     text = str(found)
     assert "cycle of its nonlinear shapes" in " ".join(text.split())
@@ -120,7 +131,7 @@ def test_the_cycle_answers_elsewhere() -> None:
     tight = predict(scene(), rtol=5e-3)
     assert (tight.level, tight.passed[0].level) == ("cycle", "second order")
     assert "not second order: error" in tight.reason
-    both = predict(scene(), rtol=0.05), tight
+    both = predict(scene(), rtol=0.02), tight
     assert abs(both[0].mean - both[1].mean) <= both[0].error + both[1].error
 
 

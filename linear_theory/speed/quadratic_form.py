@@ -21,9 +21,9 @@ class QuadraticForm(Shown):
 
     For dry friction the form holds while beta^2 times the slip by bending is small compared with alpha
     times that by growth: at alpha = 0 the speed is another multiple of beta^2, see
-    `plate_terms.BendingAlone`. Friction with a direction: for alpha > 0. With friction on the lower face V is
-    such a form only if that is viscous (see `lower_face`); under other laws alpha_beta and beta_beta are
-    NaN, with infinite errors.
+    `plate_terms.BendingAlone`. Friction with a direction: for alpha > 0. With friction on the lower
+    face V is such a form only if that is viscous (see `lower_face`); under other laws alpha_beta and
+    beta_beta are NaN, with infinite errors.
     """
 
     alpha: Estimate

@@ -92,8 +92,8 @@ class SecondOrder(Shown, _Orders):
     rigid_first_error, rigid_second_error (3,): their errors. For mirror-symmetric motions V_x and Omega
     are 0.
     mixed, bending: V_ab and V_bb of a sheet that bends on its ground; lift_off: the curvature couplings
-    at which it lifts off. `coefficients` has all four as estimates. V_ab and V_bb are NaN for friction on
-    the lower face that is not viscous: V is then no quadratic form, see `crawl_speed`.
+    at which it lifts off. `coefficients` has all four as estimates. V_ab and V_bb are NaN for friction
+    on the lower face that is not viscous: V is then no quadratic form, see `crawl_speed`.
 
     >>> from linear_theory import Sheet, SineWave, second_order
     >>> found = second_order(Sheet(), SineWave(), rtol=1e-2)
