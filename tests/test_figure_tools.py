@@ -27,6 +27,7 @@ from figures.measure import (
     turning,
 )
 from figures.measure.plate import lower_face, saddle_range
+from figures.measure.plate import model_error as plate_error
 from linear_theory.speed.si import Scale, speed_si
 from paper.numbers import shell
 
@@ -129,6 +130,7 @@ TABLES = [
             lower_face,
             model_error,
             nonlinear,
+            plate_error,
             regimes,
             saddle,
             saddle_range,

@@ -39,7 +39,7 @@ class Row:
     """A scene, E = L = T = 1, and its speeds over alpha^2 L/T.
 
     share: beta over that at which it lifts off; slip: see `plate_error.slip_ratio`; planar, mixed and
-    bent: the terms in alpha^2, alpha beta and beta^2; theory, cycle: V by the plate and by shapes, NaN where
+    bent: terms in alpha^2, alpha beta, beta^2; theory, cycle: V by the plate and by shapes, NaN where
     there is none; error: of both; seconds: of the processor.
     """
 
