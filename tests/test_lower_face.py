@@ -36,7 +36,7 @@ from linear_theory import (
     second_order,
 )
 from linear_theory.deformation.plate.lower_face import LowerFace
-from linear_theory.speed.plate_terms import PlateTerms
+from linear_theory.speed.plate.terms import PlateTerms
 from tests.reference_lower_face import added, grid, slope_rate
 
 ROWS = lower_face.TABLE.read()

@@ -26,9 +26,9 @@ from linear_theory import (
     second_order,
 )
 from linear_theory.deformation.plate import foundation
-from linear_theory.speed import plate_error as rule
-from linear_theory.speed.plate_error import plate_error
-from linear_theory.speed.plate_terms import PlateTerms
+from linear_theory.speed.plate import error as rule
+from linear_theory.speed.plate.error import plate_error
+from linear_theory.speed.plate.terms import PlateTerms
 
 ROWS = model_error.TABLE.read()
 PAPER = saddle.PLACES["paper"]

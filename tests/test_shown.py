@@ -29,7 +29,7 @@ from fem_check.shell.stepping.further.progress import Progress
 from linear_theory.common.shown import LINES, WIDTH, Shown, in_words, number, with_error
 from linear_theory.friction.law import Response
 from linear_theory.growth.bilayer import Couplings
-from linear_theory.speed.quadratic_form import QuadraticForm
+from linear_theory.speed.plate.quadratic_form import QuadraticForm
 from tests.drawn_examples import examples
 
 PACKAGES = (linear_theory, fem_check)

@@ -19,7 +19,7 @@ from linear_theory.common.tolerance import Tolerance
 from linear_theory.scene.level import PLATE
 from linear_theory.scene.scene import Scene
 from linear_theory.speed.crawl import theory_speed
-from linear_theory.speed.plate_error import plate_error
+from linear_theory.speed.plate.error import plate_error
 
 BENDING = ("second order", "cycle")
 """Levels of a bending scene, cheapest first; the last one is the target."""

@@ -33,7 +33,7 @@ from linear_theory.scene.scene import Scene
 from linear_theory.sheet.rectangle import Sheet
 from linear_theory.speed.drawn import LinearDeformation
 from linear_theory.speed.model_error import LEVELS, model_error
-from linear_theory.speed.plate_error import plate_error
+from linear_theory.speed.plate.error import plate_error
 from linear_theory.speed.power_error import with_power_error
 from linear_theory.speed.reach import judged, too_large_growth, warn_if_beyond
 from linear_theory.speed.result import CrawlSpeed, RigidSpeed
@@ -89,7 +89,7 @@ def crawl_speed(
     Ritz; not valid for large alpha. order = 1 depends on growth_law and area only through its
     `model_error`: the distance to the nonlinear sheet with that growth_law, area and load where it was
     measured (`model_error.model_error`), of a sheet that bends to a cycle of its shapes
-    (`plate_error.plate_error`), else NaN.
+    (`plate.error`), else NaN.
     progress: True prints on stderr, a function is called with a `progress.Progress`.
 
     Raises ValueError for bad input, including an alpha so large that the area element

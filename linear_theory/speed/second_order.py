@@ -54,9 +54,9 @@ from linear_theory.speed.expansion import (
     field_tolerance,
     leading_period,
 )
-from linear_theory.speed.plate import WORDS, mixed_coefficients, plate_speed
-from linear_theory.speed.plate_terms import PlateTerms
-from linear_theory.speed.quadratic_form import NOTHING, QuadraticForm
+from linear_theory.speed.plate.quadratic_form import NOTHING, QuadraticForm
+from linear_theory.speed.plate.speed import WORDS, mixed_coefficients, plate_speed
+from linear_theory.speed.plate.terms import PlateTerms
 from linear_theory.speed.reach import judged, too_large_growth, too_large_term
 from linear_theory.speed.result import CrawlSpeed, Estimate, RigidSpeed
 from linear_theory.speed.words import model_words

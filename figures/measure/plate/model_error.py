@@ -4,7 +4,7 @@
 
 Writes figures/data/plate_error.csv: sheets, grounds, weights, laws and couplings drawn at random, each
 row from its number alone; four minutes of one core, and it goes on where the file ends. The bound in
-`linear_theory.speed.plate_error` is from its first rows, and the others test it.
+`linear_theory.speed.plate.error` is from its first rows, and the others test it.
 """
 
 import math
@@ -30,15 +30,15 @@ from figures.common.records import Table
 from linear_theory import FrictionLaw, Sheet, SineWave, Tanh, Viscous, crawl_speed, second_order
 from linear_theory.common.errors import SheetcrawlError
 from linear_theory.deformation.plate import foundation
-from linear_theory.speed.plate_error import slip_ratio, tension
-from linear_theory.speed.plate_terms import PlateTerms
+from linear_theory.speed.plate.error import slip_ratio, tension
+from linear_theory.speed.plate.terms import PlateTerms
 
 
 @dataclass(frozen=True)
 class Row:
     """A scene, E = L = T = 1, and its speeds over alpha^2 L/T.
 
-    share: beta over that at which it lifts off; slip: see `plate_error.slip_ratio`; planar, mixed and
+    share: beta over that at which it lifts off; slip: see `plate.error.slip_ratio`; planar, mixed and
     bent: terms in alpha^2, alpha beta, beta^2; theory, cycle: V by the plate and by shapes, NaN where
     there is none; error: of both; seconds: of the processor.
     """
@@ -127,7 +127,7 @@ def layer(row: Row) -> float:
 
 
 def tension_of(row: Row) -> float:
-    """See `plate_error.tension`."""
+    """See `plate.error.tension`."""
     asked = scene(row, 0.0)
     return tension(row.alpha, asked.sheet, foundation(asked.effects))
 

@@ -35,7 +35,7 @@ from linear_theory.speed.expansion import (
     second_field_error,
     tiny,
 )
-from linear_theory.speed.plate_terms import PlateTerms, Weights, weighted_error
+from linear_theory.speed.plate.terms import PlateTerms, Weights, weighted_error
 from linear_theory.speed.result import Estimate
 
 Array = NDArray[np.float64]

@@ -2,7 +2,7 @@
 
     V = V_a alpha + V_aa alpha^2 + V_ab alpha beta + V_bb beta^2
 
-for a sheet in full contact, see `plate_terms`. Friction acts on the mid-surface, as in the paper,
+for a sheet in full contact, see `terms`. Friction acts on the mid-surface, as in the paper,
 unless its law says that it does on the lower face: see `lower_face`.
 """
 
@@ -23,15 +23,15 @@ from linear_theory.friction.contact import Contact
 from linear_theory.motion.rigid import RigidNorm
 from linear_theory.scene.scene import Scene
 from linear_theory.speed.expansion import POINTS, TINY_ALPHA, field_errors, fine_cells, tiny
-from linear_theory.speed.lower_face import Ray, face_coefficients, on_ray
-from linear_theory.speed.plate_terms import (
+from linear_theory.speed.plate.lower_face import Ray, face_coefficients, on_ray
+from linear_theory.speed.plate.quadratic_form import check_contact
+from linear_theory.speed.plate.terms import (
     BendingAlone,
     PlateCoefficients,
     PlateTerms,
     Weights,
     weighted_error,
 )
-from linear_theory.speed.quadratic_form import check_contact
 from linear_theory.speed.reach import judged, too_large_growth, too_large_term
 from linear_theory.speed.result import CrawlSpeed, Estimate, RigidSpeed
 from linear_theory.speed.words import model_words

@@ -23,7 +23,7 @@ from linear_theory.growth.growth import Reference
 from linear_theory.growth.laws import Exp
 from linear_theory.scene.scene import Scene
 from linear_theory.sheet.rectangle import Sheet
-from linear_theory.speed.plate_terms import PlateTerms
+from linear_theory.speed.plate.terms import PlateTerms
 from linear_theory.speed.second_order import second_order
 
 PLANE, CONTACT, TENSION, SLIP = 1.5, 0.05, 0.02, 1.0
