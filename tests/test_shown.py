@@ -208,6 +208,7 @@ MADE = {
     "DirectionalResponse": lambda: linear_theory.Directional(0.5, 1.5).at(np.ones((2, 3))),
     "GivenMap": lambda: linear_theory.GivenMap(lambda x, y: 1.0),
     "Mapped": lambda: linear_theory.Mapped(linear_theory.Coulomb(), patches()),
+    "OnLowerFace": lambda: linear_theory.OnLowerFace(linear_theory.Coulomb()),
     "Patches": lambda: patches(),
     "IsotropicResponse": lambda: linear_theory.Tanh(0.1).at(np.ones((2, 3))),
     "Limit": lambda: sunk().limit,

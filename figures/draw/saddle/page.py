@@ -158,7 +158,7 @@ def _bilayers(rows: Sequence[saddle.Row], faces: Sequence[lower_face.Row]) -> Li
         "beta < 0) and against it where it is above: the paper's claim, always along the wave, does",
         "not hold to second order. With friction on the lower face it holds if that is viscous. Dry",
         "and tanh friction on the lower face still push the sheet against the wave where the growing",
-        f"layer is above, {_fraction(faces)} as fast.",
+        f"layer is above, with {_fraction(faces)} of that speed.",
     )
 
 
@@ -216,7 +216,7 @@ def _range(rows: Sequence[saddle.Row], along: Sequence[saddle_range.Row]) -> Lin
     )
     yield wrapped(
         "At alpha = 0 dry friction is not a quadratic form: the slip is of order beta² alone, and V",
-        "is that of this motion; for a sine it vanishes. Growth of weight and pressure per different",
+        "is that of this motion; for a sine it vanishes on the mid-surface. Growth of weight and pressure per different",
         "areas, damping, uneven ground, inclines and inertia are refused by name.",
     )
 
