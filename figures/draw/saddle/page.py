@@ -216,8 +216,9 @@ def _range(rows: Sequence[saddle.Row], along: Sequence[saddle_range.Row]) -> Lin
     )
     yield wrapped(
         "At alpha = 0 dry friction is not a quadratic form: the slip is of order beta² alone, and V",
-        "is that of this motion; for a sine it vanishes on the mid-surface. Growth of weight and pressure per different",
-        "areas, damping, uneven ground, inclines and inertia are refused by name.",
+        "is that of this motion; for a sine it vanishes on the mid-surface. Growth of weight and",
+        "pressure per different areas, damping, uneven ground, inclines and inertia are refused by",
+        "name.",
     )
 
 
