@@ -3,7 +3,8 @@
 Read by `lazy_loader` as it runs, and by type checkers.
 """
 
-from .choice.prediction import Prediction, predict
+from .choice.prediction import predict
+from .choice.result import Prediction
 from .choice.settings import RunSettings
 from .choice.solving import solve
 from .excitable.equation import FitzHughNagumo

@@ -17,6 +17,7 @@ from linear_theory.friction.law import FrictionLaw
 from linear_theory.friction.laws import Coulomb, Tanh, Viscous
 from linear_theory.friction.load import Load
 from linear_theory.friction.maps import GivenMap, Mapped, Patches
+from linear_theory.friction.wrapped import OnLowerFace
 from linear_theory.growth.bilayer import bilayer
 from linear_theory.growth.growth import Growth
 from linear_theory.growth.laws import Exp, GrowthLaw, Linear, Metric
@@ -68,6 +69,7 @@ __all__ = [
     "Mapped",
     "Metric",
     "NotConvergedError",
+    "OnLowerFace",
     "Patches",
     "RitzField",
     "SampledWave",

@@ -29,6 +29,7 @@ from figures.measure import (
 from figures.measure.energy import errors as energy_errors
 from figures.measure.energy import gaits as energy_gaits
 from figures.measure.plate import bent_alone, lower_face, saddle_range
+from figures.measure.plate import model_error as plate_error
 from linear_theory.speed.si import Scale, speed_si
 from paper.numbers import shell
 
@@ -134,6 +135,7 @@ TABLES = [
             lower_face,
             model_error,
             nonlinear,
+            plate_error,
             regimes,
             saddle,
             saddle_range,

@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from fem_check import Friction, Gravity, Material, Membrane, Scene
+from fem_check import Bending, Friction, Gravity, Ground, Material, Membrane, Scene
 from fem_check.command.options import Options
 from fem_check.command.quantities import asked
 from fem_check.files import read
@@ -19,6 +19,7 @@ from linear_theory import (
     FrictionLaw,
     GivenMap,
     Mapped,
+    OnLowerFace,
     Patches,
     Sheet,
     SineWave,
@@ -47,6 +48,41 @@ def test_scenes_come_back(name: str, tmp_path: Path) -> None:
         assert Scene.from_dict(scene.to_dict()) == scene
         other = scene.but(alpha=0.2)
         assert other.contact.friction == LAWS[name]
+
+
+@pytest.mark.parametrize("name", LAWS)
+def test_lower_face_comes_back(name: str, tmp_path: Path) -> None:
+    """Around any law, as an effect and as the contact alone."""
+    material, law = Material(0.03, 0.5), OnLowerFace(LAWS[name])
+    bends: list[Any] = [Membrane(material), Bending(material), Gravity(2.5e-4), Ground(0.5)]
+    for scene in (
+        Scene(Sheet(), SineWave(), 0.1, effects=[*bends, Friction(1.0, law=law)]),
+        Scene(Sheet(), SineWave(), 0.1, effects=bends, contact=Contact("ground", law)),
+    ):
+        assert Scene.from_toml(scene.to_toml(tmp_path / "scene.toml")) == scene
+        assert Scene.from_dict(scene.to_dict()) == scene
+        assert scene.contact.friction.on_lower_face
+
+
+def test_surface_in_a_file(tmp_path: Path) -> None:
+    path = tmp_path / "scene.toml"
+    text = "[growth]\nalpha = 0.1\n[bending]\n[gravity]\nweight = 1e-4\n[ground]\nstiffness = 0.5\n"
+    path.write_text(text + '[friction]\nlaw = "viscous"\nsurface = "bottom"\n')
+    assert Scene.from_toml(path).contact.friction == OnLowerFace(Viscous())
+    path.write_text(text + '[friction]\nsurface = "top"\n')
+    with pytest.raises(ValueError, match=r"surface.*'middle' or 'bottom'"):
+        Scene.from_toml(path)
+
+
+def test_lower_face_needs_bending() -> None:
+    with pytest.raises(ValueError, match=r"friction = .*without the effect Bending"):
+        Scene(Sheet(), SineWave(), 0.1, contact=Contact(friction=OnLowerFace(Coulomb())))
+    with pytest.raises(ValueError, match=r"law = .*: must be a law without a face"):
+        OnLowerFace(Mapped(OnLowerFace(Coulomb()), PATCHES))
+    with pytest.raises(ValueError, match="surface = 'top': must be"):
+        Friction(1.0, 0.1, surface="top")
+    with pytest.raises(ValueError, match="surface = 'middle': must be None or 'bottom'"):
+        Friction(1.0, law=OnLowerFace(Viscous()), surface="middle")
 
 
 def test_laws_that_no_file_holds(tmp_path: Path) -> None:

@@ -199,7 +199,7 @@ def test_speed_of_a_scene_is_its_quadratic_form():
         form = second_order(asked, rtol=1e-2).coefficients.at(0.02, 0.1)
         speed = crawl_speed(asked, order=2, rtol=1e-2)
         assert speed.mean == pytest.approx(form.value, abs=form.error + speed.error)
-        assert math.isnan(speed.model_error)
+        assert math.isnan(speed.model_error) == (wave is not SINE)  # measured for sines alone
 
 
 def test_errors_of_the_coefficients_are_honest():

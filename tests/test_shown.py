@@ -29,7 +29,7 @@ from fem_check.shell.stepping.further.progress import Progress
 from linear_theory.common.shown import LINES, WIDTH, Shown, in_words, number, with_error
 from linear_theory.friction.law import Response
 from linear_theory.growth.bilayer import Couplings
-from linear_theory.speed.quadratic_form import QuadraticForm
+from linear_theory.speed.plate.quadratic_form import QuadraticForm
 from tests.drawn_examples import examples
 
 PACKAGES = (linear_theory, fem_check)
@@ -209,6 +209,7 @@ MADE = {
     "DirectionalResponse": lambda: linear_theory.Directional(0.5, 1.5).at(np.ones((2, 3))),
     "GivenMap": lambda: linear_theory.GivenMap(lambda x, y: 1.0),
     "Mapped": lambda: linear_theory.Mapped(linear_theory.Coulomb(), patches()),
+    "OnLowerFace": lambda: linear_theory.OnLowerFace(linear_theory.Coulomb()),
     "Patches": lambda: patches(),
     "IsotropicResponse": lambda: linear_theory.Tanh(0.1).at(np.ones((2, 3))),
     "Limit": lambda: sunk().limit,

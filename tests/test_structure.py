@@ -108,8 +108,11 @@ OPTIONS = {
     "growth law": (GrowthLaw, ("linear_theory.growth.laws",)),
     "friction law": (
         FrictionLaw,
-        # laws of the size of slip; with a direction; of law and map; and of opposite velocities
-        tuple(f"linear_theory.friction.{part}" for part in ("laws", "directional", "maps", "law")),
+        # of the size of slip; with a direction; of law and map; and face; of opposite velocities
+        tuple(
+            f"linear_theory.friction.{part}"
+            for part in ("laws", "directional", "maps", "wrapped", "law")
+        ),
     ),
 }
 

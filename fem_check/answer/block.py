@@ -20,7 +20,7 @@ from linear_theory.scene.scene import Scene
 from linear_theory.wave.uncertain import doubt_of
 
 if TYPE_CHECKING:
-    from fem_check.choice.prediction import Prediction
+    from fem_check.choice.result import Prediction
 
 WIDTH = 80
 """Default width of the block, in columns."""
@@ -159,14 +159,16 @@ def _model(found: "Prediction", units: Units) -> str:
         return "unknown: the distance of this theory to the nonlinear sheet was not measured here"
     if error == 0:
         return "0: this is the nonlinear flat sheet"
-    return f"{rounded_up(units.of_speed(error))}, its distance to the nonlinear flat sheet"
+    target = "the nonlinear flat sheet" if found.scene.planar else "a cycle of its nonlinear shapes"
+    return f"{rounded_up(units.of_speed(error))}, its distance to {target}"
 
 
 def _assumed(found: "Prediction", units: Units, hints: tuple[str, str]) -> Iterator[Line]:
     """Friction, what is left out, and the cost."""
     yield "friction", _friction(found, units)
     yield "left out", _hinted("; ".join(found.left_out), hints[0])
-    took = f"{_seconds(found.seconds)}, by {LEVEL_WORDS[found.level]}"
+    more = "" if found.scene.planar or found.level != "second order" else " and beta"
+    took = f"{_seconds(found.seconds)}, by {LEVEL_WORDS[found.level]}{more}"
     yield "took", _hinted(took, hints[1])
 
 

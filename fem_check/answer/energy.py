@@ -9,7 +9,7 @@ from linear_theory.common.estimate import Estimate
 from linear_theory.speed.result import CrawlSpeed
 
 if TYPE_CHECKING:
-    from fem_check.choice.prediction import Prediction
+    from fem_check.choice.result import Prediction
 
 ROUGH = 0.5
 """Relative error from which on a cost is only called rough."""

@@ -11,7 +11,7 @@ from linear_theory.speed.result import CrawlSpeed
 from linear_theory.wave.protocol import Drive
 
 if TYPE_CHECKING:
-    from fem_check.choice.prediction import Prediction
+    from fem_check.choice.result import Prediction
 
 
 def heading(drive: Drive, mean: float, error: float) -> str:

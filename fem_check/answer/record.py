@@ -8,7 +8,7 @@ from fem_check.answer.units import Units
 from linear_theory.common.shown import flat
 
 if TYPE_CHECKING:
-    from fem_check.choice.prediction import Prediction
+    from fem_check.choice.result import Prediction
 
 
 def record(found: "Prediction", units: Units | None) -> dict[str, Any]:

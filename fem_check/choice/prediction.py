@@ -3,159 +3,39 @@
 import math
 import time
 import warnings
-from collections.abc import Mapping
-from dataclasses import dataclass, replace
-from typing import Any, NamedTuple
+from dataclasses import replace
 
-from fem_check.answer.block import block
-from fem_check.answer.record import row
+from fem_check.choice.bending import BENDING, bending_answer
 from fem_check.choice.levels import LEVELS, TARGET_EFFECTS, distance
-from fem_check.shell.abilities import left_out
+from fem_check.choice.result import Passed, Prediction, total_error
+from fem_check.choice.settings import SHARE
+from fem_check.shell.abilities import CYCLE, left_out
 from linear_theory.common import validation
-from linear_theory.common.drawable import Drawable
 from linear_theory.common.errors import (
     BeyondReachWarning,
     NotConvergedError,
     ViscousRegimeWarning,
 )
 from linear_theory.common.progress import Report, part_of, watched
-from linear_theory.common.shown import Shown, number
 from linear_theory.common.threads import one_blas_thread
 from linear_theory.common.tolerance import Tolerance
 from linear_theory.friction.law import FrictionLaw
 from linear_theory.friction.load import Load
-from linear_theory.friction.regime import Regime, warn_if_viscous
+from linear_theory.friction.regime import warn_if_viscous
 from linear_theory.growth.growth import Reference
 from linear_theory.growth.laws import GrowthLaw
 from linear_theory.scene.level import THEORY
 from linear_theory.scene.scene import Scene
 from linear_theory.sheet.rectangle import Sheet
 from linear_theory.speed.reach import warn_if_beyond
-from linear_theory.speed.result import CrawlSpeed, speed_in_words
 from linear_theory.wave.protocol import Wave
 
 METHODS = ("auto", *LEVELS)
 
-SHARE = 0.5
-"""Fraction of the tolerance allotted to the numerical error; the rest is for the model error."""
-
 WIDEST = 20.0
-"""Lengths, up to which a sheet may be wide for the levels that are not in THEORIES."""
+"""Lengths, up to which a flat sheet may be wide for the levels that are not in THEORIES."""
 
 THEORIES = ("strip", "first order")
-
-
-@dataclass(frozen=True)
-class Prediction(Drawable, Shown):
-    """A speed and the level that gave it.
-
-    speed: `speed.error` is the numerical error and `speed.model_error` the distance to the target, NaN
-    where unknown (never for method = "auto"). level: a key of `levels.LEVELS`; reason: why this level
-    was chosen and no cheaper one, in words. converged: whether `error`, numerical plus model error,
-    meets the tolerance (or none was asked for, tolerance = None) and there is no caution: what else is
-    wrong with the speed, in words. not_in_error: parts that were not estimated, in words, of a level
-    that is not compared with the target. seconds: total time, with the levels that were tried in vain.
-    left_out: effects that the target itself neglects, in words: it is a flat sheet without thickness on
-    which friction alone acts. scene, tolerance: the question. passed: the levels that were not chosen,
-    and why. `str` prints the answer in a dozen lines (see `answer.block`), in units of the length L of
-    the sheet and the period T of the wave.
-
-    >>> from fem_check import predict
-    >>> from linear_theory import Sheet, SineWave
-    >>> found = predict(Sheet(), SineWave(), alpha=0.25, rtol=0.2)
-    >>> print(f"V = {found.mean:.2f} +- {found.error:.2f} L/T: {found.reason}")
-    V = 0.10 +- 0.01 L/T: strip meets the tolerance
-    >>> print(str(found).splitlines()[2])
-      speed     0.101 ± 0.015 L/T, along the wave; 10.1 % of L per period
-    """
-
-    speed: CrawlSpeed
-    level: str
-    reason: str
-    converged: bool
-    seconds: float
-    left_out: tuple[str, ...]
-    scene: Scene
-    tolerance: Tolerance | None
-    passed: tuple["Passed", ...] = ()
-    not_in_error: tuple[str, ...] = ()
-    caution: str = ""
-
-    @property
-    def mean(self) -> float:
-        """Mean speed, length per time, positive towards +y."""
-        return self.speed.mean
-
-    @property
-    def error(self) -> float:
-        """Numerical plus model error, absolute; NaN where the latter is unknown.
-
-        Of a level that is not compared with the target (see not_in_error) the numerical error.
-        """
-        alone = self.not_in_error and math.isnan(self.speed.model_error)
-        return self.speed.error if alone else total_error(self.speed)
-
-    @property
-    def model_error(self) -> float:
-        """Distance of the level to the target, absolute."""
-        return self.speed.model_error
-
-    @property
-    def regime(self) -> Regime:
-        """See `CrawlSpeed.regime`."""
-        return self.speed.regime
-
-    def to_row(self) -> dict[str, Any]:
-        """A row of a table of many answers: numbers and texts by name, those of the scene with dots.
-
-        What is unknown is None; the columns of the answer are named as in the records of sweeps.
-
-        >>> from fem_check import predict
-        >>> from linear_theory import Sheet, SineWave
-        >>> row = predict(Sheet(), SineWave(), alpha=0.25, rtol=0.2).to_row()
-        >>> print(f"{row['mean']:.2f} +- {row['error']:.2f}", row["level"], row["scene.sheet.width"])
-        0.10 +- 0.01 strip 0.5
-        """
-        return row(self)
-
-    def __str__(self) -> str:
-        return block(self)
-
-    def _title(self) -> str:
-        return f"Prediction: {speed_in_words(self.mean, self.error, self.converged)}"
-
-    def _rows(self) -> Mapping[str, Any]:
-        numerical, wave = self.speed.error - self.speed.wave_error, self.speed.wave_error
-        errors = f"{numerical:.2g} numerical, {number(self.speed.model_error)} model"
-        if wave:
-            errors += f", {wave:.2g} wave"
-        answer = {"level": self.level, "reason": self.reason, "error": errors}
-        left_out = {"left_out": "; ".join(self.left_out)} if self.left_out else {}
-        friction = {"regime": self.speed.regime, "model": self.speed.model}
-        return {**answer, **friction, **left_out, "seconds": self.seconds}
-
-    def _contents(self) -> Mapping[str, Any]:
-        return {"mean": self.mean, "error": self.error, **super()._contents()}
-
-
-class _Passed(NamedTuple):
-    level: str
-    why: str
-    seconds: float
-
-
-def _require_reach(scene: Scene, method: str) -> None:
-    """Raise ValueError for a sheet so wide that its edge layers would take the levels minutes."""
-    sheet = scene.sheet
-    if method not in THEORIES and sheet.width > WIDEST * sheet.length:
-        raise ValueError(
-            f"width = {sheet.width:g}: must be <= {WIDEST:g} times the length, {sheet.length:g}, for "
-            f"method = {method!r}; only 'first order' answers wider sheets, as far as that theory holds"
-        )
-
-
-class Passed(Shown, _Passed):
-    """A level that was not chosen, why (in words), and the time spent on it in seconds."""
 
 
 def predict(
@@ -177,14 +57,15 @@ def predict(
 
     The target is a planar sheet that grows by growth_law, with its elastic energy counted per `area`
     and the normal load `load`, too stiff for friction to change its shape; arguments as in
-    `crawl_speed`, or a planar `Scene`. method = "auto" tries "strip", "first order", "second order" and
+    `crawl_speed`, or a `Scene`. method = "auto" tries "strip", "first order", "second order" and
     "cycle" in this order and returns the first whose numerical plus model error is below
     max(rtol |mean|, atol), atol = 1e-3 rtol alpha^2 L/T unless given; a level whose model error is
     unknown (see `model_error`) is skipped. The name of a level as method selects that level.
     `converged` is False if even the last level misses the tolerance. `left_out` lists what the target
-    neglects (bending, and with it the thickness; the ground; deformation by friction): for scenes with
-    these effects use `cycle_speed` and `simulate`. progress: True prints on stderr, a function is
-    called with a `linear_theory.common.progress.Progress`.
+    neglects (bending, and with it the thickness; the ground; deformation by friction). A scene with
+    Bending has a cycle of its own shapes as target, and "second order", on level ground, and "cycle" as
+    levels; `solve` answers those that neither represents. progress: True prints on stderr, a function
+    is called with a `linear_theory.common.progress.Progress`.
 
     Raises ValueError for bad input, for sheets wider than WIDEST lengths unless by method "strip" or
     "first order", and what the chosen level raises. Warns as `crawl_speed` does, for
@@ -200,12 +81,14 @@ def predict(
     scene = Scene.stated(
         sheet, wave, alpha, load, friction, slip_speed, growth_law=growth_law, area=area
     )
-    THEORY.require(scene)
+    (THEORY if scene.planar else CYCLE).require(scene)
     tolerance = Tolerance(rtol, atol).of_speed(scene.alpha, scene.unit)
-    validation.choice("method", method, METHODS)
+    validation.choice("method", method, METHODS if scene.planar else ("auto", *BENDING))
     _require_reach(scene, method)
     with watched(progress, "predict"):
-        if method == "auto":
+        if not scene.planar:
+            found = bending_answer(scene, tolerance, method)
+        elif method == "auto":
             found = _cheapest(scene, tolerance)
         else:
             found = _answer(scene, method, tolerance, "requested")
@@ -215,9 +98,14 @@ def predict(
     return replace(found, seconds=time.perf_counter() - start)
 
 
-def total_error(speed: CrawlSpeed) -> float:
-    """Numerical plus model error, absolute; NaN where the model error is unknown."""
-    return speed.error + speed.model_error
+def _require_reach(scene: Scene, method: str) -> None:
+    """Raise ValueError for a flat sheet so wide that its edge layers would take minutes."""
+    sheet = scene.sheet
+    if scene.planar and method not in THEORIES and sheet.width > WIDEST * sheet.length:
+        raise ValueError(
+            f"width = {sheet.width:g}: must be <= {WIDEST:g} times the length, {sheet.length:g}, for "
+            f"method = {method!r}; only 'first order' answers wider sheets, as far as that theory holds"
+        )
 
 
 def _cheapest(scene: Scene, tolerance: Tolerance) -> Prediction:

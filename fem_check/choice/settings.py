@@ -8,6 +8,9 @@ from linear_theory.common.shown import Value
 RTOL = 1e-2
 """Of the speed, unless it is given."""
 
+SHARE = 0.5
+"""Fraction of the tolerance allotted to the numerical error; the rest is for the model error."""
+
 
 @dataclass(frozen=True)
 class RunSettings(Value):

@@ -5,14 +5,11 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import Any, NamedTuple
 
-from fem_check.choice.prediction import Prediction, predict
+from fem_check.choice.answers import CROSSES, answer_of, by_cycle, noise
+from fem_check.choice.prediction import predict
+from fem_check.choice.result import Prediction
 from fem_check.choice.settings import RTOL, RunSettings
 from fem_check.choice.ways import THEORIES, way_of
-from fem_check.shell.abilities import left_out
-from fem_check.shell.cycle.deformation import CycleDeformation
-from fem_check.shell.cycle.speed import cycle_speed
-from fem_check.shell.effects.effect import Effect
-from fem_check.shell.effects.friction import Friction
 from fem_check.shell.statics.meter import Meter, metered
 from fem_check.shell.stepping.further.progress import FIRST
 from fem_check.shell.stepping.further.progress import Progress as Steps
@@ -22,16 +19,9 @@ from linear_theory.common import validation
 from linear_theory.common.progress import Progress, Report, reporting, watched
 from linear_theory.common.tolerance import Tolerance
 from linear_theory.scene.scene import Scene
-from linear_theory.speed.result import CrawlSpeed
-from linear_theory.wave.uncertain import uncertainty_of
 
 REPEATED = 0.1
 """Largest difference of the last two periods, relative to the speed, of a motion that repeats."""
-
-CROSSES = "the sheet passes through itself, which no real one does"
-NOISY = "the error is without that of the measured wave, which may be larger than the tolerance"
-UNSTABLE = "growth is so strong that the shapes may not exist on a finer mesh"
-SIDEWAYS = "the tolerance is met along the sheet, but not by the sideways motion or the turning"
 
 
 def solve(
@@ -92,37 +82,10 @@ def solved(
             return Solved(_by_steps(motion, tolerance), motion, cost)
         tolerance = tolerance or Tolerance(RTOL).of_speed(scene.alpha, scene.unit)
         if way == "cycle":
-            return Solved(_by_cycle(scene, tolerance, progress), None, cost)
+            return Solved(by_cycle(scene, tolerance, progress), None, cost)
         method = way if way in THEORIES else "auto"
         found = predict(scene, rtol=tolerance.rtol, method=method, progress=progress)
     return Solved(found, None, cost)
-
-
-def _by_cycle(scene: Scene, tolerance: Tolerance, progress: Report | None) -> Prediction:
-    """The answer of a cycle of shapes."""
-    speed = cycle_speed(scene, rtol=tolerance.rtol, progress=progress)
-    lacking, caution, noise = [], _crossing(speed), _noise(speed, scene)
-    if math.isnan(speed.model_error):
-        lacking.append("deformation by friction, taken as too weak")
-    met = speed.error <= tolerance.allowed(speed.mean)
-    if met and not (speed.converged or speed.beyond_reach or caution):
-        caution = NOISY if noise else SIDEWAYS if _turns_too_vaguely(speed, tolerance) else UNSTABLE
-    named = {type(effect) for effect in scene.effects} - {Friction}
-    return _found("cycle", speed, named, scene, tolerance, (*lacking, *noise), caution)
-
-
-def _crossing(speed: CrawlSpeed) -> str:
-    """A caution, if the shapes of a cycle pass through themselves."""
-    shown = speed.deformation
-    return CROSSES if isinstance(shown, CycleDeformation) and shown.crosses else ""
-
-
-def _turns_too_vaguely(speed: CrawlSpeed, tolerance: Tolerance) -> bool:
-    """Whether the error of the sideways motion or of the turning is above the tolerance."""
-    if speed.turning is None:
-        return False
-    pairs = zip(speed.turning.mean, speed.turning.error, strict=True)
-    return any(error > tolerance.allowed(float(mean)) for mean, error in pairs)
 
 
 def _by_steps(motion: Trajectory, tolerance: Tolerance | None) -> Prediction:
@@ -133,32 +96,9 @@ def _by_steps(motion: Trajectory, tolerance: Tolerance | None) -> Prediction:
     speed = replace(motion.speed, model_error=math.nan, converged=met and not caution)
     estimates = {"error of the mesh": errors.mesh, "change from period to period": errors.spread}
     lacking = [part for part, error in estimates.items() if math.isnan(error)]
-    lacking += _noise(speed, scene)
+    lacking += noise(speed, scene)
     named = {type(effect) for effect in scene.effects}
-    return _found("stepped", speed, named, scene, tolerance, tuple(lacking), caution)
-
-
-def _noise(speed: CrawlSpeed, scene: Scene) -> list[str]:
-    """The noise of a measured wave, where the error of the speed is without it."""
-    counted = speed.wave_error or uncertainty_of(scene.wave) is None
-    return [] if counted else ["noise of the measured wave"]
-
-
-def _found(
-    way: str,
-    speed: CrawlSpeed,
-    named: set[type[Effect]],
-    scene: Scene,
-    tolerance: Tolerance | None,
-    lacking: tuple[str, ...],
-    caution: str,
-) -> Prediction:
-    return Prediction(
-        *(speed, way, f"{way}, the cheapest that represents the scene", speed.converged, speed.seconds),
-        *(left_out(named), scene, tolerance),
-        not_in_error=lacking,
-        caution=caution,
-    )
+    return answer_of("stepped", speed, named, scene, tolerance, tuple(lacking), caution)
 
 
 def _caution(motion: Trajectory) -> str:

@@ -8,7 +8,7 @@ stepped   all effects, step by step in time
 from fem_check.choice.levels import LEVELS
 from fem_check.shell.abilities import CYCLE, STEPPED
 from linear_theory.common import validation
-from linear_theory.scene.level import THEORY, Level
+from linear_theory.scene.level import PLATE, THEORY, Level
 from linear_theory.scene.scene import Scene
 
 WAYS: dict[str, Level] = {"predict": THEORY, "cycle": CYCLE, "stepped": STEPPED}
@@ -32,7 +32,8 @@ def way_of(scene: Scene, asked: str = "auto") -> str:
     """
     validation.choice("level", asked, ANSWERS)
     if asked != "auto":
-        WAYS.get(asked, THEORY).require(scene)
+        on_plate = asked == "second order" and not scene.planar
+        (PLATE if on_plate else WAYS.get(asked, THEORY)).require(scene)
         return asked
     steps = not STEPPED.objections(scene)
     for name, level in WAYS.items():

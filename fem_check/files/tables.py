@@ -175,6 +175,8 @@ class FrictionTable(Table):
     """Where forward is, anticlockwise from +y, e.g. "20 deg"; plain in radians."""
     fixed_to: Literal["body", "ground"] = "body"
     """What the direction turns with."""
+    surface: Literal["middle", "bottom"] = "middle"
+    """Of a sheet that bends, on which friction acts: its mid-surface, or its lower face."""
     map: FrictionMapTable | None = None
     """Patches with other friction."""
 

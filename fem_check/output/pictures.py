@@ -8,7 +8,7 @@ from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
 from fem_check.answer.units import Units
-from fem_check.choice.prediction import Prediction
+from fem_check.choice.result import Prediction
 from fem_check.output.crawling import Crawling
 from fem_check.output.curves import draw_path, draw_speed
 from fem_check.output.kymographs import Quantity, draw_kymograph

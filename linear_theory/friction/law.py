@@ -82,6 +82,11 @@ class FrictionLaw(Value, ABC):
         return None
 
     @property
+    def on_lower_face(self) -> bool:
+        """Whether it acts on the lower face of a sheet that bends, not on its mid-surface."""
+        return False
+
+    @property
     def follows_body(self) -> bool:
         """Whether it has axes that turn with the sheet."""
         return False
@@ -225,6 +230,11 @@ class Derived(FrictionLaw):
     def crease(self) -> tuple[float, float] | None:
         """See FrictionLaw."""
         return self.law.crease
+
+    @property
+    def on_lower_face(self) -> bool:
+        """See FrictionLaw."""
+        return self.law.on_lower_face
 
     @property
     def follows_body(self) -> bool:

@@ -17,7 +17,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from linear_theory.common import validation
 from linear_theory.common.shown import Value
-from linear_theory.friction.law import ALL, Derived, FrictionLaw, Response
+from linear_theory.friction.law import FrictionLaw
+from linear_theory.friction.wrapped import Wrapped
 
 Array = NDArray[np.float64]
 
@@ -206,11 +207,11 @@ def _patch(number: int, patch: Sequence[float]) -> tuple[float, ...]:
 
 
 @dataclass(frozen=True)
-class Mapped(Derived):
+class Mapped(Wrapped):
     """A law whose coefficient differs from place to place by a map.
 
     law: any law but a mapped one; map: `Patches` or a `GivenMap`. Raises ValueError for anything else.
-    Its methods are those of the law, where the map is 1.
+    Its methods are those of the law, as where the map is 1.
 
     >>> from linear_theory import Coulomb, Directional, Mapped, Patches
     >>> rear = Patches([(-0.3, 0.3, -0.5, 0.0, 2.0)], edge=0.02)
@@ -228,11 +229,6 @@ class Mapped(Derived):
             raise ValueError(f"law = {validation.shown(self.law)}: must be a law without a map")
 
     @property
-    def even(self) -> bool:
-        """See FrictionLaw; of the law at a point."""
-        return self.law.even
-
-    @property
     def mirrored(self) -> bool:
         """See FrictionLaw; law and map."""
         return self.law.mirrored and self.map.mirrored
@@ -241,11 +237,6 @@ class Mapped(Derived):
     def reversible(self) -> bool:
         """See FrictionLaw; not if the map is kinetic, as the other half of the period has another."""
         return self.law.reversible and not self.map.kinetic
-
-    @property
-    def limits(self) -> tuple[float, float]:
-        """See FrictionLaw; where the map is 1."""
-        return self.law.limits
 
     @property
     def words(self) -> str:
@@ -257,44 +248,6 @@ class Mapped(Derived):
         """See FrictionLaw."""
         return ", ".join(filter(None, [self.law.details, f"with a map on the {self.map.fixed_to}"]))
 
-    @property
-    def formula(self) -> str:
-        """See FrictionLaw."""
-        return self.law.formula
-
-    @property
-    def opposite(self) -> "Mapped":
-        """See FrictionLaw."""
-        return Mapped(self.law.opposite, self.map)
-
-    def scaled(self, factor: float) -> "Mapped":
-        """See FrictionLaw."""
-        return Mapped(self.law.scaled(factor), self.map)
-
-    def potential(self, v: Array) -> Array:
-        """See FrictionLaw; where the map is 1."""
-        return self.law.potential(v)
-
-    def force(self, v: Array) -> Array:
-        """See FrictionLaw; where the map is 1."""
-        return self.law.force(v)
-
-    def tangent(self, v: Array) -> Array:
-        """See FrictionLaw; where the map is 1."""
-        return self.law.tangent(v)
-
-    def force_difference(self, v: Array, change: Array, step: float) -> Array:
-        """See FrictionLaw; where the map is 1."""
-        return self.law.force_difference(v, change, step)
-
-    def creep(self, force: float) -> float:
-        """See FrictionLaw; where the map is 1."""
-        return self.law.creep(force)
-
-    def speed_at(self, share: float) -> float:
-        """See FrictionLaw; where the map is 1."""
-        return self.law.speed_at(share)
-
-    def at(self, v: Array, kept: slice = ALL) -> Response:
-        """See FrictionLaw; where the map is 1."""
-        return self.law.at(v, kept)
+    def around(self, law: FrictionLaw) -> "Mapped":
+        """See Wrapped."""
+        return Mapped(law, self.map)

@@ -19,6 +19,7 @@ from linear_theory.friction.contact import Contact
 from linear_theory.friction.directional import Directional
 from linear_theory.friction.laws import FRICTION_LAWS
 from linear_theory.friction.maps import Mapped, Patches
+from linear_theory.friction.wrapped import OnLowerFace
 from linear_theory.growth.growth import Growth
 from linear_theory.growth.laws import GROWTH_LAWS
 from linear_theory.sheet.rectangle import Sheet
@@ -31,7 +32,7 @@ KINDS: dict[str, type] = {
         *(Sheet, SineWave, TravellingWave, SampledWave, Growth, Contact),
         *(type(law) for law in GROWTH_LAWS.values()),
         *FRICTION_LAWS.values(),
-        *(Directional, Mapped, Patches),
+        *(Directional, Mapped, OnLowerFace, Patches),
     )
 }
 """Classes of the parts of a scene, by their names in the data."""

@@ -357,12 +357,18 @@ class Scene(Shown):
                 )
         for effect in self.effects:
             effect.check_scene(self)
+        bends = any(effect.bends for effect in self.effects)
+        if self.contact.friction.on_lower_face and not bends:
+            raise ValueError(
+                f"friction = {self.contact.friction!r}: must be on the mid-surface without the effect "
+                "Bending, since both faces of a sheet that stays flat slip alike"
+            )
         if self.contact.friction.map is not None:
             x, y = np.linspace(-0.5, 0.5, 9)[:, None], np.linspace(-0.5, 0.5, 33)
             x, y = self.sheet.width * x, self.sheet.length * y
             self.contact.friction.map.values(x, y)
             self.contact.friction.map.check_period(self.period, x, y)
-        if self.curvature_coupling and not any(effect.bends for effect in self.effects):
+        if self.curvature_coupling and not bends:
             raise ValueError(
                 f"curvature_coupling = {self.curvature_coupling:g}: must be 0 without the effect "
                 "Bending, the only one that depends on a rest curvature"

@@ -33,6 +33,7 @@ from linear_theory.scene.scene import Scene
 from linear_theory.sheet.rectangle import Sheet
 from linear_theory.speed.drawn import BentDeformation, LinearDeformation
 from linear_theory.speed.model_error import LEVELS, model_error
+from linear_theory.speed.plate.error import plate_error
 from linear_theory.speed.power_error import with_power_error
 from linear_theory.speed.reach import judged, too_large_growth, warn_if_beyond
 from linear_theory.speed.result import CrawlSpeed, RigidSpeed
@@ -71,7 +72,8 @@ def crawl_speed(
     """Mean speed of a rectangular sheet in small-strain theory (eqs 10 and 11), or to second order.
 
     sheet, wave, alpha: the sheet, the wave of growth and the growth coupling; or, instead of all three,
-    a planar `Scene`, whose load and friction must agree with any given here.
+    a planar `Scene`, whose load and friction must agree with any given here; for order = 2 also one
+    that bends on level ground, in full contact with it.
     load: normal load, "current" by default, "grown" or "material", see `Load`; friction: "coulomb" by
     default, "tanh" with its slip_speed (length per time), or "viscous"; rtol, atol: see `Tolerance`;
     for a motion without mirror symmetry they apply to the norms of rigid_error and rigid_mean (all
@@ -86,7 +88,8 @@ def crawl_speed(
     default; see `second_order`), with an error of order alpha^3, for a sine alpha^4; for any wave, by
     Ritz; not valid for large alpha. order = 1 depends on growth_law and area only through its
     `model_error`: the distance to the nonlinear sheet with that growth_law, area and load where it was
-    measured (`model_error.model_error`), else NaN.
+    measured (`model_error.model_error`), of a sheet that bends to a cycle of its shapes
+    (`plate.error`), else NaN.
     progress: True prints on stderr, a function is called with a `progress.Progress`.
 
     Raises ValueError for bad input, including an alpha so large that the area element
@@ -126,7 +129,7 @@ def theory_speed(
     found = with_wave_error(scene, tolerance, solve)
     # Computed again for drawing, so that a speed does not keep a solution and its tables in memory.
     deformation = drawn_deformation(scene, method)
-    distance = model_error(LEVELS[order], scene) if scene.planar else math.nan
+    distance = model_error(LEVELS[order], scene) if scene.planar else plate_error(scene)
     found = with_power_error(found, LEVELS[order], scene) if scene.planar else found
     return replace(found, model_error=distance, deformation=deformation)
 

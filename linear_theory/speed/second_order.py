@@ -54,9 +54,9 @@ from linear_theory.speed.expansion import (
     field_tolerance,
     leading_period,
 )
-from linear_theory.speed.plate import WORDS, mixed_coefficients, plate_speed
-from linear_theory.speed.plate_terms import PlateTerms
-from linear_theory.speed.quadratic_form import NOTHING, QuadraticForm
+from linear_theory.speed.plate.quadratic_form import NOTHING, QuadraticForm
+from linear_theory.speed.plate.speed import WORDS, mixed_coefficients, plate_speed
+from linear_theory.speed.plate.terms import PlateTerms
 from linear_theory.speed.reach import judged, too_large_growth, too_large_term
 from linear_theory.speed.result import CrawlSpeed, Estimate, RigidSpeed
 from linear_theory.speed.words import model_words
@@ -92,7 +92,8 @@ class SecondOrder(Shown, _Orders):
     rigid_first_error, rigid_second_error (3,): their errors. For mirror-symmetric motions V_x and Omega
     are 0.
     mixed, bending: V_ab and V_bb of a sheet that bends on its ground; lift_off: the curvature couplings
-    at which it lifts off. `coefficients` has all four as estimates.
+    at which it lifts off. `coefficients` has all four as estimates. V_ab and V_bb are NaN for friction
+    on the lower face that is not viscous: V is then no quadratic form, see `crawl_speed`.
 
     >>> from linear_theory import Sheet, SineWave, second_order
     >>> found = second_order(Sheet(), SineWave(), rtol=1e-2)
@@ -179,7 +180,8 @@ def _of_plate(scene: Scene, contact: Contact, rtol: float, start: float) -> Seco
     contact = replace(contact, load=terms.plate.foundation.load)
     period = leading_period(terms.plane, contact, rtol)
     found = coefficients(terms.plane, period, contact, start)
-    mixed, bending = mixed_coefficients(terms, period.fastest / TINY_ALPHA, contact, rtol)
+    second, fastest = Estimate(found.second, found.second_error), period.fastest / TINY_ALPHA
+    mixed, bending = mixed_coefficients(terms, second, fastest, contact, rtol)
     return found._replace(
         mixed=mixed,
         bending=bending,

@@ -4,7 +4,7 @@ from dataclasses import fields, replace
 from pathlib import Path
 
 from fem_check.choice.asked import way_for
-from fem_check.choice.prediction import Prediction
+from fem_check.choice.result import Prediction
 from fem_check.choice.solving import solved
 from fem_check.command.options import Options
 from fem_check.command.quantities import share

@@ -10,7 +10,8 @@ from pathlib import Path
 from fem_check.answer.block import block, why
 from fem_check.answer.record import record
 from fem_check.answer.units import Units
-from fem_check.choice.prediction import Prediction, predict
+from fem_check.choice.prediction import predict
+from fem_check.choice.result import Prediction
 from fem_check.command.actions.scenes import answered, asked_by_file
 from fem_check.command.files import check_files
 from fem_check.command.options import Options

@@ -10,6 +10,7 @@ from linear_theory.friction.isotropic import Isotropic
 from linear_theory.friction.law import FrictionLaw
 from linear_theory.friction.laws import FRICTION_LAWS, Coulomb, Tanh, Viscous
 from linear_theory.friction.maps import Mapped, Patches
+from linear_theory.friction.wrapped import OnLowerFace
 
 LAWS = {Coulomb.name: "dry", Tanh.name: "tanh", Viscous.name: "viscous"}
 """What a file calls the laws of friction."""
@@ -20,7 +21,9 @@ TANH = LAWS[Tanh.name]
 def law_of(table: FrictionTable, system: System) -> FrictionLaw:
     """The law. Raises ValueError, naming the key, for keys that do not go together."""
     law = _directed(table, system, _form(table, system))
-    return law if table.map is None else Mapped(law, _patches(table.map, system))
+    if table.map is not None:
+        law = Mapped(law, _patches(table.map, system))
+    return OnLowerFace(law) if table.surface == "bottom" else law
 
 
 def _form(table: FrictionTable, system: System) -> Isotropic:
@@ -59,6 +62,8 @@ def entries_of(law: FrictionLaw) -> dict[str, Any]:
 
     Raises ValueError for a law of one's own, and for a map that is a function.
     """
+    if type(law) is OnLowerFace:
+        return {**entries_of(law.law), "surface": "bottom"}
     if type(law) is Mapped:
         return {**entries_of(law.law), "map": _map_entries(law.map)}
     if type(law) is Directional:

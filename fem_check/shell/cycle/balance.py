@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fem_check.shell.cycle.frame import gyration
-from fem_check.shell.cycle.motion import CycleMotion, is_mirrored
+from fem_check.shell.cycle.motion import CycleMotion, depth_of, is_mirrored
 from fem_check.shell.cycle.shapes import Shapes
 from fem_check.shell.kinematics.places import ROUNDOFF, distinct
 from linear_theory.balance.balance import Balance, RigidMotion
@@ -249,10 +249,9 @@ class CycleBalance:
 
     @cached_property
     def _motion(self) -> CycleMotion:
-        contact = self.contact
-        return CycleMotion(
-            self.shapes, contact.load, self.order, self.mirrored, map=contact.friction.map
-        )
+        law, depth = self.contact.friction, depth_of(self.shapes, self.contact)
+        of = self.shapes, self.contact.load, self.order, self.mirrored
+        return CycleMotion(*of, map=law.map, depth=depth)
 
     def _balance(self, times: Array) -> Balance:
         motion, law, slope = self._motion.at(times), self.contact.friction, self.contact.slope

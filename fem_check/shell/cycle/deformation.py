@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fem_check.mesh import location as triangles
-from fem_check.shell.cycle.motion import CycleMotion
+from fem_check.shell.cycle.motion import CycleMotion, depth_of
 from fem_check.shell.cycle.shapes import Shapes, time_factors
 from fem_check.shell.cycle.stored import storing
 from fem_check.shell.effects.gravity import Gravity
@@ -40,6 +40,7 @@ class CycleDeformation(Shown):
     ) -> None:
         self._other = other
         self.shapes, self._load, self.law = shapes, contact.load, contact.friction
+        self._depth = depth_of(shapes, contact)
         self.alpha = shapes.scene.alpha
         where = "in the plane" if shapes.scene.planar else "in space"
         self.words = f"shape of the nonlinear sheet {where}"
@@ -97,7 +98,8 @@ class CycleDeformation(Shown):
 
     def _motion_of(self, points: bytes) -> "_AtPoints":
         there = np.frombuffer(points).reshape(2, -1)
-        return _AtPoints(self.shapes, self._load, 1, mirrored=False, points=there, map=self.law.map)
+        of = {"points": there, "map": self.law.map, "depth": self._depth}
+        return _AtPoints(self.shapes, self._load, 1, mirrored=False, **of)
 
 
 @dataclass(frozen=True, eq=False)

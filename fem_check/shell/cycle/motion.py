@@ -18,6 +18,7 @@ from fem_check.shell.kinematics.places import ROUNDOFF
 from fem_check.shell.kinematics.region import Region
 from linear_theory.common.errors import SheetcrawlError
 from linear_theory.common.quadrature import gauss_legendre
+from linear_theory.friction.contact import Contact
 from linear_theory.friction.load import Load
 from linear_theory.friction.maps import FrictionMap
 from linear_theory.motion.cells import gauss
@@ -45,13 +46,18 @@ def is_mirrored(shapes: Shapes, axis: int = 0) -> bool:
     )
 
 
+def depth_of(shapes: Shapes, contact: Contact) -> float:
+    """Of the points on which friction acts, below the mid-surface, units of length."""
+    return shapes.scene.sheet.thickness / 2 if contact.friction.on_lower_face else 0.0
+
+
 @dataclass(frozen=True, eq=False)
 class CycleMotion:
     """Velocities and loads of shapes on the cells of their mesh.
 
     load: see `Contact`; order: Gauss points per cell and direction; mirrored: whether the motion is
-    mirror symmetric; map: of the coefficient of friction, by which the load is multiplied. A rectangle
-    is one cell, a triangle three.
+    mirror symmetric; map: of the coefficient of friction, by which the load is multiplied; depth: of
+    the points on which friction acts, below the mid-surface. A rectangle is one cell, a triangle three.
     """
 
     shapes: Shapes
@@ -59,6 +65,7 @@ class CycleMotion:
     order: int
     mirrored: bool
     map: FrictionMap | None = field(default=None, kw_only=True)
+    depth: float = field(default=0.0, kw_only=True)
 
     def at(self, times: Array) -> Motion:
         """Motion at times (T,), with velocities in length per time and the load as `area`.
@@ -77,6 +84,9 @@ class CycleMotion:
         if self.map is not None:
             x, y = self.region.reference[0, :2]
             load = load * self.map.values(x, y, times[:, None])
+        if self.depth:
+            normal, turning = self._normal(values, slopes)
+            position, velocity = position - self.depth * normal, velocity - self.depth * turning[:2]
         place, velocity = self._frame.seen(times, position[:2], velocity)
         shape = (times.size, -1, self.order, self.order)
         nothing = np.zeros(load.size).reshape(shape)
@@ -131,6 +141,19 @@ class CycleMotion:
         jets = np.stack([self.region.displacement(u, entries) for u in self.shapes.harmonics])
         jets[0] += self.region.reference[list(entries)]
         return jets
+
+    def _normal(self, values: Array, slopes: Array) -> tuple[Array, Array]:
+        """Unit normal and its rate, (3, T, points), from the factors of the harmonics (T, 2K + 1)."""
+        tangents, rates = (np.tensordot(f, self._jets[:, 1:], 1) for f in (values, slopes))
+        (first, second), (first_rate, second_rate) = (
+            t.transpose(1, 2, 0, 3) for t in (tangents, rates)
+        )
+        director = np.cross(first, second, axis=0)
+        size = np.linalg.norm(director, axis=0)
+        normal = director / size
+        turning = np.cross(first_rate, second, axis=0) + np.cross(first, second_rate, axis=0)
+        along = (turning * normal).sum(0)
+        return normal, (turning - along * normal) / size
 
     @cached_property
     def _frame(self) -> BodyFrame:

@@ -9,8 +9,9 @@ from numpy.typing import NDArray
 from fem_check.shell.effects.effect import Effect
 from fem_check.shell.effects.gravity import Gravity
 from fem_check.shell.effects.koiter import Membrane
+from fem_check.shell.effects.lower_face import LowerFace
 from fem_check.shell.kinematics.point_state import PointState, dot, once_per_state
-from fem_check.shell.kinematics.rates import Step
+from fem_check.shell.kinematics.rates import Affine, Step
 from fem_check.shell.kinematics.region import Entries
 from linear_theory.common import validation
 from linear_theory.common.pairs import PAIRS, pairs_among
@@ -18,6 +19,7 @@ from linear_theory.common.shown import Value
 from linear_theory.common.validation import shown
 from linear_theory.friction.law import FrictionLaw, Response
 from linear_theory.friction.laws import Tanh, checked_law, friction_law
+from linear_theory.friction.wrapped import OnLowerFace
 from linear_theory.scene.scene import Scene
 
 Array = NDArray[np.float64]
@@ -27,6 +29,10 @@ WEAK = 0.1
 """Largest strain by friction over that by growth at which a shape counts as not affected by friction.
 Dry speeds of the paper's sheet by `simulate` (a sine and a pulse, two loads, alpha = 0.05 and 0.25)
 then are within 1.5 % of a cycle's, at a tenth of it within 0.2 %, at three times as much within 8 %."""
+
+
+SURFACES = ("middle", "bottom")
+"""Where friction may act."""
 
 
 def friction_over_growth(scene: Scene) -> float:
@@ -50,8 +56,9 @@ class Friction(Value, Effect):
     coefficient: mu > 0. slip_speed: v0 > 0, length per time, of the law tanh(|v|/v0) v/|v| of eq. 3; or
     law: any `FrictionLaw` or its name, but for dry friction, which has no derivative at rest. v is the
     velocity along the ground at the end of the step, an affine function of the position, and N the load
-    that the step holds fixed. Raises ValueError for values out of range, and unless exactly one of
-    slip_speed and law is given.
+    that the step holds fixed. surface: where it acts, on the "middle" surface or at the "bottom", the
+    lower face of a sheet that bends: short for a law that is `OnLowerFace`. Raises ValueError for
+    values out of range, and unless exactly one of slip_speed and law is given.
 
     >>> from fem_check import Friction
     >>> from linear_theory import Tanh, Viscous
@@ -59,11 +66,12 @@ class Friction(Value, Effect):
     True
     >>> print(Friction(0.5, law=Viscous()).law.words)
     viscous friction
+    >>> print(Friction(0.5, law=Viscous(), surface="bottom").law.words)
+    viscous friction on the lower face
     """
 
     coefficient: float
     law: FrictionLaw
-    entries: ClassVar[Entries] = (0,)
     is_static: ClassVar[bool] = False
     moves: ClassVar[bool] = True
     stored_as: ClassVar[None] = None
@@ -73,9 +81,15 @@ class Friction(Value, Effect):
         coefficient: float,
         slip_speed: float | None = None,
         law: FrictionLaw | str | None = None,
+        surface: str | None = None,
     ) -> None:
         object.__setattr__(self, "coefficient", validation.positive("coefficient", coefficient))
-        object.__setattr__(self, "law", _law(slip_speed, law))
+        object.__setattr__(self, "law", _on_surface(_law(slip_speed, law), surface))
+
+    @property
+    def entries(self) -> Entries:  # type: ignore[override]
+        """See Effect."""
+        return LowerFace.entries if self.law.on_lower_face else (0,)
 
     @property
     def slip_speed(self) -> float:
@@ -87,32 +101,59 @@ class Friction(Value, Effect):
         """See Effect."""
         return self.coefficient
 
+    def touching(self, state: PointState) -> Array:
+        """Position of the points on which it acts, (components, points)."""
+        return self._lower(state).position if self.law.on_lower_face else state.position
+
+    def moved(self, state: PointState, change: Array) -> Array:
+        """Their change to first order by that of the entries, (entries, components, points)."""
+        return self._lower(state).moved(change) if self.law.on_lower_face else change[0]
+
     def slip(self, state: PointState) -> Array:
         """Velocity along the ground in the axes of the law, (2, points)."""
-        axes, rule = slip_axes(state), state.step.moving
+        axes, position, rule = slip_axes(state), self.touching(state), self._rule(state)
         if axes is None:  # two of three components, at less cost
-            return np.asarray(rule.rate * (state.position[:2] - rule.base[:2]))
-        return _inward(axes, rule(state.position))
+            return np.asarray(rule.rate * (position[:2] - rule.base[:2]))
+        return _inward(axes, rule(position))
 
     def force(self, state: PointState) -> Array:
         """Force of the ground on each point, (components, points)."""
-        return -self.gradient(state)[0]
+        return -self._pull(state)
 
     def energy(self, state: PointState) -> Array:
         """See Effect. Time step times dissipation potential."""
-        scale = self._limit(state) / state.step.moving.rate
+        scale = self._limit(state) / self._rule(state).rate
         return np.asarray(scale * self.law.potential(self._met(state).v))
 
     def gradient(self, state: PointState) -> Array:
         """See Effect."""
-        force = self._limit(state) * self._met(state).force
-        return _outward(slip_axes(state), force, state.components)[None]
+        pull = self._pull(state)
+        return self._lower(state).gradient(pull) if self.law.on_lower_face else pull[None]
 
     def hessian(self, state: PointState) -> Array:
         """See Effect."""
-        scale, tangent = self._limit(state) * state.step.moving.rate, self._met(state).tangent
-        axes = slip_axes(state)
-        return _tangent_outward(axes, scale * tangent, state.components)[None, None]
+        stiffness = self.stiffness(state)
+        if not self.law.on_lower_face:
+            return stiffness[None, None]
+        return self._lower(state).hessian(self._pull(state), stiffness)
+
+    def stiffness(self, state: PointState) -> Array:
+        """Derivative of minus the force with respect to the points it acts on, (pairs, points)."""
+        scale, tangent = self._limit(state) * self._rule(state).rate, self._met(state).tangent
+        return _tangent_outward(slip_axes(state), scale * tangent, state.components)
+
+    def _pull(self, state: PointState) -> Array:
+        """Minus the force of the ground on each point, (components, points)."""
+        force = self._limit(state) * self._met(state).force
+        return _outward(slip_axes(state), force, state.components)
+
+    def _rule(self, state: PointState) -> Affine:
+        """Velocity of the points it acts on as a function of their position."""
+        return state.step.touching.velocity if self.law.on_lower_face else state.step.moving
+
+    @once_per_state
+    def _lower(self, state: PointState) -> LowerFace:
+        return LowerFace(state, state.step.touching.depth)
 
     @once_per_state
     def _met(self, state: PointState) -> Response:
@@ -150,6 +191,8 @@ class Friction(Value, Effect):
             raise ValueError(
                 "step: Friction needs one with a velocity and a load; it has no static form"
             )
+        if self.law.on_lower_face and step.face is None:
+            raise ValueError("step: Friction on the lower face needs one with that face")
 
 
 def _law(slip_speed: float | None, law: FrictionLaw | str | None) -> FrictionLaw:
@@ -161,6 +204,16 @@ def _law(slip_speed: float | None, law: FrictionLaw | str | None) -> FrictionLaw
             "Tanh(slip_speed), dry friction for speeds well above its slip speed"
         )
     return found
+
+
+def _on_surface(law: FrictionLaw, surface: str | None) -> FrictionLaw:
+    """The law on that surface; None: where the law says."""
+    if surface is None:
+        return law
+    lower = validation.choice("surface", surface, SURFACES) == SURFACES[1]
+    if law.on_lower_face and not lower:
+        raise ValueError(f"surface = {surface!r}: must be None or 'bottom' beside {law!r}")
+    return OnLowerFace(law) if lower and not law.on_lower_face else law
 
 
 def slip_axes(state: PointState) -> Array | None:

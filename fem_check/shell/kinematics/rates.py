@@ -36,6 +36,22 @@ class Affine(Shown):
 
 
 @dataclass(frozen=True, eq=False)
+class Face(Shown):
+    """The face of the sheet on which friction acts, the points x - depth n with the unit normal n.
+
+    depth: below the mid-surface, units of length; velocity: of these points as a function of their
+    position, as for `Step.velocity`.
+    """
+
+    depth: float
+    velocity: Affine
+
+    def part(self, points: slice) -> "Face":
+        """The same for a slice of the points."""
+        return Face(self.depth, self.velocity.part(points))
+
+
+@dataclass(frozen=True, eq=False)
 class Step(Shown):
     """Quantities held fixed during a minimisation: the time step, and lagged load, area and normals.
 
@@ -45,6 +61,7 @@ class Step(Shown):
     normal (3, points): unit normal of the ground under each point, None if it is e_z. anchor
     (components, points): places before the step, None unless a `Restraint` holds the sheet to them.
     heading: of the sheet as a whole, anticlockwise, radians, for friction whose axes turn with it.
+    face: on which friction acts, None for the mid-surface.
 
     load, area, normal and heading are those of the last state, since as functions of the position they
     would not have a potential. The minimisation is repeated until they no longer change.
@@ -57,6 +74,7 @@ class Step(Shown):
     normal: Array | None = None
     anchor: Array | None = None
     heading: float = 0.0
+    face: Face | None = None
 
     @property
     def moving(self) -> Affine:
@@ -79,6 +97,11 @@ class Step(Shown):
         return _held(self.area, "area")
 
     @property
+    def touching(self) -> Face:
+        """The face of friction. Raises ValueError where that is the mid-surface."""
+        return _held(self.face, "face")
+
+    @property
     def anchored(self) -> Array:
         """The places before the step. Raises ValueError where none are held fixed."""
         return _held(self.anchor, "anchor")
@@ -90,7 +113,8 @@ class Step(Shown):
         velocity, acceleration = (
             None if r is None else r.part(points) for r in (self.velocity, self.acceleration)
         )
-        return Step(velocity, acceleration, load, area, normal, anchor, self.heading)
+        face = None if self.face is None else self.face.part(points)
+        return Step(velocity, acceleration, load, area, normal, anchor, self.heading, face)
 
 
 def _held(value: T | None, name: str) -> T:

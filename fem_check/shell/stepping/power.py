@@ -24,6 +24,7 @@ from fem_check.shell.effects.friction import Friction
 from fem_check.shell.effects.gravity import Gravity
 from fem_check.shell.kinematics.point_state import PointState
 from fem_check.shell.kinematics.rates import Step
+from fem_check.shell.kinematics.region import Entries
 from fem_check.shell.kinematics.rest_state import RestState
 from fem_check.shell.model import ShellModel
 from linear_theory.common.estimate import Estimate
@@ -70,7 +71,8 @@ class Moment:
     """The sheet at the end of a step, with the quantities of the energy balance.
 
     velocity (size,): of the unknowns, for the kinetic energy; None without inertia. drag,
-    sliding (points,) and (components, points): forces of damping and of friction.
+    sliding (components, points): forces of damping and of friction; touching (components, points): the
+    points on which friction acts.
     """
 
     state: Array
@@ -78,6 +80,7 @@ class Moment:
     area: Array | None
     position: Array
     sliding: Array | None
+    touching: Array | None
     drag: Array | None
     velocity: Array | None
 
@@ -100,10 +103,12 @@ class Ledger:
 
     def moment(self, u: Array, rest: RestState, step: Step, velocity: Array | None) -> Moment:
         """Forces and positions at the end of a step (before the first one: of a step at rest)."""
-        state = PointState(self.region, u, (0,), rest, step)
-        force = None if self.friction is None else self.friction.force(state)
-        speed = velocity if self.areal_mass else None
-        return Moment(u, rest, step.area, state.position, force, self._drag(u, state), speed)
+        rubs, speed = self.friction, velocity if self.areal_mass else None
+        entries: Entries = (0,) if rubs is None else rubs.entries
+        state = PointState(self.region, u, entries, rest, step)
+        force, touching = (None, None) if rubs is None else (rubs.force(state), rubs.touching(state))
+        drag = self._drag(u, state)
+        return Moment(u, rest, step.area, state.position, force, touching, drag, speed)
 
     def works(self, before: Moment, after: Moment) -> Works:
         """Works of the step between two moments."""
@@ -116,9 +121,8 @@ class Ledger:
         late, last = self._energies(after.state, (old, new), area)
         change = last - first
         growth = ((last - late) + (early - first)).sum() / 2
-        way = after.position - before.position
-        friction = _loss(before.sliding, after.sliding, way)
-        damping = _loss(before.drag, after.drag, way)
+        friction = _loss(before.sliding, after.sliding, before.touching, after.touching)
+        damping = _loss(before.drag, after.drag, before.position, after.position)
         kinetic = self._kinetic(after) - self._kinetic(before)
         values = (growth, *change, kinetic, friction, damping)
         return Works(*(np.asarray(value) for value in values))
@@ -150,11 +154,11 @@ class Ledger:
         return np.asarray(sum((e.gradient(still) - e.gradient(state))[0] for e in self.damping))
 
 
-def _loss(before: Array | None, after: Array | None, way: Array) -> float:
-    """Minus the work of a force along a displacement."""
-    if before is None or after is None:
+def _loss(before: Array | None, after: Array | None, start: Array | None, end: Array | None) -> float:
+    """Minus the work of a force on points that move from start to end."""
+    if before is None or after is None or start is None or end is None:
         return 0.0
-    return -float(((before + after) * way).sum()) / 2
+    return -float(((before + after) * (end - start)).sum()) / 2
 
 
 def friction_load(model: ShellModel) -> float:

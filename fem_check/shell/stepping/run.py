@@ -47,7 +47,7 @@ CHECKED = 8
 """Interval, in steps, of checks for negative curvature at the end of a step, which cost a Hessian: a
 reused factor, or symmetry, can hide it from the minimisations."""
 
-MOMENT = ("area", "sliding", "drag", "velocity")
+MOMENT = ("area", "sliding", "touching", "drag", "velocity")
 """Arrays of a Moment that only some scenes have."""
 
 
@@ -230,17 +230,19 @@ class Run:
         friction: Friction | None = self.model.find(Friction)
         if friction is None:
             return Sliding(0.0, 0.0, np.zeros(2), np.zeros(2))
-        state = PointState(self.region, result.state, (0,), result.rest, result.step)
-        error = self.region.displacement(wrong, (0,))[0]
+        entries = friction.entries
+        state = PointState(self.region, result.state, entries, result.rest, result.step)
+        error = self.region.displacement(wrong, entries)
         return sliding(friction, state, error, self.region.measure)
 
     def _first_moment(self) -> Moment:
         """The moment at the start, which is also the first row of the record."""
         history, rest = self.history, self.stepper.rest(0.0)
-        moving = history.velocity
-        velocity = np.zeros_like(history.state) if moving is None else moving
+        known = history.velocity
+        velocity = np.zeros_like(history.state) if known is None else known
         rule = self.stepper.at_points(Affine(1.0, history.state - velocity))
-        step = self.stepper.held(Step(rule), history.state, rest, 0.0)
+        moving = Step(rule, face=self.stepper.face_moving(history.state, velocity))
+        step = self.stepper.held(moving, history.state, rest, 0.0)
         nothing = Works(*(np.zeros(()) for _ in Works._fields))
         still = Sliding(0.0, 0.0, np.zeros(2), np.zeros(2))
         self._note(history.state, nothing, still)

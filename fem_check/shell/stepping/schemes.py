@@ -45,6 +45,13 @@ class Scheme(ABC):
         """Velocity and (with inertia) acceleration of the unknowns at the end of a step."""
 
     @abstractmethod
+    def slope(self, values: Array, times: Array, dt: float) -> Affine:
+        """Velocity of other points at the end of a step, from their positions at the last times.
+
+        values: (n, ...), the latest first. Raises ValueError for a scheme that needs more of them.
+        """
+
+    @abstractmethod
     def prediction(self, history: "History", dt: float) -> Array:
         """Unknowns (size,) after dt, extrapolated."""
 
@@ -73,13 +80,19 @@ class BackwardDifferences(Value, Scheme):
 
     def rules(self, history: "History", dt: float) -> tuple[Affine, Affine | None]:
         """See Scheme."""
-        velocity = _slope(history.states, history.times, dt)
+        velocity = self.slope(history.states, history.times, dt)
         if history.velocities is None:
             return velocity, None
         # a = r (v - w) with v = q (x - b) is r q (x - (b + w/q)).
-        second = _slope(history.velocities, history.times, dt)
+        second = self.slope(history.velocities, history.times, dt)
         base = velocity.base + second.base / velocity.rate
         return velocity, Affine(second.rate * velocity.rate, base)
+
+    def slope(self, values: Array, times: Array, dt: float) -> Affine:
+        """See Scheme."""
+        if times.size == 1:
+            return backward_euler(values[0], dt)
+        return two_step(values[0], values[1], dt, times[0] - times[1])
 
     def prediction(self, history: "History", dt: float) -> Array:
         """See Scheme: on the parabola through the last positions."""
@@ -126,6 +139,10 @@ class Newmark(Value, Scheme):
         """See Scheme."""
         velocity, acceleration = history.moving
         return newmark(history.state, velocity, acceleration, dt, self.beta, self.gamma)
+
+    def slope(self, values: Array, times: Array, dt: float) -> Affine:
+        """See Scheme."""
+        raise ValueError(f"scheme = {self!r}: must be BackwardDifferences for other points")
 
     def prediction(self, history: "History", dt: float) -> Array:
         """See Scheme: with constant acceleration."""
@@ -198,6 +215,10 @@ class History:
         """Velocity and (with inertia) acceleration of the unknowns at the end of a step, as rules."""
         return self.scheme.rules(self, dt)
 
+    def slope(self, values: Array, dt: float) -> Affine:
+        """Velocity of other points at the end of a step, see Scheme."""
+        return self.scheme.slope(values, self.times[: len(values)], dt)
+
     def velocity_error(self, state: Array, dt: float) -> Array:
         """Estimated error of the velocity (size,) at the end of a step that led to `state`."""
         return self.scheme.velocity_error(self, state, dt)
@@ -215,13 +236,6 @@ class History:
             return after
         velocities = np.stack([velocity(state), *self.velocities[:kept]])
         return replace(after, velocities=velocities, acceleration=acceleration(state))
-
-
-def _slope(values: Array, times: Array, dt: float) -> Affine:
-    """Rate of change at the end of a step of quantities (n, size) at the last times."""
-    if times.size == 1:
-        return backward_euler(values[0], dt)
-    return two_step(values[0], values[1], dt, times[0] - times[1])
 
 
 def _step(step: float | None) -> float | None:

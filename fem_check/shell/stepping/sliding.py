@@ -36,15 +36,15 @@ class Sliding(NamedTuple):
 
 
 def sliding(friction: Friction, state: PointState, error: Array, measure: Array) -> Sliding:
-    """error: estimated (exact - computed) velocity of the points, (components, points)."""
+    """error: estimated (exact - computed) velocity of the entries, (entries, components, points)."""
     velocity, load = friction.slip(state), state.step.pressed
     speed, law = norm(velocity), friction.law
     total = load.sum()
     share = load[speed < law.width].sum() / total if total > 0 else 0.0
-    tangent = friction.hessian(state)[0, 0] / state.step.moving.rate
+    tangent = friction.stiffness(state) / state.step.moving.rate
     pairs = tangent[[0, 1, 3]] if state.components == 3 else tangent
     # Of a velocity error the mean over the sheet is seen directly, and the rest through friction.
-    step = rigid(pairs, error[:2]) + error[:2] @ measure / measure.sum()
+    step = rigid(pairs, friction.moved(state, error)[:2]) + error[0, :2] @ measure / measure.sum()
     slip = turned(_slip_change(law, velocity, load), state.step.heading)
     return Sliding(float(speed.max()), float(share), step, slip)
 

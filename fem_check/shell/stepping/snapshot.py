@@ -24,7 +24,7 @@ from linear_theory.scene.scene import PARTS, Scene
 
 Array = NDArray[np.float64]
 
-VERSION = 4
+VERSION = 5
 
 ANEW = "remove the file, or name another one, to start from the beginning"
 

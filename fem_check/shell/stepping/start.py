@@ -67,6 +67,11 @@ def first_history(
         if isinstance(scheme, Newmark):
             raise ValueError(f"scheme = {scheme}: must be BackwardDifferences without Inertia")
         return history
+    if stepper.on_lower_face and isinstance(scheme, Newmark):
+        raise ValueError(
+            f"scheme = {scheme}: must be BackwardDifferences for friction on the lower face, whose "
+            "points have no acceleration here"
+        )
     wanted = np.zeros(model.components) if velocity is None else velocity
     speed = validation.real_array("velocity", wanted)
     if speed.shape != (model.components,):
@@ -82,7 +87,8 @@ def first_acceleration(stepper: Stepper, state: Array, velocity: Array) -> Array
     # Any rate works: v = rate (x - base) with the base that gives the velocity at this x.
     moving = stepper.at_points(Affine(1.0, state - velocity))
     at_rest = stepper.at_points(Affine(1.0, state))
-    step = stepper.held(Step(moving, at_rest), state, rest, 0.0)
+    face = stepper.face_moving(state, velocity)
+    step = stepper.held(Step(moving, at_rest, face=face), state, rest, 0.0)
     model = stepper.model
     force = -model.potential(rest, step).gradient(state)
     inertia = tuple(effect for effect in model.effects if effect.areal_mass)

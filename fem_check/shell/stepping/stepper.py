@@ -14,10 +14,11 @@ from numpy.typing import NDArray
 
 from fem_check.shell.abilities import STEPPED
 from fem_check.shell.effects.effect import Effect
+from fem_check.shell.effects.lower_face import LowerFace
 from fem_check.shell.effects.restraint import Restraint
 from fem_check.shell.kinematics.heading import heading
 from fem_check.shell.kinematics.point_state import PointState
-from fem_check.shell.kinematics.rates import Affine, Step
+from fem_check.shell.kinematics.rates import Affine, Face, Step
 from fem_check.shell.kinematics.rest_state import RestState
 from fem_check.shell.kinematics.supports import Supports
 from fem_check.shell.model import ShellModel
@@ -141,7 +142,9 @@ class Stepper:
             coupling.begin(history.state)
         velocity, acceleration = history.rules(dt)
         moving = Step(
-            self.at_points(velocity), None if acceleration is None else self.at_points(acceleration)
+            self.at_points(velocity),
+            None if acceleration is None else self.at_points(acceleration),
+            face=self.face(history, dt),
         )
         effects = self.model.effects
         if restraint > 0:
@@ -186,6 +189,33 @@ class Stepper:
         """A rule for the unknowns converted to one for the positions of the points."""
         base = self.region.displacement(rule.base, (0,))[0]
         return Affine(rule.rate, base + self.region.reference[0])
+
+    def face(self, history: History, dt: float) -> Face | None:
+        """The face on which friction acts during a step; None for the mid-surface."""
+        if not self.on_lower_face:
+            return None
+        past = np.stack([self._lower(u).position for u in history.states[:2]])
+        return Face(self._depth, history.slope(past, dt))
+
+    def face_moving(self, u: Array, velocity: Array) -> Face | None:
+        """Likewise of a sheet at u with a velocity (size,) of its unknowns."""
+        if not self.on_lower_face:
+            return None
+        lower = self._lower(u)
+        moved = lower.moved(self.region.displacement(velocity, LowerFace.entries))
+        return Face(self._depth, Affine(1.0, lower.position - moved))
+
+    @property
+    def on_lower_face(self) -> bool:
+        """Whether friction acts there."""
+        return any(effect.law.on_lower_face for effect in self.model.effects if effect.law)
+
+    @property
+    def _depth(self) -> float:
+        return self.model.scene.sheet.thickness / 2
+
+    def _lower(self, u: Array) -> LowerFace:
+        return LowerFace(PointState(self.region, u, LowerFace.entries), self._depth)
 
     def held(self, moving: Step, u: Array, rest: RestState, t: float) -> Step:
         """Quantities held fixed in a step to time t, for the sheet at u: rules, area, load, normals.

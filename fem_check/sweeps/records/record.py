@@ -8,7 +8,7 @@ from functools import cache
 from typing import Any
 
 from fem_check.answer.record import numbers_of
-from fem_check.choice.prediction import Prediction
+from fem_check.choice.result import Prediction
 from fem_check.sweeps.plan import Question
 from linear_theory.common.shown import Shown, plain
 from linear_theory.common.version import current_version

@@ -8,7 +8,7 @@ from collections.abc import Callable
 from typing import Any, NamedTuple
 
 from fem_check.choice import solving
-from fem_check.choice.prediction import Prediction
+from fem_check.choice.result import Prediction
 from fem_check.sweeps.plan import Question
 from fem_check.sweeps.records.record import Record, State, answer_of, circumstances
 from fem_check.sweeps.work.bound import OutOfTime, bounded

@@ -23,7 +23,7 @@ from figures.measure import saddle
 from figures.measure.plate import saddle_range
 from figures.measure.plate.saddle_range import BILAYER, GROUNDS
 from linear_theory import Estimate
-from linear_theory.speed.quadratic_form import QuadraticForm
+from linear_theory.speed.plate.quadratic_form import QuadraticForm
 
 LAW = "tanh"
 

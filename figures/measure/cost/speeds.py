@@ -14,7 +14,8 @@ from typing import Any
 import numpy as np
 
 from fem_check.choice.levels import strip as strip_level
-from fem_check.choice.prediction import Prediction, predict
+from fem_check.choice.prediction import predict
+from fem_check.choice.result import Prediction
 from fem_check.shell.cycle.speed import cycle_speed
 from fem_check.shell.stepping.simulation import simulate
 from figures.common.scenes import membrane, sliding_scene, smooth_scene

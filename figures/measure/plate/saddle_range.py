@@ -20,7 +20,7 @@ from figures.common.folders import DATA
 from figures.common.records import Table
 from figures.measure.saddle import COEFFICIENT, LAWS, PLACES, WAVES, by_steps, scene
 from linear_theory import second_order
-from linear_theory.speed.quadratic_form import QuadraticForm
+from linear_theory.speed.plate.quadratic_form import QuadraticForm
 
 GROUNDS = ("paper", "stiff ground")
 

@@ -43,10 +43,13 @@ class PlateSolver(Shown):
         moments: (cases, degrees x, degrees y), integrals of c p_i p_j over [-1, 1]^2; those beyond
         `degree` do no work. Returns (cases, degree x + 1, degree y + 1), length^2: w per unit beta.
         """
+        return self.solve_work(self._load(moments[:, : self.degree[0] + 1, : self.degree[1] + 1]))
+
+    def solve_work(self, load: Array) -> Array:
+        """The same for virtual work on the test functions, (cases, degree x + 1, degree y + 1)."""
         from scipy.linalg import solve_triangular  # here: scipy takes long to import
 
         across, along = self.bases
-        load = self._load(moments[:, : self.degree[0] + 1, : self.degree[1] + 1])
         solution = np.zeros_like(load)
         for px, py in PARITIES:
             part = load[:, px::2, py::2]
@@ -60,12 +63,29 @@ class PlateSolver(Shown):
 
     def _load(self, moments: Array) -> Array:
         """Virtual work -D (1 + nu) int c (v_xx + v_yy) per test function."""
-        half_x, half_y = self._halves
-        across, along = self.bases
-        factor = -self.foundation.rigidity * (1 + self.sheet.poisson)
-        by_x = across.curvatures.T @ moments @ along.values * (half_y / half_x)
-        by_y = across.values.T @ moments @ along.curvatures * (half_x / half_y)
-        return np.asarray(factor * (by_x + by_y))
+        bent = -self.foundation.rigidity * (1 + self.sheet.poisson) * moments
+        return self.against_curvatures(np.stack([bent, bent, np.zeros_like(bent)]))
+
+    def against_curvatures(self, moments: Array) -> Array:
+        """Virtual work int (A_xx v_xx + A_yy v_yy + 2 A_xy v_xy) per test function.
+
+        moments: of A (xx, yy, xy), (3, ..., degree x + 1, degree y + 1), as for `solve`.
+        """
+        (half_x, half_y), (across, along) = self._halves, self.bases
+        xx = across.curvatures.T @ moments[0] @ along.values * (half_y / half_x)
+        yy = across.values.T @ moments[1] @ along.curvatures * (half_x / half_y)
+        return np.asarray(xx + yy + 2 * (across.slopes.T @ moments[2] @ along.slopes))
+
+    def against_slopes(self, moments: Array) -> Array:
+        """Virtual work int (A_x v_x + A_y v_y); moments: of A, (2, ..., degree x + 1, degree y + 1)."""
+        (half_x, half_y), (across, along) = self._halves, self.bases
+        x = across.slopes.T @ moments[0] @ along.values * half_y
+        return np.asarray(x + across.values.T @ moments[1] @ along.slopes * half_x)
+
+    def against_values(self, moments: Array) -> Array:
+        """Virtual work int A v; moments: of A, (..., degree x + 1, degree y + 1)."""
+        (half_x, half_y), (across, along) = self._halves, self.bases
+        return np.asarray(across.values.T @ moments @ along.values * (half_x * half_y))
 
     @property
     def _halves(self) -> tuple[float, float]:

@@ -179,13 +179,13 @@ class StretchField:
 
     def _solved(self, degree: Pair) -> Array:
         plate, solver = self.plate, RitzSolver(self.sheet, degree)
-        loads = self._times.moments(BendingSource(plate, degree), _Amplitudes(plate))
+        loads = self._times.moments(BendingSource(plate, degree), Amplitudes(plate))
         solution = solver.solve_work(loads, self.drive.mirrored)
         return legendre.values(legendre.values(solution, 2), 3)
 
 
 @dataclass(frozen=True)
-class _Amplitudes:
+class Amplitudes:
     """The time dependence of the deflection in the form that `SecondTimes.moments` reads."""
 
     plate: PlateField

@@ -2,8 +2,8 @@
 
     V = V_a alpha + V_aa alpha^2 + V_ab alpha beta + V_bb beta^2
 
-for a sheet in full contact, see `plate_terms`. Friction acts on the mid-surface, as in the paper and in
-the shell. Its power is that of the same slip and load,
+for a sheet in full contact, see `terms`. Friction acts on the mid-surface, as in the paper, unless its
+law says that it does on the lower face: see `lower_face`. Its power is that of the same slip and load,
 
     P = int (1 + alpha e + beta p) f(w) . w dA,    w = alpha v_1 + alpha^2 v_2 + beta^2 v_b + V,
 
@@ -21,37 +21,49 @@ from numpy.typing import NDArray
 
 from linear_theory.balance.crawl import first_resolution
 from linear_theory.balance.period import Period, average
+from linear_theory.common import validation
 from linear_theory.common.tolerance import Tolerance
+from linear_theory.deformation.plate.lower_face import LowerFace
 from linear_theory.energy.energy import Energy
 from linear_theory.friction.contact import Contact
 from linear_theory.motion.rigid import RigidNorm
 from linear_theory.scene.dragged import mean_map_of
 from linear_theory.scene.scene import Scene
 from linear_theory.speed.expansion import POINTS, TINY_ALPHA, field_errors, fine_cells, tiny
-from linear_theory.speed.plate_terms import (
+from linear_theory.speed.plate.lower_face import Ray, face_coefficients, on_ray
+from linear_theory.speed.plate.quadratic_form import check_contact
+from linear_theory.speed.plate.terms import (
     BendingAlone,
     PlateCoefficients,
     PlateTerms,
     Weights,
     weighted_error,
 )
-from linear_theory.speed.quadratic_form import check_contact
 from linear_theory.speed.reach import judged, too_large_growth, too_large_term
 from linear_theory.speed.result import CrawlSpeed, Estimate, RigidSpeed
 from linear_theory.speed.words import model_words
 
 Array = NDArray[np.float64]
 
+FIELD_SHARES = (1.0, 0.1, 0.01)
+"""Of the tolerance of the speed, for the fields: more where terms of different sign cancel."""
+
+HELPED = 0.5
+"""Finer fields must reduce the error at least to this fraction, else it is that of the balance."""
+
 WORDS = "second order in (alpha, beta), plate on its ground"
 
 
 def mixed_coefficients(
-    terms: PlateTerms, fastest: float, contact: Contact, rtol: float
+    terms: PlateTerms, second: Estimate, fastest: float, contact: Contact, rtol: float
 ) -> tuple[Estimate, Estimate]:
-    """V_ab and V_bb. fastest: largest speed per unit alpha; contact: with friction per unit alpha.
+    """V_ab and V_bb. second: V_aa; fastest: largest speed per unit alpha; contact: with friction per
+    unit alpha.
 
     Each source is scaled to the size of those of alpha^2, so that the tolerance means the same.
     """
+    if contact.friction.on_lower_face:
+        return face_coefficients(terms, second, contact, rtol)
     unit = terms.plane.sheet.length / terms.plane.drive.period
     pressure, bending = 1 / (terms.largest_pressure or 1.0), unit / (terms.stretch.speed or unit)
     found = []
@@ -93,16 +105,12 @@ def plate_speed(scene: Scene, tolerance: Tolerance) -> CrawlSpeed:
 
     Raises ValueError for a curvature coupling at which the sheet lifts off.
     """
-    start, beta = time.perf_counter(), scene.curvature_coupling
-    terms = PlateTerms.of(scene, tolerance.rtol)
-    check_contact(beta, terms.lift_off)
+    start, law = time.perf_counter(), scene.contact.friction
     scene.growth.law.check(scene.alpha, scene.extremes)
-    contact, law = terms.contact(scene), scene.contact.friction
-    unit = max(abs(scene.alpha), abs(beta) * scene.sheet.length)
+    unit = max(abs(scene.alpha), abs(scene.curvature_coupling) * scene.sheet.length)
     tolerance = tolerance.of_speed(unit, scene.unit)
-    found = (_grown if scene.alpha else _bent)(terms, scene, contact, tolerance)
-    mirrored = terms.plane.mirrored and law.mirrored
-    norm = RigidNorm(terms.plane.gyration, mirrored)
+    terms, found, norm = _fine_enough(scene, tolerance)
+    contact, mirrored = terms.contact(scene), norm.mirrored
     turning = RigidSpeed(found.rigid, found.mean, found.error)
     speed = CrawlSpeed(
         estimate=turning.along,
@@ -123,6 +131,22 @@ def plate_speed(scene: Scene, tolerance: Tolerance) -> CrawlSpeed:
     beyond = too_large_growth(scene.drive, scene.alpha, *places)
     term = scene.alpha**2 * found.second if scene.alpha else 0.0
     return judged(speed, beyond or too_large_term(term, found.fastest))
+
+
+def _fine_enough(scene: Scene, tolerance: Tolerance) -> tuple[PlateTerms, _Motion, RigidNorm]:
+    """The motion, with finer fields until it meets the tolerance or they do not help."""
+    law, before = scene.contact.friction, math.inf
+    way = _on_lower_face if law.on_lower_face else _grown if scene.alpha else _bent
+    for share in FIELD_SHARES:
+        terms = PlateTerms.of(scene, max(share * tolerance.rtol, validation.SMALLEST_RTOL))
+        check_contact(scene.curvature_coupling, terms.lift_off)
+        found = way(terms, scene, terms.contact(scene), tolerance)
+        norm = RigidNorm(terms.plane.gyration, terms.plane.mirrored and law.mirrored)
+        error = norm.size(found.error)
+        if norm.meets(found.mean, found.error, tolerance) or error > HELPED * before:
+            break
+        before = error
+    return terms, found, norm
 
 
 def _grown(terms: PlateTerms, scene: Scene, contact: Contact, tolerance: Tolerance) -> _Motion:
@@ -162,4 +186,26 @@ def _bent(terms: PlateTerms, scene: Scene, contact: Contact, tolerance: Toleranc
         fastest=share * period.fastest,
         first=0.0,
         second=math.nan,
+    )
+
+
+def _on_lower_face(terms: PlateTerms, scene: Scene, contact: Contact, tolerance: Tolerance) -> _Motion:
+    """Both orders on the ray of the couplings."""
+    alpha, beta, length = scene.alpha, scene.curvature_coupling, scene.sheet.length
+    size = max(abs(alpha), abs(beta) * length) or 1.0
+    contact = replace(contact, friction=contact.friction.scaled(size))
+    face, ray = LowerFace(terms.plane, terms.plate), Ray(alpha / size, beta / size)
+    period, errors = on_ray(terms, face, ray, contact, tolerance.rtol)
+    orders, powers = period.orders, np.array([size, size**2])
+    means = powers[:, None] * period.means
+    known = bool(alpha) and not period.sticks
+    return _Motion(
+        period,
+        size,
+        rigid=size * orders[0] + size**2 * orders[1],
+        mean=means.sum(0),
+        error=powers @ errors,
+        fastest=size * period.fastest / TINY_ALPHA,
+        first=float(means[0, 1] / alpha) if alpha else math.nan,
+        second=float(means[1, 1] / alpha**2) if known else math.nan,
     )

@@ -21,7 +21,9 @@ class QuadraticForm(Shown):
 
     For dry friction the form holds while beta^2 times the slip by bending is small compared with alpha
     times that by growth: at alpha = 0 the speed is another multiple of beta^2, see
-    `plate.bending_alone`. Friction with a direction: for alpha > 0.
+    `terms.BendingAlone`. Friction with a direction: for alpha > 0. With friction on the lower
+    face V is such a form only if that is viscous (see `lower_face`); under other laws alpha_beta and
+    beta_beta are NaN, with infinite errors.
     """
 
     alpha: Estimate
@@ -35,7 +37,7 @@ class QuadraticForm(Shown):
 
         Raises ValueError for a beta at or beyond lift-off.
 
-        >>> from linear_theory.speed.quadratic_form import QuadraticForm
+        >>> from linear_theory.speed.plate.quadratic_form import QuadraticForm
         >>> from linear_theory import Estimate
         >>> form = QuadraticForm(Estimate(0, 0), Estimate(1.5, 0.01), Estimate(-0.2, 0.001))
         >>> print(f"{form.at(alpha=0.1, beta=0.5).value:.3f}")

@@ -1,0 +1,1 @@
+"""Speeds of sheets that bend on level ground, to second order in alpha and beta."""
