@@ -129,6 +129,14 @@ def test_theory_is_that_of_cycles(name):
     assert abs(theory.mean - cycle.mean) <= min(error, 0.01 * abs(cycle.mean))
 
 
+def test_power_is_that_of_cycles():
+    """Less than theory leaves out, which is some alpha of it."""
+    for law in (Tanh(0.3), Viscous()):
+        asked = scene(0.002, 0.1, law)
+        theory, cycle = crawl_speed(asked, order=2, rtol=1e-2), cycle_speed(asked, rtol=5e-2)
+        assert theory.power.value == pytest.approx(cycle.power.value, rel=1e-3)
+
+
 def test_without_bending_both_faces_slip_alike():
     law = Tanh(0.3)
     lower = scene(0.01, 0.0, law)
