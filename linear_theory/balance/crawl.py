@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from linear_theory.balance.balance import Balance, RigidMotion
+from linear_theory.balance.balance import LINEAR, Balance, RigidMotion
 from linear_theory.balance.load_check import check_load
 from linear_theory.common.progress import track
 from linear_theory.deformation.field import LinearField
@@ -77,6 +77,16 @@ def first_resolution(rtol: float) -> Resolution:
     return Resolution(4.0, order, max(math.ceil(5.3 * digits - 7), 2), 0.02 * rtol)
 
 
+def joint_resolution(rtol: float) -> Resolution:
+    """That of a motion whose mean is of first order, found as one (see `Balance`).
+
+    Near a stagnation point its integrand is bounded: the error falls like the area of the last cell.
+    """
+    digits = -math.log10(rtol)
+    order = min(max(math.ceil(1.5 + 0.8 * digits), 4), 14)
+    return Resolution(4.0, order, max(math.ceil(3 * digits - 2), 2), 0.02 * rtol)
+
+
 @dataclass(frozen=True)
 class Crawl:
     """A crawling sheet (field, growth coupling, contact) and the resolution of its balance."""
@@ -85,6 +95,12 @@ class Crawl:
     alpha: float
     contact: Contact
     resolution: Resolution
+
+    @classmethod
+    def to(cls, rtol: float, field: LinearField, alpha: float, contact: Contact) -> "Crawl":
+        """With the resolution that a tolerance asks for at first."""
+        crawl = cls(field, alpha, contact, first_resolution(rtol))
+        return replace(crawl, resolution=joint_resolution(rtol)) if crawl.joint else crawl
 
     @property
     def drive(self) -> Drive:
@@ -105,6 +121,11 @@ class Crawl:
     def counts_leading(self) -> bool:
         """Whether q_0 is part of the counted motion."""
         return not self.starts_at_second_order
+
+    @property
+    def joint(self) -> bool:
+        """Whether q_0 + alpha q_1 is solved for as one (see `Balance`)."""
+        return self.counts_leading and abs(self.alpha) > LINEAR
 
     def balance(self, times: Array, known: Known | None = None) -> RigidMotion:
         """Rigid motion at the given times, in batches; known: the motion at other times, as a guess."""
@@ -208,4 +229,5 @@ class Crawl:
         if law.map is not None:
             share = law.map.values(*motion.position, np.reshape(times, (-1, 1, 1, 1)))
             motion = replace(motion, area=motion.area * share)
-        return Balance(motion, rate, self.alpha, law, r.halvings, r.tolerance, rest=rest)
+        resolution = r.halvings, r.tolerance
+        return Balance(motion, rate, self.alpha, law, *resolution, rest=rest, joint=self.joint)
