@@ -151,7 +151,7 @@ class Balance:
         if motion.second is not None:
             channels += [*motion.second / units.speed]
         displacement = None if motion.mirrored else motion.displacement
-        self._joint = joint
+        self._joint = joint and motion.second is None and displacement is None
         self._shift = slice(0, 0) if displacement is None else slice(len(channels), len(channels) + 2)
         if displacement is not None:
             channels += [*displacement / units.length]
@@ -280,9 +280,7 @@ class Balance:
         """The same for the load 1 + alpha e."""
         return self._loaded(self._alpha, q, times, halvings)
 
-    def _loaded(
-        self, alpha: float, q: Array, times: Integers, halvings: int
-    ) -> tuple[Array, Array]:
+    def _loaded(self, alpha: float, q: Array, times: Integers, halvings: int) -> tuple[Array, Array]:
         def integrand(values: Array, owners: Integers) -> Array:
             met = self._law.at(self._moved(values, q[owners]), self._kept)
             force = met.force

@@ -77,13 +77,14 @@ def first_resolution(rtol: float) -> Resolution:
     return Resolution(4.0, order, max(math.ceil(5.3 * digits - 7), 2), 0.02 * rtol)
 
 
-def joint_resolution(rtol: float) -> Resolution:
+def joint_resolution(rtol: float, smooth: bool = False) -> Resolution:
     """That of a motion whose mean is of first order, found as one (see `Balance`).
 
     Near a stagnation point its integrand is bounded: the error falls like the area of the last cell.
+    smooth: no cell is halved, so that more points cost little.
     """
     digits = -math.log10(rtol)
-    order = min(max(math.ceil(1.5 + 0.8 * digits), 4), 14)
+    order = min(max(math.ceil((2.5 if smooth else 1.5) + 0.8 * digits), 4), 14)
     return Resolution(4.0, order, max(math.ceil(3 * digits - 2), 2), 0.02 * rtol)
 
 
@@ -100,7 +101,8 @@ class Crawl:
     def to(cls, rtol: float, field: LinearField, alpha: float, contact: Contact) -> "Crawl":
         """With the resolution that a tolerance asks for at first."""
         crawl = cls(field, alpha, contact, first_resolution(rtol))
-        return replace(crawl, resolution=joint_resolution(rtol)) if crawl.joint else crawl
+        smooth = not contact.friction.limited
+        return replace(crawl, resolution=joint_resolution(rtol, smooth)) if crawl.joint else crawl
 
     @property
     def drive(self) -> Drive:
