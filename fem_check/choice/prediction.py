@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 from fem_check.answer.block import block
 from fem_check.answer.record import row
-from fem_check.choice.levels import LEVELS, TARGET_EFFECTS, distance
+from fem_check.choice.levels import LEVELS, TARGET, TARGET_EFFECTS, distance
 from fem_check.shell.abilities import left_out
 from linear_theory.common import validation
 from linear_theory.common.drawable import Drawable
@@ -35,6 +35,8 @@ from linear_theory.speed.result import CrawlSpeed, speed_in_words
 from linear_theory.wave.protocol import Wave
 
 METHODS = ("auto", *LEVELS)
+
+BY_FRICTION = "deformation by friction, taken as too weak"
 
 SHARE = 0.5
 """Fraction of the tolerance allotted to the numerical error; the rest is for the model error."""
@@ -198,6 +200,14 @@ def predict(
     return replace(found, seconds=time.perf_counter() - start)
 
 
+def not_estimated(level: str, speed: CrawlSpeed) -> tuple[str, ...]:
+    """Parts of the model error of a level that it does not estimate, in words.
+
+    A cycle of shapes is exact but for the deformation by friction, where a scene has its coefficient.
+    """
+    return (BY_FRICTION,) if level == TARGET and math.isnan(speed.model_error) else ()
+
+
 def total_error(speed: CrawlSpeed) -> float:
     """Numerical plus model error, absolute; NaN where the model error is unknown."""
     return speed.error + speed.model_error
@@ -247,6 +257,8 @@ def _answer(scene: Scene, level: str, tolerance: Tolerance, reason: str) -> Pred
             warnings.simplefilter("ignore", kind)
         with part_of(level):
             speed = LEVELS[level](scene, tolerance.share(SHARE))
-    converged = not speed.beyond_reach and total_error(speed) <= tolerance.allowed(speed.mean)
-    omitted = left_out(TARGET_EFFECTS)
-    return Prediction(speed, level, reason, converged, speed.seconds, omitted, scene, tolerance)
+    lacking, omitted = not_estimated(level, speed), left_out(TARGET_EFFECTS)
+    error = speed.error if lacking else total_error(speed)
+    converged = not speed.beyond_reach and error <= tolerance.allowed(speed.mean)
+    found = Prediction(speed, level, reason, converged, speed.seconds, omitted, scene, tolerance)
+    return replace(found, not_in_error=lacking)

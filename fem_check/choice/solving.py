@@ -5,7 +5,8 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import Any, NamedTuple
 
-from fem_check.choice.prediction import Prediction, predict
+from fem_check.choice.levels import TARGET
+from fem_check.choice.prediction import Prediction, not_estimated, predict
 from fem_check.choice.settings import RTOL, RunSettings
 from fem_check.choice.ways import THEORIES, way_of
 from fem_check.shell.abilities import left_out
@@ -101,9 +102,7 @@ def solved(
 def _by_cycle(scene: Scene, tolerance: Tolerance, progress: Report | None) -> Prediction:
     """The answer of a cycle of shapes."""
     speed = cycle_speed(scene, rtol=tolerance.rtol, progress=progress)
-    lacking, caution, noise = [], _crossing(speed), _noise(speed, scene)
-    if math.isnan(speed.model_error):
-        lacking.append("deformation by friction, taken as too weak")
+    caution, noise, lacking = _crossing(speed), _noise(speed, scene), not_estimated(TARGET, speed)
     met = speed.error <= tolerance.allowed(speed.mean)
     if met and not (speed.converged or speed.beyond_reach or caution):
         caution = NOISY if noise else SIDEWAYS if _turns_too_vaguely(speed, tolerance) else UNSTABLE

@@ -133,7 +133,7 @@ class Directional(FrictionLaw):
     @property
     def details(self) -> str:
         """See FrictionLaw."""
-        turned = f", heading {self.heading:.3g}" if self.heading else ""
+        turned = f", heading {self.heading:.3g} rad" if self.heading else ""
         along = f"{self.forward:g} forward, {self.backward:g} backward"
         return f"{along}, {self.sideways:g} sideways{turned}"
 

@@ -9,6 +9,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
 
+from fem_check.shell.effects.friction import WEAK
 from figures.common.command import parser
 from figures.common.output import replacing
 from figures.draw.saddle.figure import GROUND_WORDS, SHARES, form_of
@@ -207,7 +208,8 @@ def _range(rows: Sequence[saddle.Row], along: Sequence[saddle_range.Row]) -> Lin
     yield wrapped(
         "At alpha = 0 dry friction is not a quadratic form: the slip is of order beta² alone, and V",
         "is that of this motion; for a sine it vanishes. Growth of weight and pressure per different",
-        "areas, damping, uneven ground, inclines and inertia are refused by name.",
+        "areas, damping, uneven ground, inclines and inertia are refused by name, and so is friction",
+        f"that deforms the sheet, mu weight L/(E h |alpha|) > {WEAK:g}: `simulate` has it act back.",
     )
 
 
