@@ -217,6 +217,8 @@ class Crawl:
         field, r = self.field, self.resolution
         across, along = self.drive.short_waves
         grid = CellGrid.graded(field.sheet, along, r.density, self.mirrored, across)
+        if self.contact.friction.map is not None:
+            grid = grid.cut_at(*self.contact.friction.map.creases)
         return field.motion(times, grid, r.order)
 
     def _rate(self, times: Array, motion: Motion) -> Array:

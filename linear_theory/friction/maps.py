@@ -25,6 +25,9 @@ REPEATS = 1e-9
 """Relative difference up to which a kinetic map is the same after a period."""
 
 
+EDGE_CELLS = (-2.0, -1.0, 0.0, 1.0, 2.0)
+"""Ends of the cells across the edge of a patch, in its width: beyond, the step is complete to 3e-4."""
+
 PATCHES = "must be a list of (x_min, x_max, y_min, y_max, mu) with x_min < x_max, y_min < y_max, mu > 0"
 
 
@@ -54,6 +57,11 @@ class FrictionMap(Value, ABC):
     @abstractmethod
     def mu(self, x: Array, y: Array, t: ArrayLike) -> Array:
         """Its values, unchecked."""
+
+    @property
+    def creases(self) -> tuple[tuple[float, ...], tuple[float, ...]]:
+        """x and y of lines to cut cells along, so that the map is smooth on each; empty if unknown."""
+        return (), ()
 
     def values(self, x: ArrayLike, y: ArrayLike, t: ArrayLike = 0.0) -> Array:
         """At points and times that broadcast.
@@ -136,6 +144,17 @@ class Patches(FrictionMap):
     def mirrored(self) -> bool:  # type: ignore[override]
         """Whether each patch is its own mirror image."""
         return all(patch[0] == -patch[1] for patch in self.patches)
+
+    @property
+    def creases(self) -> tuple[tuple[float, ...], tuple[float, ...]]:
+        """See FrictionMap."""
+        steps = [self.edge * k for k in EDGE_CELLS]
+        sides = zip(*(patch[:4] for patch in self.patches), strict=True)
+        x_min, x_max, y_min, y_max = sides if self.patches else ((),) * 4
+        return tuple(
+            tuple(sorted({end + step for end in ends for step in steps}))
+            for ends in ((*x_min, *x_max), (*y_min, *y_max))
+        )  # type: ignore[return-value]
 
     def mu(self, x: Array, y: Array, t: ArrayLike) -> Array:
         """See FrictionMap."""
