@@ -176,6 +176,8 @@ class GivenMap(FrictionMap):
 
     fixed_to: "body" or "ground", the latter for maps that are not kinetic. mirrored: whether mu(-x, y)
     = mu(x, y), which halves the work for symmetric waves. A kinetic map has the period of the wave.
+    creases: x and y of lines, such as those on which it jumps, that theory cuts its cells along;
+    without them such a map converges slowly, and errors say so.
     Raises ValueError for no function and for flags that are not bool; and where it is used, naming the
     map, if the function raises or its shape is wrong, and with the place unless mu > 0.
 
@@ -190,6 +192,7 @@ class GivenMap(FrictionMap):
     fixed_to: FixedTo = FixedTo.BODY
     kinetic: bool = False
     mirrored: bool = False
+    creases: tuple[tuple[float, ...], tuple[float, ...]] = ((), ())
 
     def __post_init__(self) -> None:
         if not callable(self.function):
@@ -197,12 +200,23 @@ class GivenMap(FrictionMap):
         for name in ("kinetic", "mirrored"):
             object.__setattr__(self, name, validation.flag(name, getattr(self, name)))
         object.__setattr__(self, "fixed_to", FixedTo.named(self.fixed_to))
+        object.__setattr__(self, "creases", _lines(self.creases))
         if self.kinetic and self.fixed_to is FixedTo.GROUND:
             raise ValueError("kinetic = True: must be False for a map that is fixed to the ground")
 
     def mu(self, x: Array, y: Array, t: ArrayLike) -> Array:
         """See FrictionMap."""
         return np.asarray(self.function(x, y, t) if self.kinetic else self.function(x, y))
+
+
+def _lines(creases: Any) -> tuple[tuple[float, ...], ...]:
+    """x and y of lines, checked."""
+    if not isinstance(creases, Sequence) or isinstance(creases, str) or len(creases) != len("xy"):
+        raise ValueError(
+            f"creases = {validation.shown(creases)}: must be two lists of numbers, x and y"
+        )
+    places = (validation.real_array("creases", list(one)) for one in creases)
+    return tuple(tuple(np.ravel(one).tolist()) for one in places)
 
 
 def _listed(patches: Any) -> Any:

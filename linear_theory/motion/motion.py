@@ -101,9 +101,7 @@ class CellGrid(Shown):
 
     def cut_at(self, x: Iterable[float], y: Iterable[float]) -> "CellGrid":
         """With further edges at these places, so far as they lie within the grid."""
-        own = self.x_edges, self.y_edges
-        edges = (_with(ends, more) for ends, more in zip(own, (x, y), strict=True))
-        return CellGrid(*edges, self.half)
+        return CellGrid(_with(self.x_edges, x), _with(self.y_edges, y), self.half)
 
     def points(self, order: int) -> tuple[Array, Array, Array]:
         """Gauss points x (cells, n, 1), y (cells, 1, n), and Jacobians (cells, n, n)."""
