@@ -27,6 +27,7 @@ from linear_theory import (
     Viscous,
     line_balance,
 )
+from linear_theory.friction.maps import FixedTo
 
 PATCHES = Patches([(-1, 1, -1, -0.25, 3.0), (-0.1, 0.1, 0, 0.2, 0.5)], 0.1, 0.8, fixed_to="ground")
 LAWS: dict[str, FrictionLaw] = {
@@ -127,6 +128,7 @@ def test_units_of_a_file(tmp_path: Path) -> None:
         ("sideways = 0.5", "forward: must be given beside sideways"),
         ("forward = 0.5\nbackward = -1.0", "backward"),
         ('forward = 0.5\nbackward = 1.0\nfixed_to = "sky"', "fixed_to"),
+        ("forward = 0.5\nbackward = 1.0\nheading = 20", r"heading = 20: needs a unit, .*'5 deg' or '0"),
         (
             '[friction.map]\nx = [["0 mm", "1 mm"]]\ny = [["0 mm", "1 mm"]]\nmu = [1.0, 2.0]\n'
             'edge = "1 mm"',
@@ -134,7 +136,7 @@ def test_units_of_a_file(tmp_path: Path) -> None:
         ),
         (
             '[friction.map]\nx = [["2 mm", "1 mm"]]\ny = [["0 mm", "1 mm"]]\nmu = [1.0]\nedge = "1 mm"',
-            "x_min < x_max",
+            r"map: x\[0\] = \[2 mm, 1 mm\]: must have x_min < x_max",
         ),
     ],
 )
@@ -146,8 +148,26 @@ def test_mistakes_in_files(text: str, words: str, tmp_path: Path) -> None:
 def test_options_of_the_command() -> None:
     question = asked(Options(alpha=0.1, forward=0.5, backward=1.5, sideways=0.7))
     assert question.scene.contact.friction == Directional(0.5, 1.5, 0.7)
-    with pytest.raises(ValueError, match="--backward: must be given"):
-        asked(Options(alpha=0.1, forward=0.5))
+    turned = Options(alpha=0.1, forward=0.5, backward=1.5, heading="90 deg", fixed_to="ground")
+    on_ground = FixedTo.GROUND
+    wanted = Directional(0.5, 1.5, heading=math.pi / 2, fixed_to=on_ground)
+    assert asked(turned).scene.contact.friction == wanted
+    for given, words in (
+        ({"forward": 0.5}, "--backward: must be given beside --forward"),
+        ({"heading": "5 deg"}, "--forward: must be given beside --heading"),
+        ({"fixed_to": "ground", "forward": 1.0}, "--backward: must be given"),
+        (
+            {"forward": 1.0, "backward": 2.0, "heading": "20"},
+            "--heading '20': needs a unit, as in '5 deg'",
+        ),
+        ({"forward": 1.0, "backward": 2.0, "heading": "20 mm"}, "--heading '20 mm': is not an angle"),
+        (
+            {"forward": 1.0, "backward": 2.0, "heading": "200 deg"},
+            "heading = 3.49.*must be from -pi to pi",
+        ),
+    ):
+        with pytest.raises(ValueError, match=words):
+            asked(Options(alpha=0.1, **given))
 
 
 def test_figure_agrees_with_formulas_and_its_table_with_the_code() -> None:

@@ -45,6 +45,11 @@ DEMANDED = {
     "10 : 1 elements": r"10 : 1",
     "growth of 150 %": r"growth of 150 %",
     "wave that stops": r"wave that stops",
+    "friction almost one-way": r"direction: r = 1 - 1e-12",
+    "friction that almost balances": r"direction: r = 1e-12",
+    "heading of 90 degrees": r"heading of 90 degrees",
+    "patch with a sharp edge": r"patch with an edge of 0\.0001 L",
+    "coefficient that jumps": r"map: jump on a line|map: jump at an unknown place",
 }
 """What the table must hold, as patterns of names of which every alternative must occur."""
 

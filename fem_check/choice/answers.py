@@ -1,8 +1,7 @@
 """Answers of a cycle of shapes, and what answers of all levels for any scene have in common."""
 
-import math
-
-from fem_check.choice.result import Prediction
+from fem_check.choice.levels import TARGET
+from fem_check.choice.result import Prediction, not_estimated
 from fem_check.shell.abilities import left_out
 from fem_check.shell.cycle.deformation import CycleDeformation
 from fem_check.shell.cycle.speed import cycle_speed
@@ -23,14 +22,12 @@ SIDEWAYS = "the tolerance is met along the sheet, but not by the sideways motion
 def by_cycle(scene: Scene, tolerance: Tolerance, progress: Report | None = None) -> Prediction:
     """The answer of a cycle of shapes."""
     speed = cycle_speed(scene, rtol=tolerance.rtol, progress=progress)
-    lacking, caution, lost = [], _crossing(speed), noise(speed, scene)
-    if math.isnan(speed.model_error):
-        lacking.append("deformation by friction, taken as too weak")
+    lacking, caution, lost = not_estimated(TARGET, speed), _crossing(speed), noise(speed, scene)
     met = speed.error <= tolerance.allowed(speed.mean)
     if met and not (speed.converged or speed.beyond_reach or caution):
         caution = NOISY if lost else SIDEWAYS if _turns_too_vaguely(speed, tolerance) else UNSTABLE
     named = {type(effect) for effect in scene.effects} - {Friction}
-    return answer_of("cycle", speed, named, scene, tolerance, (*lacking, *lost), caution)
+    return answer_of(TARGET, speed, named, scene, tolerance, (*lacking, *lost), caution)
 
 
 def _crossing(speed: CrawlSpeed) -> str:

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from fem_check.choice.bending import BENDING, bending_answer
 from fem_check.choice.levels import LEVELS, TARGET_EFFECTS, distance
-from fem_check.choice.result import Passed, Prediction, total_error
+from fem_check.choice.result import Passed, Prediction, not_estimated, total_error
 from fem_check.choice.settings import SHARE
 from fem_check.shell.abilities import CYCLE, left_out
 from linear_theory.common import validation
@@ -152,6 +152,8 @@ def _answer(scene: Scene, level: str, tolerance: Tolerance, reason: str) -> Pred
             warnings.simplefilter("ignore", kind)
         with part_of(level):
             speed = LEVELS[level](scene, tolerance.share(SHARE))
-    converged = not speed.beyond_reach and total_error(speed) <= tolerance.allowed(speed.mean)
-    omitted = left_out(TARGET_EFFECTS)
-    return Prediction(speed, level, reason, converged, speed.seconds, omitted, scene, tolerance)
+    lacking, omitted = not_estimated(level, speed), left_out(TARGET_EFFECTS)
+    error = speed.error if lacking else total_error(speed)
+    converged = not speed.beyond_reach and error <= tolerance.allowed(speed.mean)
+    found = Prediction(speed, level, reason, converged, speed.seconds, omitted, scene, tolerance)
+    return replace(found, not_in_error=lacking)

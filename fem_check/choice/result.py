@@ -7,12 +7,15 @@ from typing import Any, NamedTuple
 
 from fem_check.answer.block import block
 from fem_check.answer.record import row
+from fem_check.choice.levels import TARGET
 from linear_theory.common.drawable import Drawable
 from linear_theory.common.shown import Shown, number
 from linear_theory.common.tolerance import Tolerance
 from linear_theory.friction.regime import Regime
 from linear_theory.scene.scene import Scene
 from linear_theory.speed.result import CrawlSpeed, speed_in_words
+
+BY_FRICTION = "deformation by friction, taken as too weak"
 
 
 @dataclass(frozen=True)
@@ -116,6 +119,14 @@ class _Passed(NamedTuple):
 
 class Passed(Shown, _Passed):
     """A level that was not chosen, why (in words), and the time spent on it in seconds."""
+
+
+def not_estimated(level: str, speed: CrawlSpeed) -> tuple[str, ...]:
+    """Parts of the model error of a level that it does not estimate, in words.
+
+    A cycle of shapes is exact but for the deformation by friction, where a scene has its coefficient.
+    """
+    return (BY_FRICTION,) if level == TARGET and math.isnan(speed.model_error) else ()
 
 
 def total_error(speed: CrawlSpeed) -> float:

@@ -71,6 +71,11 @@ class Options:
     """Likewise towards -y; both or none."""
     sideways: Annotated[float | None, In(group=MODEL)] = None
     """Likewise across; the mean of both unless given."""
+    heading: Annotated[str | None, In(group=MODEL)] = None
+    """Where "forward" points, e.g. "10 deg" or "0.2 rad", anticlockwise from +y; along +y unless
+    given."""
+    fixed_to: Annotated[Literal["body", "ground"], In(group=MODEL)] = "body"
+    """What the direction belongs to: "body" for bristles below the sheet, "ground" for fur or grass."""
 
     rtol: Annotated[str, In(group=COST)] = "1e-2"
     """Relative tolerance for the numerical plus model error, e.g. "1 %"."""

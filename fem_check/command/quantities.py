@@ -8,12 +8,13 @@ import numpy as np
 from fem_check.answer.growth import alpha_of
 from fem_check.answer.units import Units
 from fem_check.command.options import Options
-from fem_check.files.quantities import KINDS, Quantity, read
+from fem_check.files.quantities import KINDS, UNIT_OF_ANGLE, Quantity, read
 from linear_theory.friction.contact import Contact
 from linear_theory.friction.directional import Directional
 from linear_theory.friction.isotropic import Isotropic
 from linear_theory.friction.law import FrictionLaw
 from linear_theory.friction.laws import friction_law
+from linear_theory.friction.maps import FixedTo
 from linear_theory.scene.scene import Scene
 from linear_theory.sheet.rectangle import Sheet
 from linear_theory.wave.measured import SampledWave
@@ -38,6 +39,8 @@ OPTIONS = {
 
 WAVE_RTOL = 1e-2
 """Of c of an excitable wave, whose error is counted in that of the speed."""
+DIRECTION = ("forward", "backward", "sideways", "heading", "fixed_to")
+"""Options of friction with a direction."""
 
 FORMULAS = ("count", "pulse", "sine", "cosine")
 """Options of a wave by a formula."""
@@ -77,14 +80,17 @@ def asked(options: Options) -> Asked:
 def _friction(options: Options, slip_speed: float | None) -> FrictionLaw:
     """The law, with a direction where the options give one."""
     form = friction_law(options.friction, slip_speed)
-    forward, backward = options.forward, options.backward
-    if forward is None and backward is None and options.sideways is None:
+    forward, backward, default = options.forward, options.backward, Options()
+    given = [name for name in DIRECTION if getattr(options, name) != getattr(default, name)]
+    if not given:
         return form
     if forward is None or backward is None:
         lacking = "--forward" if forward is None else "--backward"
-        raise ValueError(f"{lacking}: must be given for friction with a direction")
+        raise ValueError(f"{lacking}: must be given beside {_option(given[0])}")
     assert isinstance(form, Isotropic)
-    return Directional(forward, backward, options.sideways, form=form)
+    heading = 0.0 if options.heading is None else angle("heading", options.heading)
+    fixed_to = FixedTo.named(options.fixed_to)
+    return Directional(forward, backward, options.sideways, heading, fixed_to, form)
 
 
 def quantity(name: str, text: str, kind: str) -> Quantity:
@@ -93,6 +99,14 @@ def quantity(name: str, text: str, kind: str) -> Quantity:
         return read(text, kind)
     except ValueError as problem:
         raise ValueError(f"{_option(name)} {text!r}: {problem}") from None
+
+
+def angle(name: str, text: str) -> float:
+    """An angle in radians. Raises ValueError for one without a unit, which might be either."""
+    found = quantity(name, text, "angle")
+    if found.unit is None and found.number:
+        raise ValueError(f"{_option(name)} {text!r}: {UNIT_OF_ANGLE}")
+    return found.into("radian")
 
 
 def share(name: str, text: str) -> float:

@@ -46,6 +46,9 @@ speed (eq. 2)."""
 ANGLES = ("radian", "milliradian", "degree", "turn", "arcminute", "arcsecond", "grade")
 """Units of angles, which have no dimension: a slope of 5 % is no angle of 5 %."""
 
+UNIT_OF_ANGLE = "needs a unit, as in '5 deg' or '0.1 rad'"
+"""What a plain angle is told that might be in degrees or in radians."""
+
 
 @dataclass(frozen=True)
 class Quantity:

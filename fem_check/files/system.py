@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 from fem_check.answer.units import Units
 from fem_check.files.fields import Table
 from fem_check.files.mistakes import Mistakes, Place
-from fem_check.files.quantities import KINDS, Quantity, length_unit, registry
+from fem_check.files.quantities import KINDS, UNIT_OF_ANGLE, Quantity, length_unit, registry
 
 BASES: dict[str, Place] = {"length": ("sheet", "length"), "time": ("wave", "period")}
 """Whose units are those of the file."""
@@ -61,7 +61,8 @@ class System(NamedTuple):
 def system_of(tables: Mapping[str, Table], mistakes: Mistakes) -> System | None:
     """The units of the quantities of a file; None where they do not fit together.
 
-    Those with a dimension must all have units, or all be plain; 0 is 0 in all of them.
+    Those with a dimension must all have units, or all be plain; 0 is 0 in all of them. Angles
+    have units beside such, too, so that none in degrees is taken for one in radians.
     """
     all_of_them = [(p, q) for name, table in tables.items() for p, q in _quantities(table, (name,))]
     dimensional = {place: q for place, q in all_of_them if q.has_dimension}
@@ -70,11 +71,12 @@ def system_of(tables: Mapping[str, Table], mistakes: Mistakes) -> System | None:
         return System()
     first = f"{_words(named[0][0])} = {named[0][1].text!r}"
     fine = True
-    for place, q in dimensional.items():
-        if q.unit is None and q.number != 0:
-            example = KINDS[q.kind].example
-            words = f"{place[-1]} = {q.text}: needs a unit, as in '{example}', beside {first}"
-            mistakes.add(place, words)
+    for place, q in all_of_them:
+        if q.unit is None and q.number != 0 and (q.has_dimension or q.kind == "angle"):
+            needs = (
+                UNIT_OF_ANGLE if q.kind == "angle" else f"needs a unit, as in '{KINDS[q.kind].example}'"
+            )
+            mistakes.add(place, f"{place[-1]} = {q.text}: {needs}, beside {first}")
             fine = False
     bases = BASES if SOLVED not in dimensional else {**BASES, "time": SOLVED}
     for kind, place in bases.items():

@@ -172,7 +172,7 @@ class FrictionTable(Table):
     sideways: Positive | None = None
     """Likewise across; the mean of both unless given."""
     heading: Angle | None = None
-    """Where forward is, anticlockwise from +y, e.g. "20 deg"; plain in radians."""
+    """Where forward is, anticlockwise from +y, e.g. "20 deg"; plain ones are in radians."""
     fixed_to: Literal["body", "ground"] = "body"
     """What the direction turns with."""
     surface: Literal["middle", "bottom"] = "middle"
@@ -195,7 +195,7 @@ class GravityTable(Table):
     load: Weight = "grown"
     """Area by which it is counted."""
     incline: Angle | None = None
-    """By which the ground rises towards +y, e.g. "5 deg"; plain in radians."""
+    """By which the ground rises towards +y, e.g. "5 deg"; plain ones are in radians."""
 
 
 class GroundTable(Table):

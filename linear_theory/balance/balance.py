@@ -14,6 +14,10 @@ load 1, and q_1 solves what is left, divided by alpha, with the difference quoti
 without cancellation. A velocity of second order, v = alpha v^ + alpha^2 v_2, joins q_1, and so does
 that a sheet displaced by alpha u turns about its centre with R_2 = (-y - alpha u_y, x + alpha u_x).
 
+Where the mean of q is not small, as for pulses and for friction with a direction, nothing cancels: q is
+then found as one (`joint`), from integrals with one stagnation point and one crease in place of two,
+and q_1 is what differs from q_0.
+
 All of this is solved in units in which speeds, arms and areas are of order 1 (`Units`), a rotation by
 the speed that it gives the ends of the sheet: tolerances have the same meaning in any unit of length
 and time.
@@ -36,6 +40,9 @@ from linear_theory.motion.motion import Motion
 
 Array = NDArray[np.float64]
 
+LINEAR = 1e-8
+"""Size of alpha up to which q_1 is the zero of a linear function."""
+
 Integrand = Callable[[Array, Integers], Array]
 Velocities = Callable[[Array, Integers], list[Array]]
 Residual = Callable[..., tuple[Array, Array]]
@@ -43,7 +50,6 @@ Residual = Callable[..., tuple[Array, Array]]
 _COARSE_HALVINGS = 8
 _MARGIN = 1.5  # mean over variation of w on a cell, above which Gauss quadrature sees it as smooth
 _MOST_ASIDE = 5  # halvings of a cell that a crease leaves by a side; the error falls like 8^-k
-_LINEAR = 1e-8  # alpha below which q_1 is the zero of a linear function
 _NEAR = 0.3  # after a Newton step s the error is some s^2 over the speed of the sheet: 10 would do
 _REST = 1e-6  # speeds below this share of the mean speed count as rest
 _TURNING = 1e-12  # the same for a whole sheet, where a reciprocal motion turns, but for rounding
@@ -114,7 +120,8 @@ class Balance:
     points at rest; tolerance: of q, relative to the root mean square of v^. slope: tan(incline)/mu of
     ground that rises towards +y, in (-1, 1), for loads that are not expanded in alpha (rate = 0). rest:
     load of the undeformed sheet, for such loads; by default the area. work_halvings: of cells,
-    for works.
+    for works. joint: to find q as one, for motions without terms of second order and |alpha| >
+    `LINEAR`; q_1 then has the error of q over alpha.
     """
 
     def __init__(
@@ -128,6 +135,7 @@ class Balance:
         slope: float = 0.0,
         rest: float | None = None,
         work_halvings: int = 0,
+        joint: bool = False,
     ) -> None:
         self._rest = motion.whole_area if rest is None else rest
         self._work_halvings = work_halvings
@@ -143,6 +151,7 @@ class Balance:
         if motion.second is not None:
             channels += [*motion.second / units.speed]
         displacement = None if motion.mirrored else motion.displacement
+        self._joint = joint and motion.second is None and displacement is None
         self._shift = slice(0, 0) if displacement is None else slice(len(channels), len(channels) + 2)
         if displacement is not None:
             channels += [*displacement / units.length]
@@ -159,7 +168,7 @@ class Balance:
         """
         starts = (None, None) if guess is None else map(self._unknowns, guess[:2])
         first, second = starts
-        leading = self._zero(self._leading, np.zeros((1, 1)), 1.0, first)
+        leading = self._zero(self._plain, np.zeros((1, 1)), 1.0, first)
         remainder = np.zeros_like(leading)
         if self._has_second:  # else nothing remains
             remainder = self._remaining(leading, second)
@@ -176,9 +185,13 @@ class Balance:
     def correction(self, leading: Array, remainder: Array) -> RigidMotion:
         """One Newton step from a motion (times, 3) that was found with other cells, and its works."""
         first, second = self._unknowns(leading), self._unknowns(remainder)
-        steps = self._step(self._leading, first), self._step(partial(self._remainder, first), second)
+        step = self._step(self._plain, first)
+        if self._joint:
+            more = (self._step(self._whole, first + self._alpha * second) - step) / self._alpha
+        else:
+            more = self._step(partial(self._remainder, first), second)
         still, works = np.zeros(len(leading)), self.works(first, second)
-        return RigidMotion(self._full(steps[0]), self._full(steps[1]), still, 0.0, works)
+        return RigidMotion(self._full(step), self._full(more), still, 0.0, works)
 
     def works(self, leading: Array, remainder: Array) -> Array:
         """Rates of work of unknowns (times, J) per unit |alpha| and load at rest, (times, 3), speeds.
@@ -220,8 +233,11 @@ class Balance:
 
     def _remaining(self, leading: Array, start: Array | None) -> Array:
         """q_1, (times, unknowns)."""
+        if self._joint:
+            guess = leading if start is None else leading + self._alpha * start
+            return (self._zero(self._whole, np.zeros((1, 1)), 1.0, guess) - leading) / self._alpha
         residual = partial(self._remainder, leading)
-        if abs(self._alpha) <= _LINEAR:
+        if abs(self._alpha) <= LINEAR:
             return self._step(residual, np.zeros_like(leading))
         return self._zero(residual, leading, self._alpha, start)
 
@@ -256,17 +272,22 @@ class Balance:
             margin = margin + abs(self._law.creep(-self._slope))
         return (-along.max(1) - margin)[:, None], (-along.min(1) + margin)[:, None]
 
-    def _leading(self, q: Array, times: Integers, halvings: int) -> tuple[Array, Array]:
+    def _plain(self, q: Array, times: Integers, halvings: int) -> tuple[Array, Array]:
         """Residual and slope of the balance for the load 1."""
+        return self._loaded(0.0, q, times, halvings)
 
+    def _whole(self, q: Array, times: Integers, halvings: int) -> tuple[Array, Array]:
+        """The same for the load 1 + alpha e."""
+        return self._loaded(self._alpha, q, times, halvings)
+
+    def _loaded(self, alpha: float, q: Array, times: Integers, halvings: int) -> tuple[Array, Array]:
         def integrand(values: Array, owners: Integers) -> Array:
             met = self._law.at(self._moved(values, q[owners]), self._kept)
             force = met.force
             if self._slope:
                 force = np.stack([*force[:-1], force[-1] + self._slope])
-            return values[_AREA] * np.stack(
-                self._along(force, values) + self._between(met.tangent, values)
-            )
+            load = values[_AREA] if alpha == 0 else values[_AREA] * (1 + alpha * values[_RATE])
+            return load * np.stack(self._along(force, values) + self._between(met.tangent, values))
 
         def motion(values: Array, owners: Integers) -> list[Array]:
             return [self._moved(values, q[owners])]
@@ -293,7 +314,7 @@ class Balance:
         def motion(values: Array, owners: Integers) -> list[Array]:
             before = first[owners]
             slow = self._moved(values, before)
-            if abs(alpha) <= _LINEAR:
+            if abs(alpha) <= LINEAR:
                 return [slow]
             change = self._change(values, before, q[owners])
             return [slow, slow + alpha * change]

@@ -11,6 +11,7 @@ isotropic law at the velocity (m_s v_s, m_n v_n), which gives force, tangent and
 """
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import ClassVar
@@ -132,7 +133,7 @@ class Directional(FrictionLaw):
     @property
     def details(self) -> str:
         """See FrictionLaw."""
-        turned = f", heading {self.heading:.3g}" if self.heading else ""
+        turned = f", heading {self.heading:.3g} rad" if self.heading else ""
         along = f"{self.forward:g} forward, {self.backward:g} backward"
         return f"{along}, {self.sideways:g} sideways{turned}"
 
@@ -258,7 +259,7 @@ class DirectionalResponse(Response):
 
     def stretch(self, v: Array) -> Array:
         """Vectors in the axes of the law times m, component by component."""
-        return np.stack([m * part for m, part in zip(self.factors, v, strict=True)])
+        return _times(self.factors, v)
 
     @cached_property
     def inner(self) -> IsotropicResponse:
@@ -268,8 +269,7 @@ class DirectionalResponse(Response):
     def _forces(self, inner: Array) -> Array:
         """Of forces of the isotropic law, kept components, those of this law."""
         if self.law.heading == 0:
-            kept = self.factors[self.kept]
-            return np.stack([m * part for m, part in zip(kept, inner, strict=True)])
+            return _times(self.factors[self.kept], inner)
         return self.law.out_of_axes(self.stretch(inner))[self.kept]
 
     @cached_property
@@ -282,8 +282,7 @@ class DirectionalResponse(Response):
         """See FrictionLaw."""
         inner, count = self.inner.tangent, len(self.v)
         kept = self.factors if self.law.heading else self.factors[self.kept]
-        pairs = zip(inner, *PAIRS[len(kept)], strict=True)
-        found = np.stack([entry * kept[c] * kept[d] for entry, c, d in pairs])
+        found = _times([kept[c] * kept[d] for c, d in zip(*PAIRS[len(kept)], strict=True)], inner)
         if self.law.heading == 0:
             return found
         return _turned(found, count, *self.law._turn)[pairs_among(count, self.kept)]  # type: ignore[misc]
@@ -328,6 +327,14 @@ class DirectionalResponse(Response):
         split = law.out_of_axes(np.asarray(total))[self.kept]
         speeds = [norm(v) for v in (before, middle, before + step * way)]
         return np.where(speeds[1] < NEAR_REST * (speeds[0] + speeds[2]), direct, split)
+
+
+def _times(factors: Sequence[float | Array], values: Array) -> Array:
+    """Values (n, ...) times a factor each; np.stack of the products takes twice as long."""
+    found = np.empty_like(values)
+    for factor, value, out in zip(factors, values, found, strict=True):
+        np.multiply(value, factor, out=out)
+    return found
 
 
 def _turned(tangent: Array, count: int, cosine: float, sine: float) -> Array:

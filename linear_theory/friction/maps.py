@@ -26,6 +26,9 @@ REPEATS = 1e-9
 """Relative difference up to which a kinetic map is the same after a period."""
 
 
+EDGE_CELLS = (-2.0, -1.0, 0.0, 1.0, 2.0)
+"""Ends of the cells across the edge of a patch, in its width: beyond, the step is complete to 3e-4."""
+
 PATCHES = "must be a list of (x_min, x_max, y_min, y_max, mu) with x_min < x_max, y_min < y_max, mu > 0"
 
 
@@ -55,6 +58,11 @@ class FrictionMap(Value, ABC):
     @abstractmethod
     def mu(self, x: Array, y: Array, t: ArrayLike) -> Array:
         """Its values, unchecked."""
+
+    @property
+    def creases(self) -> tuple[tuple[float, ...], tuple[float, ...]]:
+        """x and y of lines to cut cells along, so that the map is smooth on each; empty if unknown."""
+        return (), ()
 
     def values(self, x: ArrayLike, y: ArrayLike, t: ArrayLike = 0.0) -> Array:
         """At points and times that broadcast.
@@ -138,6 +146,17 @@ class Patches(FrictionMap):
         """Whether each patch is its own mirror image."""
         return all(patch[0] == -patch[1] for patch in self.patches)
 
+    @property
+    def creases(self) -> tuple[tuple[float, ...], tuple[float, ...]]:
+        """See FrictionMap."""
+        steps = [self.edge * k for k in EDGE_CELLS]
+        sides = zip(*(patch[:4] for patch in self.patches), strict=True)
+        x_min, x_max, y_min, y_max = sides if self.patches else ((),) * 4
+        return tuple(
+            tuple(sorted({end + step for end in ends for step in steps}))
+            for ends in ((*x_min, *x_max), (*y_min, *y_max))
+        )  # type: ignore[return-value]
+
     def mu(self, x: Array, y: Array, t: ArrayLike) -> Array:
         """See FrictionMap."""
         found = np.full(np.broadcast_shapes(x.shape, y.shape), self.outside)
@@ -158,6 +177,8 @@ class GivenMap(FrictionMap):
 
     fixed_to: "body" or "ground", the latter for maps that are not kinetic. mirrored: whether mu(-x, y)
     = mu(x, y), which halves the work for symmetric waves. A kinetic map has the period of the wave.
+    creases: x and y of lines, such as those on which it jumps, that theory cuts its cells along;
+    without them such a map converges slowly, and errors say so.
     Raises ValueError for no function and for flags that are not bool; and where it is used, naming the
     map, if the function raises or its shape is wrong, and with the place unless mu > 0.
 
@@ -172,6 +193,7 @@ class GivenMap(FrictionMap):
     fixed_to: FixedTo = FixedTo.BODY
     kinetic: bool = False
     mirrored: bool = False
+    creases: tuple[tuple[float, ...], tuple[float, ...]] = ((), ())
 
     def __post_init__(self) -> None:
         if not callable(self.function):
@@ -179,12 +201,23 @@ class GivenMap(FrictionMap):
         for name in ("kinetic", "mirrored"):
             object.__setattr__(self, name, validation.flag(name, getattr(self, name)))
         object.__setattr__(self, "fixed_to", FixedTo.named(self.fixed_to))
+        object.__setattr__(self, "creases", _lines(self.creases))
         if self.kinetic and self.fixed_to is FixedTo.GROUND:
             raise ValueError("kinetic = True: must be False for a map that is fixed to the ground")
 
     def mu(self, x: Array, y: Array, t: ArrayLike) -> Array:
         """See FrictionMap."""
         return np.asarray(self.function(x, y, t) if self.kinetic else self.function(x, y))
+
+
+def _lines(creases: Any) -> tuple[tuple[float, ...], ...]:
+    """x and y of lines, checked."""
+    if not isinstance(creases, Sequence) or isinstance(creases, str) or len(creases) != len("xy"):
+        raise ValueError(
+            f"creases = {validation.shown(creases)}: must be two lists of numbers, x and y"
+        )
+    places = (validation.real_array("creases", list(one)) for one in creases)
+    return tuple(tuple(np.ravel(one).tolist()) for one in places)
 
 
 def _listed(patches: Any) -> Any:

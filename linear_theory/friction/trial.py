@@ -6,7 +6,8 @@ each other and with differences, at fixed velocities in all directions around th
 
 import functools
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from typing import Any
 
 import numpy as np
@@ -46,6 +47,18 @@ SMALLEST, LARGEST = 1e-100, 1e100
 
 class Fault(SheetcrawlError, ValueError):
     """What is wrong with a law, in words."""
+
+
+@contextmanager
+def _asking(demand: str) -> Iterator[None]:
+    """Methods of a user's law: whatever they raise is a fault of the law, told with what was asked.
+
+    Any exception is caught here and nowhere else: such a method is code that is not known.
+    """
+    try:
+        yield
+    except Exception as error:
+        raise Fault(f"{demand}, and failed: {error!r}") from error
 
 
 def check_law(law: FrictionLaw, components: int, argument: str = "friction") -> None:
@@ -104,10 +117,8 @@ class Trial:
         shapes = {"potential": (), "tangent": (len(PAIRS[len(v)][0]),)}
         shape = (*shapes.get(method, v.shape[:1]), *v.shape[1:])
         call = f"{method} of v with shape {v.shape}"
-        try:
+        with _asking(f"{call} must be an array of shape {shape}"):
             found = np.asarray(getattr(self.law if of is None else of, method)(v, *more))
-        except Exception as error:
-            raise Fault(f"{call} must be an array of shape {shape}, and failed: {error!r}") from error
         if found.shape != shape or found.dtype.kind not in "iuf":
             raise Fault(
                 f"{call} has shape {found.shape} and dtype {found.dtype}: must be real, {shape}"
@@ -135,10 +146,8 @@ class Trial:
 
 
 def _width(law: FrictionLaw) -> float:
-    try:
+    with _asking("width must be a number"):
         width = float(law.width)
-    except Exception as error:
-        raise Fault(f"width must be a number, and failed: {error!r}") from error
     if not width >= 0:
         raise Fault(f"width = {width:g}: must be >= 0")
     return width
@@ -215,10 +224,8 @@ def _has_differences(trial: Trial) -> None:
 def _scales(trial: Trial) -> None:
     """The force of the scaled law at v/factor is that of this one at v, and its width is scaled."""
     for factor in (0.25, 3.0):
-        try:
+        with _asking(f"scaled({factor:g}) must be a law"):
             other = trial.law.scaled(factor)
-        except Exception as error:
-            raise Fault(f"scaled({factor:g}) must be a law, and failed: {error!r}") from error
         if not isinstance(other, FrictionLaw):
             raise Fault(f"scaled({factor:g}) = {validation.shown(other)}: must be a law")
         found = trial.asked("force", trial.v / factor, of=other)
@@ -267,10 +274,8 @@ def _has_speeds(trial: Trial) -> None:
     """The speed along y at a share of the load is where the force is that share, if y is an axis."""
     if not trial.law.even or trial.unit not in (trial.width, 1.0):
         return
-    try:
+    with _asking(f"speed_at({SHARE}) must be a speed"):
         speed = float(trial.law.speed_at(SHARE))
-    except Exception as error:
-        raise Fault(f"speed_at({SHARE}) must be a speed, and failed: {error!r}") from error
     if not trial.width or not 0 < speed < math.inf:
         return
     v = np.zeros((trial.components, 1, 1))
@@ -288,12 +293,10 @@ def _responds(trial: Trial) -> None:
     """What `at` returns agrees with the methods, also of the components that are kept."""
     last = slice(trial.components - 1, trial.components)
     for kept in (slice(None), last):
-        try:
+        with _asking(f"at(v, {kept}) must be a response with force, tangent and moved"):
             met = trial.law.at(trial.v, kept)
             force, tangent = np.asarray(met.force), np.asarray(met.tangent)
             moved = np.asarray(met.moved(trial.change, 1e-3)[1])
-        except Exception as error:
-            raise Fault(f"at(v, {kept}) failed: {error!r}") from error
         wanted = trial.asked("force_difference", trial.v, trial.change, 1e-3)
         whole = kept == slice(None)
         pairs = trial.tangent if whole else trial.tangent[-1:]

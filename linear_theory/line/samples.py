@@ -15,6 +15,8 @@ For small alpha g = g_1 + alpha s_2 g_2 + ..., g_1 = int c_t, g_2 = int 2 c c_t,
 With m_0 the median of g_1, f its density there and E_0 the mean over the places where g_1 = m_0,
 
     V = -alpha m_0 + alpha^2 (p E[c (1(g_1 < m_0) - share)]/f - s_2 E_0[g_2]) + ...
+
+all of them weighted with the map of friction, if there is one.
 """
 
 import math
@@ -215,20 +217,21 @@ def _snapshot(
     c, rate = (_on_grid(f(0.0, place, times), times, y) for f in (drive.value, drive.rate))
     _check_strain(alpha, c, times, y, growth)
     g = _less_mean(growth.slope(alpha * c) * rate)
-    weight = (1 + _middle(growth.gain(alpha * c))) / cells
+    weight, mu = (1 + _middle(growth.gain(alpha * c))) / cells, np.ones_like(g)[:, 1:]
     if law.map is not None:
-        weight = weight * _middle(np.broadcast_to(law.map.values(0.0, place, times), g.shape))
+        mu = _middle(np.broadcast_to(law.map.values(0.0, place, times), g.shape))
+        weight = weight * mu
     if law.width == 0:
         share = share_slower(law, alpha)
         level, _ = _weighted_quantile(g, weight, share)
         velocity = -alpha * level
-        first, second = _dry_coefficients(c, rate, growth, share)
+        first, second = _dry_coefficients(c, rate, growth, share, mu)
     else:
         velocity = -alpha * np.sum(weight * _middle(g), axis=1) / weight.sum(axis=1)
-        first, second = np.zeros(times.size), _viscous_coefficient(c, rate, growth)
+        first, second = _viscous_coefficients(c, rate, growth, mu)
         if not is_viscous(law):
             velocity = _regularised_speed(alpha * g, weight, law, velocity)
-    if law.map is not None or (law.width > 0 and not law.reversible):
+    if law.width > 0 and not _point_law(law).reversible:
         first = second = np.full(times.size, math.nan)
     slip = velocity[:, None] + alpha * g
     tolerance = REST_SPEED * np.ptp(slip, axis=1, keepdims=True)
@@ -240,7 +243,12 @@ def _snapshot(
 
 def is_viscous(law: FrictionLaw) -> bool:
     """Whether it is linear, so that no equation is to be solved."""
-    return type(law.law if isinstance(law, Mapped) else law) is Viscous
+    return type(_point_law(law)) is Viscous
+
+
+def _point_law(law: FrictionLaw) -> FrictionLaw:
+    """That at a point, without its map."""
+    return law.law if isinstance(law, Mapped) else law
 
 
 def _on_grid(values: Array, times: Array, y: Array) -> Array:
@@ -330,13 +338,14 @@ def _at_level(g: Array, level: Array) -> Array:
         return np.where(there, 1 / (high - low), 0) / low.shape[1]
 
 
-def _dry_coefficients(c: Array, rate: Array, growth: Piece, share: float) -> tuple[Array, Array]:
-    """Of V = V1 alpha + V2 alpha^2, as in the module's head, each (times,)."""
+def _dry_coefficients(
+    c: Array, rate: Array, growth: Piece, share: float, mu: Array
+) -> tuple[Array, Array]:
+    """Of V = V1 alpha + V2 alpha^2, as in the module's head, each (times,); mu: (times, cells)."""
     g, mean_growth = _less_mean(rate), _middle(c)
-    even = np.full(mean_growth.shape, 1 / mean_growth.shape[1])
-    level, below = _weighted_quantile(g, even, share)
-    density = _at_level(g, level)
-    weighed = np.mean(mean_growth * (below - share), axis=1) / density.sum(axis=1)
+    level, below = _weighted_quantile(g, mu / mu.shape[1], share)
+    density = mu * _at_level(g, level)
+    weighed = np.mean(mu * mean_growth * (below - share), axis=1) / density.sum(axis=1)
     second = growth.power * weighed
     if growth.curvature:
         second = second - growth.curvature * _mean_at(_less_mean(2 * c * rate), g, level, density)
@@ -353,9 +362,19 @@ def _mean_at(values: Array, g: Array, level: Array, density: Array) -> Array:
     return np.asarray(np.sum(share * here, axis=1) / share.sum(axis=1))
 
 
-def _viscous_coefficient(c: Array, rate: Array, growth: Piece) -> Array:
-    """Of alpha^2: the mean of v weighted with 1 + p alpha c, whatever the stretch; (times,)."""
-    return np.asarray(-growth.power * np.mean(_middle(c) * _middle(_less_mean(rate)), axis=1))
+def _viscous_coefficients(c: Array, rate: Array, growth: Piece, mu: Array) -> tuple[Array, Array]:
+    """Of alpha and alpha^2: minus the mean of v weighted with mu (1 + p alpha c), each (times,)."""
+    share = mu / mu.sum(axis=1, keepdims=True)
+
+    def mean(values: Array) -> Array:
+        return np.asarray(np.sum(share * values, axis=1))
+
+    g, middle = _middle(_less_mean(rate)), _middle(c)
+    level = mean(g)
+    second = -growth.power * mean(middle * (g - level[:, None]))
+    if growth.curvature and np.ptp(mu) > 0:  # else v_2 has no mean
+        second = second - growth.curvature * mean(_middle(_less_mean(2 * c * rate)))
+    return -level, second
 
 
 def _regularised_speed(velocity: Array, weight: Array, law: FrictionLaw, guess: Array) -> Array:

@@ -134,7 +134,8 @@ def _weighted_quantile(body: Body, share: float = 0.5) -> Level:
         return np.array(rise.part + rise.gain - target), np.array(slope)
 
     coarse = 0.0 if halves else 4 * EPS * profile.scale
-    height = bracketed_newton(excess, 0.0, reach, guess, atol=coarse)
+    # as tight as the error below says, also where the slope is infinite: at an extremum of g
+    height = bracketed_newton(excess, 0.0, reach, guess, rtol=4 * EPS, atol=coarse)
     slope = float(excess(height)[1]) or math.inf
     return Level(base + float(height), 8 * EPS * (target / slope + float(height)) + coarse)
 

@@ -7,6 +7,7 @@ evaluating the deformation again.
 """
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
@@ -17,6 +18,10 @@ from linear_theory.common.shown import Shown
 from linear_theory.sheet.rectangle import Sheet
 
 Array = NDArray[np.float64]
+
+
+SAME_EDGE = 1e-6
+"""Distance of edges of cells, in sizes of the grid, below which they are the same."""
 
 
 @dataclass(frozen=True)
@@ -94,6 +99,10 @@ class CellGrid(Shown):
         x = np.concatenate([[0.0], x[x > 1e-9 * sheet.width]]) if half else x
         return cls(tuple(x.tolist()), tuple(y.tolist()), half)
 
+    def cut_at(self, x: Iterable[float], y: Iterable[float]) -> "CellGrid":
+        """With further edges at these places, so far as they lie within the grid."""
+        return CellGrid(_with(self.x_edges, x), _with(self.y_edges, y), self.half)
+
     def points(self, order: int) -> tuple[Array, Array, Array]:
         """Gauss points x (cells, n, 1), y (cells, 1, n), and Jacobians (cells, n, n)."""
         nodes, _ = gauss_legendre(order)
@@ -104,6 +113,16 @@ class CellGrid(Shown):
         y = bottom[row][:, None] + dy[:, None] * (nodes + 1) / 2
         area = np.repeat(dx * dy / 4, order * order).reshape(-1, order, order)
         return x[:, :, None], y[:, None, :], area
+
+
+def _with(edges: tuple[float, ...], more: Iterable[float]) -> tuple[float, ...]:
+    """All edges in order, but for further ones that lie upon another or outside."""
+    near = SAME_EDGE * (edges[-1] - edges[0])
+    found = list(edges)
+    for place in more:
+        if edges[0] < place < edges[-1] and min(abs(place - one) for one in found) > near:
+            found.append(place)
+    return tuple(sorted(found))
 
 
 def _graded(half: float, layer: float, largest: float) -> Array:

@@ -8,7 +8,7 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from linear_theory.balance.crawl import Crawl, first_resolution
+from linear_theory.balance.crawl import Crawl
 from linear_theory.balance.period import average
 from linear_theory.common import validation
 from linear_theory.common.estimate import Estimate
@@ -202,7 +202,7 @@ def _field_speed(
     if alpha == 0:
         still = CrawlSpeed.steady(0.0, model, law.slip_ratio(0.0), field.seconds)
         return replace(still, deformation=deformation, energy=Energy.at_rest(law))
-    crawl = Crawl(field, alpha, contact, first_resolution(tolerance.rtol))
+    crawl = Crawl.to(tolerance.rtol, field, alpha, contact)
     period = average(crawl, tolerance)
     turning = RigidSpeed(period.rigid, period.rigid_mean, period.rigid_error)
     found = CrawlSpeed(

@@ -3,19 +3,21 @@
 See `second_order` for the equations.
 """
 
-from dataclasses import dataclass, replace
+import math
+from dataclasses import KW_ONLY, dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from linear_theory.balance.balance import RigidMotion
-from linear_theory.balance.crawl import Crawl, Resolution, first_resolution
+from linear_theory.balance.crawl import Crawl, Resolution, first_resolution, joint_resolution
 from linear_theory.balance.period import Period, average
 from linear_theory.common import validation
 from linear_theory.common.tolerance import Tolerance
 from linear_theory.deformation.second.field import SecondOrderField
 from linear_theory.friction.contact import Contact
 from linear_theory.motion.rigid import RigidNorm
+from linear_theory.speed.result import RigidSpeed
 
 Array = NDArray[np.float64]
 
@@ -29,6 +31,9 @@ MORE_HALVINGS = 8
 """Additional halvings of cells compared with an alpha that is not tiny: cells too coarse at a
 stagnation point make q_1(t) rough, and the mean over time would then be refined in vain."""
 
+COARSEST = 0.1
+"""Largest tolerance of q_1."""
+
 FIELD_SHARE = 0.1
 """Fraction of rtol allotted to the deformation, small because accuracy is cheap there."""
 
@@ -38,18 +43,47 @@ FIRST_SHARE, SECOND_SHARE = 0.02, 1.2
 
 @dataclass(frozen=True)
 class Coefficients(Crawl):
-    """The balance with q_1 alone as counted motion."""
+    """The balance with q_1 alone as counted motion; or, at a given coupling, with q_0/coupling + q_1.
+
+    coupling: the alpha of the speed that is asked for; 0 for V_2 alone.
+    """
 
     field: SecondOrderField
+    _: KW_ONLY
+    coupling: float = 0.0
 
     @property
     def counts_leading(self) -> bool:
         """Never."""
         return False
 
+    @property
+    def _share(self) -> float:
+        """Factor of q_0 in the counted motion."""
+        if not self.coupling or self.starts_at_second_order:
+            return 0.0
+        return self.alpha**2 / self.coupling
+
+    def counted(self, motion: RigidMotion) -> Array:
+        """See Crawl."""
+        second = super().counted(motion)
+        return second + self._share * motion.leading.T if self._share else second
+
+    @property
+    def speed_per_rate(self) -> float:
+        """See Crawl."""
+        leading = abs(self._share / self.alpha) * self.drive.speed_per_rate(self.alpha, True)
+        return super().speed_per_rate + leading
+
     def field_error(self, motion: RigidMotion) -> float:
-        """Error of V_2 due to the errors of u_1 and u_2."""
-        return self.alpha**2 * second_field_error(self.field, motion.fastest)
+        """Error of what is counted due to the errors of u_1 and u_2."""
+        return self._first_error(motion) + self.alpha**2 * second_field_error(
+            self.field, motion.fastest
+        )
+
+    def _first_error(self, motion: RigidMotion) -> float:
+        """The part of q_0."""
+        return abs(self._share) * FIRST_SHARE * self.field.error * motion.fastest
 
     def work_errors(self, motion: RigidMotion) -> Array:
         """See Crawl."""
@@ -63,14 +97,34 @@ def field_tolerance(rtol: float) -> float:
     return max(FIELD_SHARE * rtol, validation.SMALLEST_RTOL)
 
 
-def leading_period(field: SecondOrderField, contact: Contact, rtol: float) -> Period:
-    """A period of motion at TINY_ALPHA, with the mean and error of second order alone.
+def leading_period(
+    field: SecondOrderField, contact: Contact, rtol: float, coupling: float = 0.0
+) -> Period:
+    """A period of motion at TINY_ALPHA, with the mean and error of what `Coefficients` counts.
 
     contact: with a friction law for speeds per unit alpha.
     """
+    fine = cells(rtol, field, contact, coupling)
+    crawl = Coefficients(field, TINY_ALPHA, tiny(contact), fine, coupling=coupling)
+    return average(crawl, of_second(rtol, field))
+
+
+def at_coupling(alpha: float, period: Period) -> RigidSpeed:
+    """The motion at an alpha, from a period of `Coefficients` with it as their coupling.
+
+    NaN, with infinite error, where part of the sheet is at rest: V is not smooth in alpha then.
+    """
+    scale = (alpha / TINY_ALPHA) ** 2
+    mean, error = scale * period.rigid_mean, scale * period.rigid_error
+    if period.sticks:
+        mean, error = np.full(3, math.nan), np.full(3, math.inf)
+    return RigidSpeed(alpha * period.orders[0] + alpha**2 * period.orders[1], mean, error)
+
+
+def of_second(rtol: float, field: SecondOrderField) -> Tolerance:
+    """Of a speed over (coupling/TINY_ALPHA)^2, or of V_2, with a bound near 0."""
     unit = field.sheet.length / field.drive.period
-    tolerance = Tolerance(rtol, 1e-2 * rtol * TINY_ALPHA**2 * unit)
-    return average(Coefficients(field, TINY_ALPHA, tiny(contact), fine_cells(rtol)), tolerance)
+    return Tolerance(rtol, 1e-2 * rtol * TINY_ALPHA**2 * unit)
 
 
 def tiny(contact: Contact) -> Contact:
@@ -78,10 +132,20 @@ def tiny(contact: Contact) -> Contact:
     return replace(contact, friction=contact.friction.scaled(1 / TINY_ALPHA))
 
 
-def fine_cells(rtol: float) -> Resolution:
-    """The first resolution of the balance for an alpha that is tiny."""
-    resolution = first_resolution(rtol)
-    return replace(resolution, halvings=resolution.halvings + MORE_HALVINGS)
+def cells(rtol: float, field: SecondOrderField, contact: Contact, coupling: float = 0.0) -> Resolution:
+    """The first resolution of the balance for an alpha that is tiny.
+
+    Where q_0 has a mean, q_1 counts less by the coupling.
+    """
+    joint = coupling != 0 and not (field.drive.changes_sign and contact.friction.reversible)
+    share = min(abs(coupling), 1.0) if joint else 1.0
+    first = first_resolution(min(rtol / share, COARSEST))
+    fine = replace(first, halvings=first.halvings + MORE_HALVINGS, tolerance=0.02 * rtol)
+    if not joint:
+        return fine
+    least = joint_resolution(rtol, not contact.friction.limited)
+    orders, halvings = (least.order, fine.order), (least.halvings, fine.halvings)
+    return replace(fine, order=max(orders), halvings=max(halvings))
 
 
 def field_errors(field: SecondOrderField, period: Period, contact: Contact) -> Array:

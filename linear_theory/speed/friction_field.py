@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from linear_theory.balance.crawl import Crawl, first_resolution
+from linear_theory.balance.crawl import Crawl
 from linear_theory.common import validation
 from linear_theory.common.shown import Shown
 from linear_theory.common.threads import one_blas_thread
@@ -66,7 +66,7 @@ def _friction_field(
     """`friction_field`, without its checks and its warning."""
     v_x = v_y = omega = 0.0
     if alpha != 0:
-        motion = Crawl(field, alpha, contact, first_resolution(rtol)).balance(np.array([t]))
+        motion = Crawl.to(rtol, field, alpha, contact).balance(np.array([t]))
         v_x, v_y, omega = alpha * (motion.leading + alpha * motion.remainder)[0]
     rigid = np.stack([v_x - omega * (y - field.centre[1]), v_y + omega * (x - field.centre[0])])
     slip = alpha * field.velocity(x, y, t) + rigid

@@ -50,6 +50,7 @@ from linear_theory.sheet.rectangle import Sheet
 from linear_theory.speed.expansion import (
     POINTS,
     TINY_ALPHA,
+    at_coupling,
     field_errors,
     field_tolerance,
     leading_period,
@@ -238,14 +239,15 @@ def second_order_speed(scene: Scene, tolerance: Tolerance) -> CrawlSpeed:
     rtol = tolerance.rtol
     field = second_order_field(scene.sheet, scene.wave, scene.growth, field_tolerance(rtol))
     scene.growth.law.check(alpha, scene.drive.growths(*_points(scene.sheet)))
-    period = leading_period(field, per_alpha, rtol)
+    period = leading_period(field, per_alpha, rtol, alpha)
+    turning = at_coupling(alpha, period)
     both = coefficients(field, period, contact, start)
     mirrored = field.mirrored and law.mirrored
     norm = RigidNorm(field.gyration, mirrored)
     fastest = abs(alpha) * period.fastest / TINY_ALPHA
     found = replace(
-        speed_at(alpha, both, period, mirrored),
-        converged=norm.meets(both.rigid_mean(alpha), both.rigid_error(alpha), tolerance),
+        speed_at(turning, both, period, mirrored),
+        converged=norm.meets(turning.mean, turning.error, tolerance),
         slip_ratio=law.slip_ratio(fastest),
         energy=Energy(*period.works.at(alpha), law, mean_map_of(scene)),
         seconds=time.perf_counter() - start,
@@ -254,16 +256,14 @@ def second_order_speed(scene: Scene, tolerance: Tolerance) -> CrawlSpeed:
     return judged(found, beyond or too_large_term(alpha**2 * both.second, fastest))
 
 
-def speed_at(alpha: float, found: SecondOrder, period: Period, mirrored: bool) -> CrawlSpeed:
-    """The speed from the coefficients at a given alpha, without a check of its validity."""
-    rigid = alpha * period.orders[0] + alpha**2 * period.orders[1]
-    turning = RigidSpeed(rigid, found.rigid_mean(alpha), found.rigid_error(alpha))
+def speed_at(turning: RigidSpeed, found: SecondOrder, period: Period, mirrored: bool) -> CrawlSpeed:
+    """The speed from the motion and the coefficients, without a check of its validity."""
     return CrawlSpeed(
         estimate=turning.along,
         model_error=math.nan,
         converged=False,
         times=period.times,
-        velocity=rigid[1],
+        velocity=turning.velocity[1],
         seconds=found.seconds,
         model=found.model,
         slip_ratio=math.nan,

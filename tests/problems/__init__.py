@@ -5,13 +5,14 @@
 A new case is a new entry in one of the families; `Problem` says what an entry holds.
 """
 
-from tests.problems import balances, fields, line, motion, statics
+from tests.problems import balances, directional, fields, line, motion, statics
 from tests.problems.problem import Problem
 
 PROBLEMS: tuple[Problem, ...] = (
     *line.PROBLEMS,
     *fields.PROBLEMS,
     *balances.PROBLEMS,
+    *directional.PROBLEMS,
     *statics.PROBLEMS,
     *motion.PROBLEMS,
 )

@@ -1,7 +1,9 @@
 """The law of friction of a scene file: its form, its direction and its map, to and fro."""
 
+from collections.abc import Sequence
 from typing import Any
 
+from fem_check.files.quantities import Quantity
 from fem_check.files.system import System
 from fem_check.files.tables import FrictionMapTable, FrictionTable
 from linear_theory.common import validation
@@ -52,9 +54,23 @@ def _patches(table: FrictionMapTable, system: System) -> Patches:
     if not len(table.x) == len(table.y) == len(table.mu):
         counts = f"{len(table.x)}, {len(table.y)} and {len(table.mu)}"
         raise ValueError(f"map: x, y and mu must have one entry for each patch, and have {counts}")
-    rows = zip(table.x, table.y, table.mu, strict=True)
-    patches = [[*map(system.number, x), *map(system.number, y), mu] for x, y, mu in rows]
+    sides = {"x": table.x, "y": table.y}
+    spans = {
+        name: [_span(f"{name}[{i}]", name, pair, system) for i, pair in enumerate(pairs)]
+        for name, pairs in sides.items()
+    }
+    rows = zip(spans["x"], spans["y"], table.mu, strict=True)
+    patches = [[*x, *y, mu] for x, y, mu in rows]
     return Patches(patches, system.number(table.edge), table.outside, table.fixed_to)
+
+
+def _span(key: str, axis: str, pair: Sequence[Quantity], system: System) -> tuple[float, float]:
+    """The ends of a patch along an axis. Raises ValueError, in the units of the file."""
+    low, high = map(system.number, pair)
+    if not low < high:
+        shown = ", ".join(end.text for end in pair)
+        raise ValueError(f"map: {key} = [{shown}]: must have {axis}_min < {axis}_max")
+    return low, high
 
 
 def entries_of(law: FrictionLaw) -> dict[str, Any]:

@@ -97,9 +97,11 @@ class CycleBalance:
     def of(cls, shapes: Shapes, contact: Contact, rtol: float) -> "CycleBalance":
         """The balance resolved for a relative error rtol of the mean.
 
-        V is smaller than the velocities by a factor alpha, so the tolerance is alpha rtol.
+        V is smaller than the velocities by a factor alpha where halves of the period cancel to first
+        order; the tolerance is alpha rtol then.
         """
-        digits = -math.log10(rtol * min(abs(shapes.scene.alpha) or 1.0, 1.0))
+        share = min(abs(shapes.scene.alpha) or 1.0, 1.0) if _opposed(shapes, contact) else 1.0
+        digits = -math.log10(rtol * share)
         order = min(max(math.ceil(1.5 + 0.9 * digits), 5), 14)
         halvings = math.ceil(3.4 * digits)  # the last cell has the area 10^-digits of the first
         return cls(shapes, contact, order, halvings, 0.02 * 10**-digits, _mirrored(shapes, contact))
@@ -131,8 +133,7 @@ class CycleBalance:
     def speed_per_rate(self) -> float:
         """Largest mean V for dc/dt of root mean square 1."""
         scene = self.shapes.scene
-        opposed = scene.drive.changes_sign and self.contact.friction.reversible
-        return scene.speed_per_rate(self.contact.slope != 0 or not opposed)
+        return scene.speed_per_rate(not _opposed(self.shapes, self.contact))
 
     def on(self, shapes: Shapes) -> "CycleBalance":
         """The balance of other shapes of the same scene."""
@@ -258,6 +259,11 @@ class CycleBalance:
         resolution = self.halvings, self.tolerance
         rest = self._motion.weight
         return Balance(motion, motion.dilation, 1.0, law, *resolution, slope, rest, WORK_HALVINGS)
+
+
+def _opposed(shapes: Shapes, contact: Contact) -> bool:
+    """Whether the other half of the period is the opposite motion to first order in alpha."""
+    return shapes.scene.drive.changes_sign and contact.friction.reversible and contact.slope == 0
 
 
 def _mirrored(shapes: Shapes, contact: Contact) -> bool:

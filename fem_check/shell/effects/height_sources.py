@@ -117,7 +117,7 @@ def source(function: Any, step: float | None) -> Source:
     try:
         with np.errstate(all="ignore"):
             found = np.asarray(function(origin, origin))
-    except Exception as error:
+    except Exception as error:  # a user's function may raise anything, and is told why it is refused
         raise ValueError(
             f"height = {shown(function)}: must take arrays x, y of one shape (np.sin and np.where, not "
             f"math.sin and if), and failed on them: {error}"

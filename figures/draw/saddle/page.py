@@ -8,6 +8,7 @@ import textwrap
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
+from fem_check.shell.effects.friction import WEAK
 from figures.common.command import parser
 from figures.common.output import replacing
 from figures.draw.saddle.figure import GROUND_WORDS, SHARES, form_of
@@ -223,7 +224,8 @@ def _range(rows: Sequence[saddle.Row], along: Sequence[saddle_range.Row]) -> Lin
     )
     yield wrapped(
         "Growth of weight and pressure per different areas, damping, uneven ground, inclines and",
-        "inertia are refused by name.",
+        "inertia are refused by name, and so is friction that deforms the sheet, mu weight",
+        f"L/(E h |alpha|) > {WEAK:g}: `simulate` has it act back.",
     )
 
 

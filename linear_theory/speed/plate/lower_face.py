@@ -31,7 +31,7 @@ from linear_theory.speed.expansion import (
     SECOND_SHARE,
     TINY_ALPHA,
     Coefficients,
-    fine_cells,
+    cells,
     second_field_error,
     tiny,
 )
@@ -106,7 +106,8 @@ def on_ray(terms: PlateTerms, face: LowerFace, ray: Ray, contact: Contact, rtol:
     unit = abs(ray.alpha) * terms.plane.sheet.length / terms.plane.drive.period
     unit += abs(ray.beta) * face.speed
     tolerance = Tolerance(rtol, 1e-2 * rtol * TINY_ALPHA**2 * unit)
-    crawl = FaceCoefficients(terms.plane, TINY_ALPHA, tiny(contact), fine_cells(rtol), terms, face, ray)
+    fine = cells(rtol, terms.plane, contact)
+    crawl = FaceCoefficients(terms.plane, TINY_ALPHA, tiny(contact), fine, terms, face, ray)
     period = average(crawl, tolerance)
     fastest, law = period.fastest / TINY_ALPHA, contact.friction
     first = 0.0

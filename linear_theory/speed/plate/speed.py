@@ -29,7 +29,7 @@ from linear_theory.friction.contact import Contact
 from linear_theory.motion.rigid import RigidNorm
 from linear_theory.scene.dragged import mean_map_of
 from linear_theory.scene.scene import Scene
-from linear_theory.speed.expansion import POINTS, TINY_ALPHA, field_errors, fine_cells, tiny
+from linear_theory.speed.expansion import POINTS, TINY_ALPHA, at_coupling, cells, of_second, tiny
 from linear_theory.speed.plate.lower_face import Ray, face_coefficients, on_ray
 from linear_theory.speed.plate.quadratic_form import check_contact
 from linear_theory.speed.plate.terms import (
@@ -78,12 +78,14 @@ def mixed_coefficients(
     return found[0], found[1]
 
 
-def average_of(terms: PlateTerms, weights: Weights, contact: Contact, rtol: float) -> Period:
+def average_of(
+    terms: PlateTerms, weights: Weights, contact: Contact, rtol: float, coupling: float = 0.0
+) -> Period:
     """A period of motion at TINY_ALPHA with weighted sources of second order."""
-    unit = terms.plane.sheet.length / terms.plane.drive.period
-    tolerance = Tolerance(rtol, 1e-2 * rtol * TINY_ALPHA**2 * unit)
-    crawl = PlateCoefficients(terms.plane, TINY_ALPHA, tiny(contact), fine_cells(rtol), terms, weights)
-    return average(crawl, tolerance)
+    plane = terms.plane
+    fine = cells(rtol, plane, contact, coupling)
+    crawl = PlateCoefficients(plane, TINY_ALPHA, tiny(contact), fine, terms, weights, coupling=coupling)
+    return average(crawl, of_second(rtol, plane))
 
 
 class _Motion(NamedTuple):
@@ -154,18 +156,15 @@ def _grown(terms: PlateTerms, scene: Scene, contact: Contact, tolerance: Toleran
     alpha, ratio = scene.alpha, scene.curvature_coupling / scene.alpha
     contact = replace(contact, friction=contact.friction.per(alpha))
     weights = Weights(1.0, ratio, ratio**2)
-    period = average_of(terms, weights, contact, tolerance.rtol)
-    fastest, orders = period.fastest / TINY_ALPHA, period.orders
-    first = period.mean_errors[0] + field_errors(terms.plane, period, contact)[0]
-    norm = RigidNorm(terms.plane.gyration, terms.plane.mirrored and contact.friction.mirrored)
-    second = period.mean_errors[1] + norm.each(weighted_error(terms, weights, fastest))
+    period = average_of(terms, weights, contact, tolerance.rtol, alpha)
+    turning = at_coupling(alpha, period)
     return _Motion(
         period,
         alpha,
-        rigid=alpha * orders[0] + alpha**2 * orders[1],
-        mean=alpha * period.means[0] + alpha**2 * period.means[1],
-        error=abs(alpha) * first + alpha**2 * second,
-        fastest=abs(alpha) * fastest,
+        rigid=turning.velocity,
+        mean=turning.mean,
+        error=turning.error,
+        fastest=abs(alpha) * period.fastest / TINY_ALPHA,
         first=float(period.means[0, 1]),
         second=math.nan if period.sticks else float(period.means[1, 1]),
     )

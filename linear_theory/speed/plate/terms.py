@@ -97,8 +97,9 @@ class PlateCoefficients(Coefficients):
     weights: Weights
 
     def field_error(self, motion: RigidMotion) -> float:
-        """Error of the weighted second order due to the errors of the deformation."""
-        return self.alpha**2 * weighted_error(self.terms, self.weights, motion.fastest)
+        """Error of what is counted due to the errors of the deformation."""
+        second = weighted_error(self.terms, self.weights, motion.fastest)
+        return self._first_error(motion) + self.alpha**2 * second
 
     def work_errors(self, motion: RigidMotion) -> Array:
         """See Crawl."""
