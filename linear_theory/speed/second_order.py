@@ -239,9 +239,13 @@ def second_order_speed(scene: Scene, tolerance: Tolerance) -> CrawlSpeed:
     rtol = tolerance.rtol
     field = second_order_field(scene.sheet, scene.wave, scene.growth, field_tolerance(rtol))
     scene.growth.law.check(alpha, scene.drive.growths(*_points(scene.sheet)))
-    period = leading_period(field, per_alpha, rtol, alpha)
-    turning = at_coupling(alpha, period)
+    # of a law without a direction V_2 alone is resolved, as by `second_order`
+    coupling = 0.0 if law.reversible else alpha
+    period = leading_period(field, per_alpha, rtol, coupling)
     both = coefficients(field, period, contact, start)
+    turning = at_coupling(alpha, period)
+    if not coupling:
+        turning = replace(turning, mean=both.rigid_mean(alpha), error=both.rigid_error(alpha))
     mirrored = field.mirrored and law.mirrored
     norm = RigidNorm(field.gyration, mirrored)
     fastest = abs(alpha) * period.fastest / TINY_ALPHA

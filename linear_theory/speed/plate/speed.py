@@ -29,7 +29,15 @@ from linear_theory.friction.contact import Contact
 from linear_theory.motion.rigid import RigidNorm
 from linear_theory.scene.dragged import mean_map_of
 from linear_theory.scene.scene import Scene
-from linear_theory.speed.expansion import POINTS, TINY_ALPHA, at_coupling, cells, of_second, tiny
+from linear_theory.speed.expansion import (
+    POINTS,
+    TINY_ALPHA,
+    at_coupling,
+    cells,
+    field_errors,
+    of_second,
+    tiny,
+)
 from linear_theory.speed.plate.lower_face import Ray, face_coefficients, on_ray
 from linear_theory.speed.plate.quadratic_form import check_contact
 from linear_theory.speed.plate.terms import (
@@ -156,8 +164,11 @@ def _grown(terms: PlateTerms, scene: Scene, contact: Contact, tolerance: Toleran
     alpha, ratio = scene.alpha, scene.curvature_coupling / scene.alpha
     contact = replace(contact, friction=contact.friction.per(alpha))
     weights = Weights(1.0, ratio, ratio**2)
-    period = average_of(terms, weights, contact, tolerance.rtol, alpha)
+    coupling = 0.0 if contact.friction.reversible else alpha
+    period = average_of(terms, weights, contact, tolerance.rtol, coupling)
     turning = at_coupling(alpha, period)
+    if not coupling:
+        turning = _from_orders(terms, weights, contact, alpha, period)
     return _Motion(
         period,
         alpha,
@@ -167,6 +178,21 @@ def _grown(terms: PlateTerms, scene: Scene, contact: Contact, tolerance: Toleran
         fastest=abs(alpha) * period.fastest / TINY_ALPHA,
         first=float(period.means[0, 1]),
         second=math.nan if period.sticks else float(period.means[1, 1]),
+    )
+
+
+def _from_orders(
+    terms: PlateTerms, weights: Weights, contact: Contact, alpha: float, period: Period
+) -> RigidSpeed:
+    """The motion by coefficients that were resolved one by one."""
+    first = period.mean_errors[0] + field_errors(terms.plane, period, contact)[0]
+    norm = RigidNorm(terms.plane.gyration, terms.plane.mirrored and contact.friction.mirrored)
+    own = weighted_error(terms, weights, period.fastest / TINY_ALPHA)
+    second = period.mean_errors[1] + norm.each(own)
+    return RigidSpeed(
+        alpha * period.orders[0] + alpha**2 * period.orders[1],
+        alpha * period.means[0] + alpha**2 * period.means[1],
+        abs(alpha) * first + alpha**2 * second,
     )
 
 
