@@ -1,14 +1,19 @@
-"""Sheets that could have taken another way are run a second time."""
+"""Further runs: of sheets that could have taken another way, and on a coarser mesh."""
+
+import math
 
 import numpy as np
 import pytest
 
-from fem_check import BackwardDifferences, Friction, Ground
+from fem_check import BackwardDifferences, Friction, Ground, simulate
 from fem_check.shell.effects.gravity import Gravity
 from fem_check.shell.effects.inertia import Inertia
 from fem_check.shell.effects.koiter import Bending, Membrane
 from fem_check.shell.model import ShellModel
+from fem_check.shell.statics.equilibrium import ConvergenceError
+from fem_check.shell.stepping.further import second_runs
 from fem_check.shell.stepping.further.branching import may_branch
+from fem_check.shell.stepping.run import Run
 from fem_check.shell.stepping.settings import Settings
 from figures.measure.paper import decisive
 from linear_theory import Sheet, SineWave, Viscous
@@ -72,3 +77,24 @@ def test_dry_gaits_with_few_steps_are_within_their_errors(gait: str) -> None:
     assert set(rows) == {"48 steps", "none", "96 steps"}
     for row in rows.values():
         assert abs(row.third - finest.third) <= row.error + finest.error
+
+
+class Failing(Run):
+    """A run that finds no further step."""
+
+    def finish(self, *_: object) -> None:
+        """Raise the error."""
+        raise ConvergenceError("no further step", self.history.state, 0.0)
+
+
+def test_a_speed_is_kept_where_the_run_on_a_coarser_mesh_fails(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    scene = planar(cells=(2, 4))
+    expected = simulate(scene, periods=1, steps=8)
+    monkeypatch.setattr(second_runs, "Run", Failing)
+    found = simulate(scene, periods=1, steps=8, mesh_error=True)
+    assert found.mean_speed == expected.mean_speed
+    assert found.errors.mesh == math.inf
+    assert found.speed.error == math.inf
+    assert not found.speed.converged

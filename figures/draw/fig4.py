@@ -22,7 +22,7 @@ from matplotlib.patches import Patch
 from figures.common import style
 from figures.draw.speed_map import HATCH, draw_speeds, grid
 from figures.measure.paper import gait_paths
-from figures.measure.paper.gait_map import LARGEST, TABLE, Row
+from figures.measure.paper.gait_map import LARGEST, TABLE, Row, on_whole_grid
 from figures.measure.paper.paper_gait import BACKWARD, FORWARD, FRICTIONS, READINGS
 
 FEWEST = 60
@@ -91,7 +91,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     panels = maps.subplots(1, len(laws), sharey=True, squeeze=False)[0]
     most = float(np.nanpercentile([abs(r.third) for r in rows if r.friction in laws], 95))
     for ax, law in zip(panels, laws, strict=True):
-        image = draw_map(ax, [r for r in rows if r.friction == law], most)
+        image = draw_map(ax, on_whole_grid([r for r in rows if r.friction == law]), most)
         ax.set_title(f"{law} friction", loc="left")
     panels[0].set_ylabel(r"rest curvature $\kappa L$ per $c$")
     maps.colorbar(image, ax=list(panels), label="$V$ ($L$ a cycle)", extend="both")

@@ -76,6 +76,16 @@ def axes(points: int = POINTS) -> tuple[NDArray[np.float64], NDArray[np.float64]
     return np.array([kept(a) for a in alphas]), np.array([kept(k) for k in kappas])
 
 
+def on_whole_grid(rows: Sequence[Row]) -> list[Row]:
+    """Those of one law of friction on the finest grid that has a row at every place; else all."""
+    for points in (POINTS, (POINTS + 1) // 2):
+        alphas, kappas = (set(values.tolist()) for values in axes(points))
+        found = [r for r in rows if r.alpha in alphas and r.kappa in kappas]
+        if len(found) == points**2:
+            return found
+    return list(rows)
+
+
 def place_of(row: Row) -> Place:
     """Without its speed."""
     return Place(row.alpha, row.kappa, row.friction)

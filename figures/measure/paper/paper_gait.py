@@ -7,6 +7,7 @@ with v0 = 1 in its own units, "dry" has v0 = 0.02 L a cycle.
 """
 
 import functools
+import math
 import time
 import warnings
 from dataclasses import dataclass
@@ -103,12 +104,20 @@ def measured(scene: Scene, steps: int, coarse: Scene | None = None) -> Measured:
     begin, nan = time.process_time(), float("nan")
     try:
         found = moved(scene, steps, mesh_error=scene.mesh is None)
-        rough = None if coarse is None else moved(coarse, steps).period_speeds[-1]
     except SheetcrawlError as problem:
         said = " ".join(str(problem).split())
         return Measured(nan, nan, nan, 0, 0, time.process_time() - begin, said)
-    mesh = found.errors.mesh if rough is None else MESH_MARGIN * abs(rough - found.period_speeds[-1])
+    mesh = found.errors.mesh if coarse is None else _difference(found, coarse, steps)
     return told(found, float(mesh), time.process_time() - begin)
+
+
+def _difference(found: Trajectory, coarse: Scene, steps: int) -> float:
+    """Error by the mesh, from the motion on a coarser one; infinite if that stops."""
+    try:
+        rough = moved(coarse, steps)
+    except SheetcrawlError:
+        return math.inf
+    return MESH_MARGIN * abs(float(rough.period_speeds[-1] - found.period_speeds[-1]))
 
 
 def told(found: Trajectory, mesh: float, seconds: float) -> Measured:

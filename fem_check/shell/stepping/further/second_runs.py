@@ -42,9 +42,15 @@ COARSER_WORK, LONGER_WORK = 0.5, 0.7
 
 
 def mesh_error(run: Run, whole: Whole | None) -> float:
-    """Mesh error of the mean speed of a finished run, from the same run on a coarser mesh."""
+    """Mesh error of the mean speed of a finished run, from the same run on a coarser mesh.
+
+    Infinite if that run fails: what the first one found is kept.
+    """
     coarse = Run(coarser(run.scene), run.settings)
-    coarse.finish(None, None if whole is None else whole.of(COARSER))
+    try:
+        coarse.finish(None, None if whole is None else whole.of(COARSER))
+    except ConvergenceError:
+        return np.inf
     return mesh_change(run.trajectory(), coarse.trajectory())
 
 
