@@ -451,7 +451,7 @@ def test_of_a_motion_along_y_alone_a_stretch_is_a_slip_speed(stretch: float) -> 
 def test_the_balance_is_where_the_potential_is_least(law: FrictionLaw, t: float) -> None:
     """A literal second implementation: a sum over Gauss points, least by a general optimiser."""
     shapes = cycle_of_shapes(ShellModel(scene()), 16)
-    balance = CycleBalance.of(shapes, Contact(friction=law), 1e-3)
+    balance = CycleBalance.of(shapes, Contact(friction=law), 1e-4)
     found = balance.balance(np.array([t])).leading[0, 0]
     fine = replace(balance, order=14, mirrored=False)
     motion = fine._motion.at(np.array([t]))

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 import skfem
 
-from fem_check.choice import solving
+from fem_check.choice import answers
 from fem_check.mesh.elements import grid
 from fem_check.shell.cycle.speed import cycle_speed
 from fem_check.shell.effects.koiter import Bending, Membrane
@@ -166,4 +166,4 @@ def test_a_cycle_of_shapes_that_cross_is_not_converged(curvature: float, crosses
     assert ("passes through itself from t = 0," in found.model) is crosses
     shapes = found.deformation.shapes  # type: ignore[union-attr]
     assert shapes.crossed.tolist() == [crosses] * len(shapes.states)
-    assert (solving._crossing(found) != "") is crosses
+    assert (answers._crossing(found) != "") is crosses
