@@ -173,9 +173,10 @@ def friction_load(model: ShellModel) -> float:
 def energy_of(motion: "Trajectory") -> Energy | None:
     """Energy of the last period, over mu times the weight; None without Friction or Gravity.
 
-    Work of growth that is still stored at the end of the period (elastic, of the ground, kinetic) does
-    not count: once the motion repeats there is none. Damping of the contact counts as friction. The
-    error is the residual of the balance, the error of velocities from the steps, and the change from
+    Work of growth that is still stored at the end of the period (elastic, of the ground, by the height
+    of the sheet above it, kinetic) does not count: once the motion repeats there is none. What lifts
+    the sheet along a slope does. Damping of the contact counts as friction. The error is the residual
+    of the balance, the error of velocities from the steps, and the change from
     the period before, if there is one.
     """
     load, contact = friction_load(motion.model), motion.scene.contact
@@ -184,7 +185,7 @@ def energy_of(motion: "Trajectory") -> Energy | None:
     last, *before = (motion.period_rows(k) for k in range(motion.periods - 1, -1, -1))
     table, steps = motion.table, np.diff(motion.times, prepend=0.0)
     friction = (table["friction"] + table["damping"]) / load
-    works = friction + table["weight"] / load
+    works = friction + (table["weight"] / load if contact.slope else 0.0)
     error = float(friction[last] @ _doubt(motion, last))
     if before:
         error += abs(float(works[last].sum() - works[before[0]].sum()))

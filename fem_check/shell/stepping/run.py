@@ -121,6 +121,12 @@ class Run:
         wanted = [COLUMNS.index(name) for name in DECISIVE]
         return may_branch(self.model, *rows[:, wanted].T) if rows.size else False
 
+    @property
+    def touches(self) -> bool:
+        """Whether the sheet touches itself now, in the last period."""
+        late = self.history.time >= self.marks[-2]
+        return bool(late) and any(c.touches(self.history.state) for c in self.model.couplings)
+
     @one_blas_thread
     def finish(self, target: Target | None, report: Listener | None) -> None:
         """Step to the end, with snapshots at regular intervals if there is a target for them."""

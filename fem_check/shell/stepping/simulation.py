@@ -54,7 +54,7 @@ def simulate(
     snaps through in the last period, or buckles and has inertia or dry friction, is simulated a second
     time with other steps, for the error of V: it may take another way. So is one whose strain acts back
     on its wave (`StrainFeedback`): the two are then stepped together, at second order. A sheet that
-    touches itself in the last period (`SelfContact`) is simulated once more with twice the gap between
+    touches itself in the last period (`SelfContact`) is simulated once more with half the gap between
     its layers.
 
     A scene without Friction and Inertia is not time dependent; use `cycle_speed.cycle_speed`.
@@ -133,6 +133,8 @@ def _watching(run: Run, whole: Whole) -> Listener:
     def heard(progress: Progress) -> None:
         if run.branches:
             whole.plan(second_runs.OTHER, second_runs.LONGER_WORK)
+        if run.touches:
+            whole.plan(second_runs.TIGHTER, second_runs.TIGHTER_WORK)
         listener(progress)
 
     return heard

@@ -74,7 +74,7 @@ class SpeedErrors(Shown, _Errors):
     with longer steps; NaN if there are none. feedback: of a wave that the strain acts back on, by its
     own error and the steps, from a run with longer steps and larger elements of the wave; NaN without.
     contact: of a sheet that touched itself in the last period, by the gap of `SelfContact`, from a run
-    with twice the gap; NaN if it did not.
+    with half the gap; NaN if it did not.
     """
 
 
