@@ -79,7 +79,11 @@ def test_lower_face_needs_bending() -> None:
     with pytest.raises(ValueError, match=r"friction = .*without the effect Bending"):
         Scene(Sheet(), SineWave(), 0.1, contact=Contact(friction=OnLowerFace(Coulomb())))
     with pytest.raises(ValueError, match=r"law = .*: must be a law without a face"):
-        OnLowerFace(Mapped(OnLowerFace(Coulomb()), PATCHES))
+        OnLowerFace(OnLowerFace(Coulomb()))
+    with pytest.raises(
+        ValueError, match=r"law = .*mid-surface; write OnLowerFace\(Mapped\(law, map\)\)"
+    ):
+        Mapped(OnLowerFace(Coulomb()), PATCHES)
     with pytest.raises(ValueError, match="surface = 'top': must be"):
         Friction(1.0, 0.1, surface="top")
     with pytest.raises(ValueError, match="surface = 'middle': must be None or 'bottom'"):

@@ -243,7 +243,8 @@ def _patch(number: int, patch: Sequence[float]) -> tuple[float, ...]:
 class Mapped(Wrapped):
     """A law whose coefficient differs from place to place by a map.
 
-    law: any law but a mapped one; map: `Patches` or a `GivenMap`. Raises ValueError for anything else.
+    law: any law but a mapped one, or one on the lower face, which is around the mapped one instead;
+    map: `Patches` or a `GivenMap`. Raises ValueError for anything else.
     Its methods are those of the law, as where the map is 1.
 
     >>> from linear_theory import Coulomb, Directional, Mapped, Patches
@@ -260,6 +261,11 @@ class Mapped(Wrapped):
         validation.instance("map", self.map, FrictionMap)  # type: ignore[type-abstract]
         if self.law.map is not None:
             raise ValueError(f"law = {validation.shown(self.law)}: must be a law without a map")
+        if self.law.on_lower_face:
+            raise ValueError(
+                f"law = {validation.shown(self.law)}: must be a law on the mid-surface; write "
+                "OnLowerFace(Mapped(law, map))"
+            )
 
     @property
     def mirrored(self) -> bool:
