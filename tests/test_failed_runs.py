@@ -20,6 +20,8 @@ from fem_check.command import MISSED, main
 from fem_check.files import read
 from fem_check.output.curves import draw_speed
 from fem_check.output.moving import Course
+from fem_check.output.panels import _ways
+from fem_check.output.pictures import moving_of
 from fem_check.runs.record import errors_of
 from fem_check.shell.statics.equilibrium import ConvergenceError
 from fem_check.shell.stepping.further import second_runs
@@ -166,3 +168,4 @@ def test_a_picture_has_no_band_of_infinite_width(found: Solved) -> None:
     assert not axes.collections
     assert axes.get_title(loc="left").endswith("L/T, error unknown")
     assert "inf" not in axes.get_title(loc="left")
+    assert _ways(moving_of(motion)).endswith("way of the sheet unknown")

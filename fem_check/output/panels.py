@@ -201,5 +201,7 @@ def _ways(moving: Moving) -> str:
     """Directions of wave and sheet, in words."""
     arrows = {1: r"$\rightarrow$", -1: r"$\leftarrow$"}
     wave = f"wave {arrows[moving.direction]}, " if moving.direction else ""
+    if np.isinf(moving.speed.error):
+        return f"{wave}way of the sheet unknown"
     sheet = arrows.get(int(np.sign(moving.speed.mean)), "at rest")
     return f"{wave}sheet {sheet}"

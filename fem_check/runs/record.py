@@ -61,17 +61,16 @@ def errors_of(found: Solved) -> list[dict[str, Any]]:
         met = {
             "path through snap-throughs": of.snaps,
             "feedback of the strain on the wave": of.feedback,
+            "gap between layers that touch": of.contact,
         }
-        met["gap between layers that touch"] = of.contact
         rows += [(part, error) for part, error in met.items() if not math.isnan(error)]
         rows += [("distance to dry friction, not part of the error", of.slip_speed)]
     return [{"part": part, "error": _told(float(error))} for part, error in rows]
 
 
-def _told(error: float) -> float | str | None:
+def _told(error: float) -> Any:
     """An infinite error in words: it is that of a further run that failed."""
-    found: float | str | None = FAILED if math.isinf(error) else plain(error)
-    return found
+    return FAILED if math.isinf(error) else plain(error)
 
 
 def cost_of(found: Solved) -> list[dict[str, Any]]:
