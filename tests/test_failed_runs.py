@@ -168,4 +168,4 @@ def test_a_picture_has_no_band_of_infinite_width(found: Solved) -> None:
     assert not axes.collections
     assert axes.get_title(loc="left").endswith("L/T, error unknown")
     assert "inf" not in axes.get_title(loc="left")
-    assert _ways(moving_of(motion)).endswith("way of the sheet unknown")
+    assert _ways(moving_of(motion)).endswith(", sheet ?")
