@@ -24,6 +24,7 @@ from fem_check.choice.ways import way_of
 from fem_check.command import BAD_ARGUMENTS, MET, MISSED, main, screens
 from fem_check.files import gallery, read
 from fem_check.files.schema import schema
+from fem_check.shell.stepping.trajectory import SpeedErrors
 from linear_theory import Scene, Sheet, SineWave
 from linear_theory.common.progress import Progress
 
@@ -385,6 +386,8 @@ def test_ways_answer_as_they_do_alone() -> None:
         (np.array([False, True]), True, np.nan, "the sheet passes through itself"),
         (None, True, np.nan, "depends on the steps: the error is a lower bound"),
         (np.array([False]), True, 0.1, "the sheet snaps over in the last period"),
+        (None, True, np.inf, "the steps; the run with other steps failed, without which the error"),
+        (None, False, np.inf, "the run with other steps failed, without which the error of the speed"),
         (None, False, 0.0, ""),
     ],
 )
@@ -392,14 +395,14 @@ def test_what_is_wrong_with_a_motion_is_a_caution(crossed, snaps, error, said) -
     motion = SimpleNamespace(
         crossed=crossed,
         snaps=snaps,
-        errors=SimpleNamespace(snaps=error, spread=0.0),
+        errors=SpeedErrors(0.0, 0.0, np.nan, np.nan, error),
         scene=Scene(Sheet(), SineWave(), 0.1),
         speed=SimpleNamespace(mean=1.0),
     )
     found = solving._caution(motion)  # type: ignore[arg-type]
     assert said in found
     assert bool(found) == bool(said)
-    assert ("lower bound" in found) == (snaps and crossed is None)
+    assert ("lower bound" in found) == (snaps and np.isnan(error) and crossed is None)
 
 
 @pytest.mark.parametrize("name", ["inchworm", "paper", "bumpy"])

@@ -106,7 +106,8 @@ def _answer(found: "Prediction", units: Units) -> Iterator[Line]:
     error = _error(found)
     shown = measured(units.of_speed(found.mean), units.of_speed(error))
     way = heading(found.scene.drive, found.mean, error)
-    yield "speed", f"{shown.with_unit(units.speed)}, {way}; {per_period(found, units, error)}"
+    doubt = " with unknown error" if math.isinf(error) else ""
+    yield "speed", f"{shown.with_unit(units.speed)}{doubt}, {way}; {per_period(found, units, error)}"
     yield from sideways_and_turning(found.speed, found.scene.period, units)
     if found.speed.beyond_reach:
         yield "NO ANSWER", found.speed.reach
@@ -133,19 +134,24 @@ def _missed(found: "Prediction", units: Units) -> str:
         return f"{asked}, may not be met: the model error (distance to the nonlinear sheet) is unknown"
     if found.error <= allowed:
         return ""
+    if math.isinf(found.error):
+        return f"{asked}, is not met: the error is unknown"
     return f"{asked}, is not met: the error is {rounded_up(factor * found.error)} {unit}"
 
 
 def _accuracy(found: "Prediction", units: Units) -> str:
-    """Relative error, with its numerical and model parts."""
-    speed = found.speed
-    numbers = f"numerical {rounded_up(units.of_speed(speed.error - speed.wave_error))}"
+    """Relative error, with its numerical and model parts, and what is not part of it."""
+    lacking = f"not estimated: {', '.join(found.not_in_error)}" if found.not_in_error else ""
+    if math.isinf(found.speed.error):
+        return f"the error is unknown{lacking and f'; {lacking}'}"
+    speed, numerical = found.speed, found.speed.error - found.speed.wave_error
+    numbers = f"numerical {rounded_up(units.of_speed(numerical))}"
     if speed.wave_error:
         numbers += f", noise of the measured wave {rounded_up(units.of_speed(speed.wave_error))}"
     if not (found.not_in_error and math.isnan(speed.model_error)):
         numbers += f", model {_model(found, units)}"
-    if found.not_in_error:
-        numbers += f"; not estimated: {', '.join(found.not_in_error)}"
+    if lacking:
+        numbers += f"; {lacking}"
     if found.mean == 0 and _error(found) == 0:
         return f"exact: nothing moves ({numbers})"
     if _error(found) >= abs(found.mean):

@@ -19,6 +19,8 @@ def energy(found: "Prediction") -> str:
     """Cost of transport and efficiency with numerical and known model errors; empty if unknown."""
     speed = with_model_errors(found.speed)
     cost, efficiency = speed.cost_of_transport, speed.efficiency
+    if speed.energy is not None and math.isinf(speed.error):
+        return "cost of transport and efficiency unknown: the error of the speed is not known"
     if speed.energy is None or math.isnan(cost.value):
         return ""
     if math.isinf(cost.value):

@@ -12,7 +12,8 @@ if TYPE_CHECKING:
 
 
 def record(found: "Prediction", units: Units | None) -> dict[str, Any]:
-    """The answer for programs, in the units of the question; what is unknown is None.
+    """The answer for programs, in the units of the question; what is unknown is None,
+    an infinite error, too.
 
     error: as the block says it; not_in_error: its parts that were not estimated, in words. energy: in
     words, since an infinite cost of transport is None among the numbers. tolerance: None where none was

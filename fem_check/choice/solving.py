@@ -103,6 +103,13 @@ def _by_steps(motion: Trajectory, tolerance: Tolerance | None) -> Prediction:
 
 def _caution(motion: Trajectory) -> str:
     """What is wrong with the speed of a motion, whatever tolerance is asked for."""
+    failed = motion.errors.failed
+    unknown = f"{failed}, without which the error of the speed is not known" if failed else ""
+    return "; ".join(filter(None, (_unsound(motion), unknown)))
+
+
+def _unsound(motion: Trajectory) -> str:
+    """What is wrong with the motion itself."""
     if motion.crossed is not None and motion.crossed.any():
         return CROSSES
     if motion.snaps:

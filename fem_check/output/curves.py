@@ -22,21 +22,26 @@ def draw_speed(ax: Axes, moving: Moving, units: Units) -> None:
     error = speed.error + (0.0 if np.isnan(speed.model_error) else speed.model_error)
     mean, error = (v * units.speed_factor for v in (speed.mean, error))
     counted = [t * units.time_factor for t in course.counted]
-    ax.fill_between(counted, mean - error, mean + error, color=BAND, linewidth=0, label="error")
+    known = np.isfinite(error)
+    if known:
+        ax.fill_between(counted, mean - error, mean + error, color=BAND, linewidth=0, label="error")
     ax.plot(counted, [mean, mean], color=MEAN, label="mean")
     ax.axhline(0, color="0.6", linewidth=0.5, zorder=0)
-    ax.set_title(f"mean {in_words(mean, error)} {units.speed}, band: error", loc="left")
+    told = "band: error" if known else "error unknown"
+    ax.set_title(f"mean {in_words(mean, error)} {units.speed}, {told}", loc="left")
     ax.set(xlabel=f"time $t$ ({units.time})", ylabel=f"$V(t)$ ({units.speed})")
     ax.set_xlim(*(t * units.time_factor for t in course.shown))
 
 
 def in_words(mean: float, error: float) -> str:
-    """Mean and error to the digits resolved by the error, five at most.
+    """Mean and error to the digits resolved by the error, five at most; an infinite one is left out.
 
     >>> from fem_check.output.curves import in_words
     >>> print(in_words(-0.19177, 5.2e-4), "|", in_words(0.071, 0.0113), "|", in_words(0.0779601, 5e-16))
     −0.19177 ± 0.00052 | 0.071 ± 0.011 | 0.07796 ± 5e−16
     """
+    if np.isinf(error):
+        return f"{mean:.3g}".replace("-", "\N{MINUS SIGN}")
     digits = 99
     if np.isfinite(error) and error > 0:
         digits = 1 - int(np.floor(np.log10(error)))

@@ -198,8 +198,10 @@ def on_page(places: Array) -> tuple[Array, Array]:
 
 
 def _ways(moving: Moving) -> str:
-    """Directions of wave and sheet, in words."""
+    """Directions of wave and sheet, in words; that of a speed of unknown error is "?"."""
     arrows = {1: r"$\rightarrow$", -1: r"$\leftarrow$"}
     wave = f"wave {arrows[moving.direction]}, " if moving.direction else ""
+    if np.isinf(moving.speed.error):
+        return f"{wave}sheet ?"
     sheet = arrows.get(int(np.sign(moving.speed.mean)), "at rest")
     return f"{wave}sheet {sheet}"

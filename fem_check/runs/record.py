@@ -17,6 +17,9 @@ PACKAGES = ("numpy", "scipy", "scikit-fem", "matplotlib")
 
 WIDTH = 80
 
+FAILED = "unknown: the run that tells it failed"
+"""Error of which only a further run knows."""
+
 
 def result_of(
     found: Solved, settings: RunSettings, units: Units | None, files: dict[str, str]
@@ -41,7 +44,10 @@ def result_of(
 
 
 def errors_of(found: Solved) -> list[dict[str, Any]]:
-    """The error budget: parts of the error of the mean speed, absolute; None where not estimated."""
+    """The error budget: parts of the error of the mean speed, absolute; None where not estimated.
+
+    Parts that only some motions have (snap-throughs, feedback, contact) are there where they count.
+    """
     speed = found.answer.speed
     if found.motion is None:
         rows = [("numerical: mesh, times, friction balance", speed.error - speed.wave_error)]
@@ -51,8 +57,20 @@ def errors_of(found: Solved) -> list[dict[str, Any]]:
     else:
         of = found.motion.errors
         rows = [("steps in time", of.step), ("difference of the last two periods", of.spread)]
-        rows += [("mesh", of.mesh), ("distance to dry friction, not part of the error", of.slip_speed)]
-    return [{"part": part, "error": plain(float(error))} for part, error in rows]
+        rows += [("mesh", of.mesh)]
+        met = {
+            "path through snap-throughs": of.snaps,
+            "feedback of the strain on the wave": of.feedback,
+            "gap between layers that touch": of.contact,
+        }
+        rows += [(part, error) for part, error in met.items() if not math.isnan(error)]
+        rows += [("distance to dry friction, not part of the error", of.slip_speed)]
+    return [{"part": part, "error": _told(float(error))} for part, error in rows]
+
+
+def _told(error: float) -> Any:
+    """An infinite error in words: it is that of a further run that failed."""
+    return FAILED if math.isinf(error) else plain(error)
 
 
 def cost_of(found: Solved) -> list[dict[str, Any]]:

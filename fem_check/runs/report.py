@@ -91,7 +91,8 @@ def shown_speed(found: Finished) -> str:
     units = found.units or Units.of_sheet(recording.length, recording.period)
     error = answer["error"] if answer["error"] is not None else answer["numerical_error"]
     value, wrong = units.of_speed(answer["mean"]), units.of_speed(error or 0.0)
-    return measured(value, wrong).with_unit(units.speed)
+    doubt = " with unknown error" if error is None else ""
+    return f"{measured(value, wrong).with_unit(units.speed)}{doubt}"
 
 
 def _rows(block: str) -> str:

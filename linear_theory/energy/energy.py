@@ -105,12 +105,15 @@ class Energy(Shown):
     def efficiency(self, velocity: Array, doubt: float) -> Estimate:
         """Least over actual power of a velocity V_x, V_y with that error.
 
-        NaN where nothing slides, and where the drag of the rigid sheet is not known (`undragged`).
+        NaN where nothing slides, and where the drag of the rigid sheet is not known (`undragged`); of
+        infinite error where that of the velocity or of the map is.
         """
         if self.power.value <= self.power.error:
             return Estimate(np.nan, np.nan)
         mean, error = self.mean_map
         drag = self._drag(velocity[:, None], mean)[0]
+        if np.isinf(doubt) or np.isinf(error):
+            return Estimate(float(drag), np.inf).over(self.power)
         around = _around(velocity, doubt)
         bounds = [self._drag(around, value) for value in (mean - error, mean + error)]
         return Estimate(float(drag), float(abs(bounds - drag).max())).over(self.power)

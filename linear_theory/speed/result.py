@@ -294,6 +294,8 @@ def energy_in_words(speed: CrawlSpeed) -> str:
     """Cost of transport and efficiency, or why there is none."""
     cost, power = speed.cost_of_transport, speed.power
     spent = f"power {with_error(*power)} length/time over mu weight"
+    if np.isinf(power.error):
+        return f"{spent}, cost of transport unknown: the error of the speed is not known"
     if np.isnan(cost.value):
         return "none is spent: nothing moves"
     if np.isinf(cost.value):

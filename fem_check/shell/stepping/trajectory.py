@@ -15,6 +15,7 @@ from fem_check.shell.model import ShellModel
 from fem_check.shell.stepping import columns
 from fem_check.shell.stepping.between import between, interpolation_error, motion_around
 from fem_check.shell.stepping.further.branching import DECISIVE, may_branch
+from fem_check.shell.stepping.further.failed import failed_words
 from fem_check.shell.stepping.power import Works, energy_of
 from fem_check.shell.stepping.sliding import COMPARED
 from fem_check.shell.stepping.step_control import LANDED
@@ -74,8 +75,14 @@ class SpeedErrors(Shown, _Errors):
     with longer steps; NaN if there are none. feedback: of a wave that the strain acts back on, by its
     own error and the steps, from a run with longer steps and larger elements of the wave; NaN without.
     contact: of a sheet that touched itself in the last period, by the gap of `SelfContact`, from a run
-    with half the gap; NaN if it did not.
+    with half the gap; NaN if it did not. A part is infinite where the run that would have told it
+    failed, see `failed`.
     """
+
+    @property
+    def failed(self) -> str:
+        """Which of the further runs failed, in words; empty if none did."""
+        return failed_words(self._asdict())
 
 
 @dataclass(frozen=True, eq=False)
@@ -379,7 +386,8 @@ class Trajectory(Drawable, Tabular):
         error: sum of the errors of step, mesh (if requested), spread between periods, path through
         snap-throughs, feedback on the wave and the gap of SelfContact; model_error: distance to dry
         friction, see `SpeedErrors`. The speed of a sheet that has passed through itself (`crossed`),
-        which no real sheet does, is never converged.
+        which no real sheet does, is never converged, nor is one whose error is infinite since a further
+        run failed (`SpeedErrors.failed`, also in `model`).
         """
         last, errors = self._last(1), self.errors
         unknown = "mesh error not estimated" if np.isnan(errors.mesh) else ""
@@ -390,7 +398,8 @@ class Trajectory(Drawable, Tabular):
         shape, scene = "Koiter shell stepped in time", self.scene
         rubs = any(effect.law for effect in self.model.effects)
         contact = scene.contact if rubs else None
-        model = model_words(shape, scene.growth, contact, unknown, snapped, crossing, touching)
+        remarks = (unknown, snapped, crossing, touching, errors.failed)
+        model = model_words(shape, scene.growth, contact, *remarks)
         mean = self.mean_speed
         error = float(np.nansum([e for name, e in errors._asdict().items() if name != "slip_speed"]))
         times = self.times[last]

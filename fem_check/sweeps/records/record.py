@@ -31,13 +31,13 @@ FAILURES = tuple(state for state in State if state is not State.ANSWERED)
 class Record(Shown):
     """One row of the file. Numbers are in the units of the scene; None is what is not known.
 
-    key: of the question, scene and settings; state: of `State`; reason: why the level was chosen, or
-    why there is no answer. mean: the speed V; error: numerical plus model error, of which
-    numerical_error, wave_error and model_error are parts; converged: whether the tolerance is met.
-    power, cost_of_transport, efficiency: see `CrawlSpeed`, an infinite cost is None.
-    regime: of friction. cpu_seconds: of the thread that found the answer; seconds: as a clock tells
-    them. warnings: a line each. program: its version; worker: the process; ended: UTC. settings,
-    scene: JSON.
+    key: of the question, scene and settings; state: of `State`; reason: why the level was chosen, and
+    what is wrong with its speed if anything is (`Prediction.caution`), or why there is no answer.
+    mean: the speed V; error: numerical plus model error, of which numerical_error, wave_error and
+    model_error are parts; converged: whether the tolerance is met. power, cost_of_transport,
+    efficiency: see `CrawlSpeed`, an infinite cost is None. regime: of friction. cpu_seconds: of the
+    thread that found the answer; seconds: as a clock tells them. warnings: a line each. program: its
+    version; worker: the process; ended: UTC. settings, scene: JSON.
     """
 
     key: str
@@ -86,7 +86,7 @@ def answer_of(found: Prediction) -> dict[str, Any]:
     return {
         **numbers_of(found),
         "level": found.level,
-        "reason": found.reason,
+        "reason": "; ".join(filter(None, (found.reason, found.caution))),
         "converged": bool(found.converged),
         "regime": str(found.regime),
         "beyond_reach": found.speed.beyond_reach or None,
