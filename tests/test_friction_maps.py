@@ -103,6 +103,9 @@ def test_creases_of_a_map_are_checked() -> None:
     for bad in (3, "ab", ((0.1,),), (("a",), ())):
         with pytest.raises(ValueError, match="creases"):
             GivenMap(lambda x, y: 1.0, creases=bad)  # type: ignore[arg-type]
+    for bad in (((), 0.13), ("ab", ()), (np.array(0.1), ()), 5, None):
+        with pytest.raises(ValueError, match="^creases = .*: must be two lists of numbers, x and y$"):
+            GivenMap(lambda x, y: 1.0, creases=bad)  # type: ignore[arg-type]
     given = GivenMap(lambda x, y: 1.0, creases=([0.1], []))  # type: ignore[arg-type]
     assert given.creases == ((0.1,), ())
 

@@ -212,7 +212,7 @@ class GivenMap(FrictionMap):
 
 def _lines(creases: Any) -> tuple[tuple[float, ...], ...]:
     """x and y of lines, checked."""
-    if not isinstance(creases, Sequence) or isinstance(creases, str) or len(creases) != len("xy"):
+    if not _is_list(creases) or len(creases) != len("xy") or not all(map(_is_list, creases)):
         raise ValueError(
             f"creases = {validation.shown(creases)}: must be two lists of numbers, x and y"
         )
@@ -220,9 +220,16 @@ def _lines(creases: Any) -> tuple[tuple[float, ...], ...]:
     return tuple(tuple(np.ravel(one).tolist()) for one in places)
 
 
+def _is_list(value: Any) -> bool:
+    """Whether it is a list of any kind, no text."""
+    if isinstance(value, np.ndarray):
+        return value.ndim > 0
+    return isinstance(value, Sequence) and not isinstance(value, str | bytes)
+
+
 def _listed(patches: Any) -> Any:
     """The patches, if they are a list of any kind."""
-    if isinstance(patches, str) or not isinstance(patches, Sequence | np.ndarray):
+    if not _is_list(patches):
         raise ValueError(f"patches = {validation.shown(patches)}: {PATCHES}")
     return patches
 
