@@ -340,6 +340,9 @@ def test_scenes_that_it_cannot_be_in() -> None:
     flat = (Membrane(MATERIAL), SelfContact(MATERIAL))
     with pytest.raises(ValueError, match="SelfContact must come with Bending"):
         Scene(Sheet(), lying().wave, 0.1, effects=flat)
+    pressed = (Membrane(MATERIAL), Gravity(1e-3), Friction(0.7, 0.1), SelfContact(MATERIAL))
+    with pytest.raises(ValueError, match="SelfContact must come with Bending"):
+        Scene(Sheet(), lying().wave, 0.1, effects=pressed)
     other = SelfContact(Material(0.02, 0.5))
     scene = lying(cells=(2, 4))
     with pytest.raises(ValueError, match="must be the same"):
