@@ -8,12 +8,12 @@ import numpy as np
 from fem_check.answer.growth import alpha_of
 from fem_check.answer.units import Units
 from fem_check.command.options import Options
-from fem_check.files.quantities import KINDS, UNIT_OF_ANGLE, Quantity, read
+from fem_check.files.quantities import KINDS, UNIT_OF_ANGLE, Quantity, direction, read
 from linear_theory.friction.contact import Contact
 from linear_theory.friction.directional import Directional
 from linear_theory.friction.isotropic import Isotropic
 from linear_theory.friction.law import FrictionLaw
-from linear_theory.friction.laws import friction_law
+from linear_theory.friction.laws import Tanh, friction_law
 from linear_theory.friction.maps import FixedTo
 from linear_theory.scene.scene import Scene
 from linear_theory.sheet.rectangle import Sheet
@@ -79,7 +79,7 @@ def asked(options: Options) -> Asked:
 
 def _friction(options: Options, slip_speed: float | None) -> FrictionLaw:
     """The law, with a direction where the options give one."""
-    form = friction_law(options.friction, slip_speed)
+    form = _form(options, slip_speed)
     forward, backward, default = options.forward, options.backward, Options()
     given = [name for name in DIRECTION if getattr(options, name) != getattr(default, name)]
     if not given:
@@ -93,6 +93,21 @@ def _friction(options: Options, slip_speed: float | None) -> FrictionLaw:
     return Directional(forward, backward, options.sideways, heading, fixed_to, form)
 
 
+def _form(options: Options, slip_speed: float | None) -> FrictionLaw:
+    """The law without a direction. Raises ValueError unless it has a slip speed where it needs one."""
+    needed = options.friction == Tanh.name
+    if needed and slip_speed is None:
+        example = f"'{KINDS['speed'].example}'"
+        raise ValueError(f"--slip-speed: must be given beside --friction tanh, such as {example}")
+    if not needed and slip_speed is not None:
+        raise ValueError(
+            f"--slip-speed {options.slip_speed!r}: must be left out, only --friction tanh has one"
+        )
+    if slip_speed is not None and not slip_speed > 0:
+        raise ValueError(f"--slip-speed {options.slip_speed!r}: must be > 0")
+    return friction_law(options.friction, slip_speed)
+
+
 def quantity(name: str, text: str, kind: str) -> Quantity:
     """A number and its unit. Raises ValueError for anything else, and for a unit of something else."""
     try:
@@ -102,11 +117,17 @@ def quantity(name: str, text: str, kind: str) -> Quantity:
 
 
 def angle(name: str, text: str) -> float:
-    """An angle in radians. Raises ValueError for one without a unit, which might be either."""
+    """A direction in radians.
+
+    Raises ValueError for one without a unit, which might be either, and beyond half a turn.
+    """
     found = quantity(name, text, "angle")
     if found.unit is None and found.number:
         raise ValueError(f"{_option(name)} {text!r}: {UNIT_OF_ANGLE}")
-    return found.into("radian")
+    try:
+        return direction(found)
+    except ValueError as problem:
+        raise ValueError(f"{_option(name)} {text!r}: {problem}") from None
 
 
 def share(name: str, text: str) -> float:

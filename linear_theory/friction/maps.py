@@ -256,7 +256,7 @@ class Mapped(Wrapped):
     >>> from linear_theory import Coulomb, Directional, Mapped, Patches
     >>> rear = Patches([(-0.3, 0.3, -0.5, 0.0, 2.0)], edge=0.02)
     >>> print(Mapped(Directional(0.5, 1.5, form=Coulomb()), rear).words)
-    dry friction times 0.5 forward, 1.5 backward, 1 sideways, fixed to the body times a map on the body
+    dry friction times 0.5 forward, 1.5 backward, 1 sideways, fixed to the body, times a map on the body
     """
 
     map: FrictionMap  # type: ignore[misc]  # None of laws without one, in their class
@@ -281,7 +281,7 @@ class Mapped(Wrapped):
     @property
     def words(self) -> str:
         """See FrictionLaw."""
-        return f"{self.law.words} times a map on the {self.map.fixed_to}"
+        return f"{self.law.words}, times a map on the {self.map.fixed_to}"
 
     @property
     def details(self) -> str:

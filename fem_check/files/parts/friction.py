@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from typing import Any
 
-from fem_check.files.quantities import Quantity
+from fem_check.files.quantities import Quantity, direction
 from fem_check.files.system import System
 from fem_check.files.tables import FrictionMapTable, FrictionTable
 from linear_theory.common import validation
@@ -46,8 +46,16 @@ def _directed(table: FrictionTable, system: System, form: Isotropic) -> Friction
                 lacking = "forward" if forward is None else "backward"
                 raise ValueError(f"{lacking}: must be given beside {name}")
         return form
-    heading = 0.0 if table.heading is None else system.number(table.heading)
+    heading = 0.0 if table.heading is None else _heading(table.heading)
     return Directional(forward, backward, table.sideways, heading, table.fixed_to, form)  # type: ignore[arg-type]
+
+
+def _heading(given: Quantity) -> float:
+    """In radians. Raises ValueError, in the units of the file."""
+    try:
+        return direction(given)
+    except ValueError as problem:
+        raise ValueError(f"heading = {given.text!r}: {problem}") from None
 
 
 def _patches(table: FrictionMapTable, system: System) -> Patches:
