@@ -10,7 +10,8 @@ from fem_check import Bending, Friction, Gravity, Ground, Material, Membrane, Sc
 from fem_check.command import main
 from fem_check.command.options import Options
 from fem_check.command.quantities import asked
-from fem_check.files import read
+from fem_check.files import read, writing
+from fem_check.files.writing import toml_of
 from figures.draw import directional as figure
 from figures.measure import directional as table
 from linear_theory import (
@@ -144,6 +145,27 @@ def test_units_of_a_file(tmp_path: Path) -> None:
 def test_mistakes_in_files(text: str, words: str, tmp_path: Path) -> None:
     with pytest.raises(ValueError, match=words):
         law_of(text, tmp_path)
+
+
+def test_friction_that_no_file_can_say() -> None:
+    """Named in words of the scene, without a file that there is not; plain data hold it."""
+    law = Directional(0.5, 1.5, form=Viscous())
+    effects = [Membrane(Material(0.03, 0.5)), Gravity(3e-6), Friction(1.0, law=law)]
+    scene = Scene(Sheet(), SineWave(), 0.1, effects=effects)
+    with pytest.raises(
+        ValueError, match=r"^law = Directional.* beside a coefficient.*to_dict\(\)"
+    ) as told:
+        toml_of(scene)
+    assert "scene.toml" not in str(told.value)
+    assert Scene.from_dict(scene.to_dict()) == scene
+
+
+def test_a_text_that_cannot_be_read_back_names_no_file(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(writing, "tables_of", lambda *_: {"sheet": {"width": -1.0}, "wave": {}})
+    with pytest.raises(ValueError, match="^scene: a scene file cannot say this") as told:
+        toml_of(Scene(Sheet(), SineWave(), 0.1))
+    assert "[sheet] width = -1" in str(told.value)
+    assert "scene.toml" not in str(told.value)
 
 
 def test_options_of_the_command() -> None:

@@ -100,6 +100,18 @@ def entries_of(law: FrictionLaw) -> dict[str, Any]:
     return {**entries, "slip_speed": law.width} if law.regularised else entries
 
 
+def entries_of_effect(coefficient: float, law: FrictionLaw) -> dict[str, Any]:
+    """What a file says of friction with a coefficient. Raises ValueError for other laws than tanh."""
+    entries = entries_of(law)
+    if entries["law"] != TANH:
+        raise ValueError(
+            f"law = {validation.shown(law)}: cannot be written to a scene file beside a coefficient, "
+            "which there goes with Tanh(slip_speed) alone; keep the scene by to_dict(), which is plain "
+            "data for a scene.json"
+        )
+    return {"coefficient": coefficient, **entries}
+
+
 def _map_entries(found: Any) -> dict[str, Any]:
     if type(found) is not Patches:
         shown = validation.shown(found)
