@@ -162,7 +162,7 @@ def test_friction_that_no_file_can_say() -> None:
 
 def test_a_text_that_cannot_be_read_back_names_no_file(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(writing, "tables_of", lambda *_: {"sheet": {"width": -1.0}, "wave": {}})
-    with pytest.raises(ValueError, match="^scene: a scene file cannot say this") as told:
+    with pytest.raises(ValueError, match=r"^scene: a scene file cannot say this") as told:
         toml_of(Scene(Sheet(), SineWave(), 0.1))
     assert "[sheet] width = -1" in str(told.value)
     assert "scene.toml" not in str(told.value)

@@ -8,7 +8,8 @@ import numpy as np
 from fem_check.answer.growth import alpha_of
 from fem_check.answer.units import Units
 from fem_check.command.options import Options
-from fem_check.files.quantities import KINDS, UNIT_OF_ANGLE, Quantity, direction, read
+from fem_check.command.typed import angle, option, quantity, share
+from fem_check.files.quantities import KINDS, Quantity
 from linear_theory.friction.contact import Contact
 from linear_theory.friction.directional import Directional
 from linear_theory.friction.isotropic import Isotropic
@@ -86,7 +87,7 @@ def _friction(options: Options, slip_speed: float | None) -> FrictionLaw:
         return form
     if forward is None or backward is None:
         lacking = "--forward" if forward is None else "--backward"
-        raise ValueError(f"{lacking}: must be given beside {_option(given[0])}")
+        raise ValueError(f"{lacking}: must be given beside {option(given[0])}")
     assert isinstance(form, Isotropic)
     heading = 0.0 if options.heading is None else angle("heading", options.heading)
     fixed_to = FixedTo.named(options.fixed_to)
@@ -108,38 +109,6 @@ def _form(options: Options, slip_speed: float | None) -> FrictionLaw:
     return friction_law(options.friction, slip_speed)
 
 
-def quantity(name: str, text: str, kind: str) -> Quantity:
-    """A number and its unit. Raises ValueError for anything else, and for a unit of something else."""
-    try:
-        return read(text, kind)
-    except ValueError as problem:
-        raise ValueError(f"{_option(name)} {text!r}: {problem}") from None
-
-
-def angle(name: str, text: str) -> float:
-    """A direction in radians.
-
-    Raises ValueError for one without a unit, which might be either, and beyond half a turn.
-    """
-    found = quantity(name, text, "angle")
-    if found.unit is None and found.number:
-        raise ValueError(f"{_option(name)} {text!r}: {UNIT_OF_ANGLE}")
-    try:
-        return direction(found)
-    except ValueError as problem:
-        raise ValueError(f"{_option(name)} {text!r}: {problem}") from None
-
-
-def share(name: str, text: str) -> float:
-    """A fraction, plain or in per cent."""
-    found = quantity(name, text, "share")
-    return found.into("dimensionless")
-
-
-def _option(name: str) -> str:
-    return f"--{name.replace('_', '-')}"
-
-
 def _common_units(given: dict[str, Quantity]) -> "tuple[pint.Unit, pint.Unit] | None":
     """Units of length and time of the question; None if all numbers are plain.
 
@@ -148,14 +117,14 @@ def _common_units(given: dict[str, Quantity]) -> "tuple[pint.Unit, pint.Unit] | 
     named = [(name, one) for name, one in given.items() if one.unit is not None]
     if not named:
         return None
-    first = f"{_option(named[0][0])} {named[0][1].text!r}"
+    first = f"{option(named[0][0])} {named[0][1].text!r}"
     for name, kind in OPTIONS.items():
         needed, one = name in ("length", "period"), given.get(name)
         if (one is None and needed) or (one is not None and one.unit is None):
-            option = _option(name)
-            what = option if one is None else f"{option} {one.text!r}"
+            said = option(name)
+            what = said if one is None else f"{said} {one.text!r}"
             raise ValueError(
-                f"{what}: needs a unit beside {first}, as in {option} '{KINDS[kind].example}'; or give "
+                f"{what}: needs a unit beside {first}, as in {said} '{KINDS[kind].example}'; or give "
                 "plain numbers only, in units of the sheet"
             )
     length, period = given["length"].unit, given["period"].unit
@@ -189,7 +158,7 @@ def _wave(options: Options, period: float | None) -> Wave:
     for name in FORMULAS:
         if getattr(options, name) != getattr(default, name):
             raise ValueError(
-                f"--wave-csv {options.wave_csv!r}: must not be combined with {_option(name)}"
+                f"--wave-csv {options.wave_csv!r}: must not be combined with {option(name)}"
             )
     if options.length is None:
         raise ValueError("--length: must be given beside --wave-csv, whose y is in its unit")
@@ -216,7 +185,7 @@ def _preset(options: Options, given: list[Quantity]) -> "Preset":
     default = Options()
     for name in ("wave_csv", "period", *FORMULAS):
         if getattr(options, name) != getattr(default, name):
-            raise ValueError(f"{said}: must not be combined with {_option(name)}")
+            raise ValueError(f"{said}: must not be combined with {option(name)}")
     if any(one.unit is not None for one in given):
         raise ValueError(
             f"{said}: must have plain numbers beside it, its unit of time is that of the reaction; "
