@@ -115,7 +115,7 @@ def test_wave_of_harmonics_and_all_options(capsys):
         (["--alpha", "nan"], "alpha"),
         (["--alpha", "0.1", "--width", "-1"], "width = -1: must be > 0"),
         (["--alpha", "0.1", "--load", "heavy"], "--load"),
-        (["--alpha", "0.1", "--friction", "tanh"], "slip_speed"),
+        (["--alpha", "0.1", "--friction", "tanh"], "--slip-speed: must be given"),
         (["--alpha", "0.1", "--count", "0"], "count = 0"),
         (["--alpha", "0.1", "--rtol", "2"], "rtol = 2"),
         (["--alpha", "0.1", "--speed"], "--speed"),

@@ -1,12 +1,14 @@
 """Speeds under excitable waves: cycle by cycle, and on periodic orbits."""
 
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from fem_check import Friction, Gravity, Material, Membrane, simulate
+from fem_check import Friction, Gravity, Material, Membrane, predict, simulate
+from fem_check.choice.answers import noise
 from fem_check.excitable import (
     Excitation,
     FitzHughNagumo,
@@ -18,6 +20,7 @@ from fem_check.excitable import (
     speeds,
 )
 from linear_theory import Contact, Scene, Sheet, SineWave, line_balance
+from linear_theory.wave.uncertain import error_words
 
 Array = NDArray[np.float64]
 
@@ -115,6 +118,17 @@ def test_the_error_of_an_orbit_is_honest(train: PeriodicExcitation) -> None:
     one, other = (line_balance(wave, 0.1, length=1.0, rtol=1e-2) for wave in (train, finer))
     assert abs(one.mean - other.mean) <= one.error + other.error
     assert one.wave_error > 0
+
+
+@pytest.mark.filterwarnings("ignore::linear_theory.BeyondReachWarning")
+def test_answers_call_the_wave_and_its_error_what_they_are(train: PeriodicExcitation) -> None:
+    found = predict(SHEET, train, 0.1, rtol=0.3, method="strip")
+    said = " ".join(str(found).split())
+    assert f"an excitable wave of period {train.period:.4g}" in said
+    assert "numerical error of the excitable wave" in said
+    assert "measured wave" not in said
+    assert noise(replace(found.speed, wave_error=0.0), found.scene) == [error_words(train)]
+    assert error_words(train) == "numerical error of the excitable wave"
 
 
 def test_the_stepped_sheet_follows_a_wave_that_does_not_repeat(phase_wave: Excitation) -> None:

@@ -7,9 +7,11 @@ from typing import Any
 import pytest
 
 from fem_check import Bending, Friction, Gravity, Ground, Material, Membrane, Scene
+from fem_check.command import main
 from fem_check.command.options import Options
 from fem_check.command.quantities import asked
-from fem_check.files import read
+from fem_check.files import read, writing
+from fem_check.files.writing import toml_of
 from figures.draw import directional as figure
 from figures.measure import directional as table
 from linear_theory import (
@@ -147,6 +149,27 @@ def test_mistakes_in_files(text: str, words: str, tmp_path: Path) -> None:
         law_of(text, tmp_path)
 
 
+def test_friction_that_no_file_can_say() -> None:
+    """Named in words of the scene, without a file that there is not; plain data hold it."""
+    law = Directional(0.5, 1.5, form=Viscous())
+    effects = [Membrane(Material(0.03, 0.5)), Gravity(3e-6), Friction(1.0, law=law)]
+    scene = Scene(Sheet(), SineWave(), 0.1, effects=effects)
+    with pytest.raises(
+        ValueError, match=r"^law = Directional.* beside a coefficient.*to_dict\(\)"
+    ) as told:
+        toml_of(scene)
+    assert "scene.toml" not in str(told.value)
+    assert Scene.from_dict(scene.to_dict()) == scene
+
+
+def test_a_text_that_cannot_be_read_back_names_no_file(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(writing, "tables_of", lambda *_: {"sheet": {"width": -1.0}, "wave": {}})
+    with pytest.raises(ValueError, match=r"^scene: a scene file cannot say this") as told:
+        toml_of(Scene(Sheet(), SineWave(), 0.1))
+    assert "[sheet] width = -1" in str(told.value)
+    assert "scene.toml" not in str(told.value)
+
+
 def test_options_of_the_command() -> None:
     question = asked(Options(alpha=0.1, forward=0.5, backward=1.5, sideways=0.7))
     assert question.scene.contact.friction == Directional(0.5, 1.5, 0.7)
@@ -164,12 +187,34 @@ def test_options_of_the_command() -> None:
         ),
         ({"forward": 1.0, "backward": 2.0, "heading": "20 mm"}, "--heading '20 mm': is not an angle"),
         (
-            {"forward": 1.0, "backward": 2.0, "heading": "200 deg"},
-            "heading = 3.49.*must be from -pi to pi",
+            {"forward": 1.0, "backward": 2.0, "heading": "360 deg"},
+            "^--heading '360 deg': must be from -180 deg to 180 deg",
         ),
+        (
+            {"forward": 1.0, "backward": 2.0, "friction": "tanh"},
+            "^--slip-speed: must be given beside --friction tanh, such as '0.1 mm/s'",
+        ),
+        ({"friction": "tanh"}, "^--slip-speed: must be given beside --friction tanh"),
+        ({"slip_speed": "0.1"}, "^--slip-speed '0.1': must be left out, only --friction tanh has one"),
+        ({"friction": "tanh", "slip_speed": "-0.1"}, "^--slip-speed '-0.1': must be > 0"),
     ):
         with pytest.raises(ValueError, match=words):
             asked(Options(alpha=0.1, **given))
+
+
+def test_half_a_turn_is_within_range() -> None:
+    for text, wanted in (("180 deg", math.pi), ("-0.5 turn", -math.pi), ("200 grade", math.pi)):
+        options = Options(alpha=0.1, forward=0.5, backward=1.5, heading=text)
+        assert asked(options).scene.contact.friction == Directional(0.5, 1.5, heading=wanted)
+
+
+def test_answer_says_what_the_direction_belongs_to(capsys: pytest.CaptureFixture[str]) -> None:
+    words = ["--alpha", "0.01", "--forward", "0.5", "--backward", "1.5", "--fixed-to"]
+    for where in ("ground", "body"):
+        with pytest.raises(SystemExit):
+            main([*words, where, "--rtol", "0.3"])
+        (line,) = (x for x in capsys.readouterr().out.splitlines() if x.startswith("  friction"))
+        assert f"dry, 0.5 forward, 1.5 backward, 1 sideways, fixed to the {where}: " in f"{line} "
 
 
 def test_figure_agrees_with_formulas_and_its_table_with_the_code() -> None:

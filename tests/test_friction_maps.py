@@ -13,6 +13,7 @@ from linear_theory import (
     FrictionLaw,
     GivenMap,
     Mapped,
+    OnLowerFace,
     Patches,
     Sheet,
     SineWave,
@@ -103,8 +104,17 @@ def test_creases_of_a_map_are_checked() -> None:
     for bad in (3, "ab", ((0.1,),), (("a",), ())):
         with pytest.raises(ValueError, match="creases"):
             GivenMap(lambda x, y: 1.0, creases=bad)  # type: ignore[arg-type]
+    for bad in (((), 0.13), ("ab", ()), (np.array(0.1), ()), 5, None):
+        with pytest.raises(ValueError, match=r"^creases = .*: must be two lists of numbers, x and y$"):
+            GivenMap(lambda x, y: 1.0, creases=bad)  # type: ignore[arg-type]
     given = GivenMap(lambda x, y: 1.0, creases=([0.1], []))  # type: ignore[arg-type]
     assert given.creases == ((0.1,), ())
+
+
+def test_words_of_laws_around_laws() -> None:
+    law = OnLowerFace(Mapped(Directional(0.5, 1.5), GivenMap(lambda x, y: 1.0)))
+    words = "dry friction times 0.5 forward, 1.5 backward, 1 sideways, fixed to the body"
+    assert law.words == f"{words}, times a map on the body, on the lower face"
 
 
 SQUARE = {(0.3, 0.2): 0.3 * 0.7 * 0.2**2 / (1 + 0.3 * 0.2)}

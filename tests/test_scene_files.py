@@ -315,6 +315,21 @@ def test_growth_in_three_ways() -> None:
         assert (scene.alpha, scene.curvature_coupling) == (alpha, sign * beta)
 
 
+def test_layers_of_extreme_ratios() -> None:
+    """The sheet grows as the one layer that is left; beyond, and for endless curvature, an error."""
+    for ratio, left in ((1e50, 0.2), (1e-50, 0.0)):
+        for one in (bilayer(0.2, 1.0, ratio), bilayer(0.2, 1.0, 1.0, ratio)):
+            assert one == pytest.approx((left, 0.0), abs=1e-12)
+    for name in ("thickness_ratio", "modulus_ratio"):
+        for ratio in (1e308, 5e-324):
+            with pytest.raises(ValueError, match=rf"^{name} = \S+: must be in \[1e-50, 1e\+50\]$"):
+                bilayer(0.2, 1.0, **{name: ratio})
+    with pytest.raises(
+        ValueError, match=r"^growth = 1e\+308: must have a finite ratio to thickness = 1e-05"
+    ):
+        bilayer(1e308, 1e-5)
+
+
 def test_the_order_of_tables_has_no_meaning() -> None:
     tables = [
         "[bending]",

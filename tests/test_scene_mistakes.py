@@ -88,6 +88,11 @@ REFUSED = {
         "2",
         "[friction] law = 'dry': must be 'tanh' where a coefficient is given",
     ),
+    "direction": (
+        '[friction]\nforward = 1\nbackward = 2\nheading = "360 deg"',
+        "4",
+        "[friction] heading = '360 deg': must be from -180 deg to 180 deg",
+    ),
     "no load": ("[friction]\ncoefficient = 1.0\nslip_speed = 0.1", "", "must come with Gravity"),
     "no ground": ("[bending]\n[gravity]\nweight = 1.0", "", "Gravity must come with Ground"),
     "weight and density": ("[gravity]\n", "1", "[gravity] weight, density: one of them must be given"),
@@ -156,6 +161,24 @@ GROWTHS = {
         "curvature_coupling = 1: must be 0 without the effect Bending",
     ),
     "law": ('[growth]\nalpha = 0.1\nlaw = "log"', "[growth] law = 'log': must be 'exp', 'linear' or"),
+    "ratio of layers": (
+        "[growth.bilayer]\ngrowth = 0.1\nthickness_ratio = 1e308",
+        "thickness_ratio = 1e+308: must be in [1e-50, 1e+50]",
+    ),
+    "bent onto itself": (
+        "[self_contact]\n[bending]\n[run]\ncells = [4, 16]\n[growth]\nalpha = 0.1\n"
+        "curvature_coupling = -60.0",
+        "1: [self_contact] curvature_coupling: bends the sheet by 60, must be by <= ",
+    ),
+    "wide gap": (
+        "[self_contact]\ngap = 1e9\n[bending]\n[growth]\nalpha = 0.1\ncurvature_coupling = 5.0",
+        "gap 1e+09; or the gap must be <= 0.",
+    ),
+    "long elements": (
+        "[self_contact]\n[bending]\n[sheet]\nthickness = 1e-3\n[run]\ncells = [2, 4]\n[growth]\n"
+        "alpha = 0.1\ncurvature_coupling = 20.0",
+        "1: [self_contact] cells: elements are 0.354 long",
+    ),
     "bilayer": ("[growth]\nbilayer = 3", "[growth] bilayer = 3: must be a table"),
     "missing": ("", "[growth]: must be given, with alpha, swelling or bilayer"),
     "too much": (

@@ -1,5 +1,6 @@
 """Parts of a sheet that meet keep apart by its thickness."""
 
+import contextlib
 import dataclasses
 from collections.abc import Callable
 from pathlib import Path
@@ -340,6 +341,9 @@ def test_scenes_that_it_cannot_be_in() -> None:
     flat = (Membrane(MATERIAL), SelfContact(MATERIAL))
     with pytest.raises(ValueError, match="SelfContact must come with Bending"):
         Scene(Sheet(), lying().wave, 0.1, effects=flat)
+    pressed = (Membrane(MATERIAL), Gravity(1e-3), Friction(0.7, 0.1), SelfContact(MATERIAL))
+    with pytest.raises(ValueError, match="SelfContact must come with Bending"):
+        Scene(Sheet(), lying().wave, 0.1, effects=pressed)
     other = SelfContact(Material(0.02, 0.5))
     scene = lying(cells=(2, 4))
     with pytest.raises(ValueError, match="must be the same"):
@@ -348,7 +352,17 @@ def test_scenes_that_it_cannot_be_in() -> None:
     bends = {"curvature_coupling": 45.0, "cells": (8, 16)}
     sharp = scene.but(effects=(*scene.effects, contact), **bends)
     with pytest.raises(ValueError, match="curvature_coupling: bends the sheet by 45, must be by <= 39"):
+        ShellModel(sharp).check_elements()
+    with pytest.raises(ValueError, match="curvature_coupling: bends the sheet by 45, must be by <= 39"):
         ShellModel(sharp).couplings  # noqa: B018 - made on first use
+    wide = scene.but(effects=(*scene.effects, SelfContact(MATERIAL, gap=1.0)), curvature_coupling=10.0)
+    with pytest.raises(ValueError, match=r"or the gap must be <= \d") as refused:
+        ShellModel(wide).check_elements()
+    for share in (0.99, 1.01):  # of the gap that is named, met and missed
+        near = SelfContact(MATERIAL, gap=share * float(str(refused.value).split()[-1]))
+        bent = ShellModel(scene.but(effects=(*scene.effects, near), curvature_coupling=10.0))
+        with pytest.raises(ValueError, match="bends") if share > 1 else contextlib.nullcontext():
+            bent.check_elements()
     thin = dataclasses.replace(Sheet(), thickness=1e-3)
     material = Material(1e-3, 0.5)
     parts = (Membrane(material), Bending(material), SelfContact(material))

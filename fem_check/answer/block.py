@@ -17,7 +17,7 @@ from fem_check.answer.units import Units
 from fem_check.answer.wave_words import arrows, wave_words
 from linear_theory.growth.laws import Exp
 from linear_theory.scene.scene import Scene
-from linear_theory.wave.uncertain import doubt_of
+from linear_theory.wave.uncertain import doubt_of, error_words
 
 if TYPE_CHECKING:
     from fem_check.choice.result import Prediction
@@ -76,7 +76,7 @@ def asked(scene: Scene, units: Units) -> tuple[str, str]:
     told = " × ".join(plain(units.of_length(size)) for size in sizes)
     own = units == Units.of_sheet(scene.sheet.length, scene.period)
     period = f", T = {plain(units.of_time(scene.period), 6)} {units.time}"
-    words = f"{told} {units.length}, {wave_words(scene.drive)}"
+    words = f"{told} {units.length}, {wave_words(scene.drive, scene.wave)}"
     return words + (_own_units(units) if own else period), _growth(scene, units)
 
 
@@ -147,7 +147,7 @@ def _accuracy(found: "Prediction", units: Units) -> str:
     speed, numerical = found.speed, found.speed.error - found.speed.wave_error
     numbers = f"numerical {rounded_up(units.of_speed(numerical))}"
     if speed.wave_error:
-        numbers += f", noise of the measured wave {rounded_up(units.of_speed(speed.wave_error))}"
+        numbers += f", {error_words(found.scene.wave)} {rounded_up(units.of_speed(speed.wave_error))}"
     if not (found.not_in_error and math.isnan(speed.model_error)):
         numbers += f", model {_model(found, units)}"
     if lacking:

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from linear_theory.wave.protocol import Drive
+from linear_theory.wave.protocol import Drive, Wave
 from linear_theory.wave.travelling import TravellingWave
 
 PULSE = 0.4
@@ -23,11 +23,12 @@ def arrows(drive: Drive, speed: float) -> tuple[str, str]:
     return ways[direction(drive)].format("wave"), ways[int(np.sign(speed))].format("sheet")
 
 
-def wave_words(drive: Drive) -> str:
-    """Number and form of the waves on the sheet."""
+def wave_words(drive: Drive, given: Wave) -> str:
+    """Number and form of the waves on the sheet; what the given wave says of itself goes first."""
     wave = drive.series
     if wave is None:
-        return str(getattr(drive.wave, "words", "a wave c(x, y, t)"))
+        own = getattr(drive.wave, "words", "a wave c(x, y, t)")
+        return str(getattr(given, "words", own))
     if not wave.moves:
         return "growth constant in time"
     count = abs(wave.count)

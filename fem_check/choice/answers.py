@@ -11,10 +11,10 @@ from linear_theory.common.progress import Report
 from linear_theory.common.tolerance import Tolerance
 from linear_theory.scene.scene import Scene
 from linear_theory.speed.result import CrawlSpeed
-from linear_theory.wave.uncertain import uncertainty_of
+from linear_theory.wave.uncertain import error_words, uncertainty_of
 
 CROSSES = "the sheet passes through itself, which no real one does"
-NOISY = "the error is without that of the measured wave, which may be larger than the tolerance"
+NOISY = "the error is without that of the wave, which may be larger than the tolerance"
 UNSTABLE = "growth is so strong that the shapes may not exist on a finer mesh"
 SIDEWAYS = "the tolerance is met along the sheet, but not by the sideways motion or the turning"
 
@@ -45,9 +45,9 @@ def _turns_too_vaguely(speed: CrawlSpeed, tolerance: Tolerance) -> bool:
 
 
 def noise(speed: CrawlSpeed, scene: Scene) -> list[str]:
-    """The noise of a measured wave, where the error of the speed is without it."""
+    """The error of the wave in words, where that of the speed is without it."""
     counted = speed.wave_error or uncertainty_of(scene.wave) is None
-    return [] if counted else ["noise of the measured wave"]
+    return [] if counted else [error_words(scene.wave)]
 
 
 def answer_of(

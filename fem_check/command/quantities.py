@@ -8,12 +8,13 @@ import numpy as np
 from fem_check.answer.growth import alpha_of
 from fem_check.answer.units import Units
 from fem_check.command.options import Options
-from fem_check.files.quantities import KINDS, UNIT_OF_ANGLE, Quantity, read
+from fem_check.command.typed import angle, option, quantity, share
+from fem_check.files.quantities import KINDS, Quantity
 from linear_theory.friction.contact import Contact
 from linear_theory.friction.directional import Directional
 from linear_theory.friction.isotropic import Isotropic
 from linear_theory.friction.law import FrictionLaw
-from linear_theory.friction.laws import friction_law
+from linear_theory.friction.laws import Tanh, friction_law
 from linear_theory.friction.maps import FixedTo
 from linear_theory.scene.scene import Scene
 from linear_theory.sheet.rectangle import Sheet
@@ -79,44 +80,33 @@ def asked(options: Options) -> Asked:
 
 def _friction(options: Options, slip_speed: float | None) -> FrictionLaw:
     """The law, with a direction where the options give one."""
-    form = friction_law(options.friction, slip_speed)
+    form = _form(options, slip_speed)
     forward, backward, default = options.forward, options.backward, Options()
     given = [name for name in DIRECTION if getattr(options, name) != getattr(default, name)]
     if not given:
         return form
     if forward is None or backward is None:
         lacking = "--forward" if forward is None else "--backward"
-        raise ValueError(f"{lacking}: must be given beside {_option(given[0])}")
+        raise ValueError(f"{lacking}: must be given beside {option(given[0])}")
     assert isinstance(form, Isotropic)
     heading = 0.0 if options.heading is None else angle("heading", options.heading)
     fixed_to = FixedTo.named(options.fixed_to)
     return Directional(forward, backward, options.sideways, heading, fixed_to, form)
 
 
-def quantity(name: str, text: str, kind: str) -> Quantity:
-    """A number and its unit. Raises ValueError for anything else, and for a unit of something else."""
-    try:
-        return read(text, kind)
-    except ValueError as problem:
-        raise ValueError(f"{_option(name)} {text!r}: {problem}") from None
-
-
-def angle(name: str, text: str) -> float:
-    """An angle in radians. Raises ValueError for one without a unit, which might be either."""
-    found = quantity(name, text, "angle")
-    if found.unit is None and found.number:
-        raise ValueError(f"{_option(name)} {text!r}: {UNIT_OF_ANGLE}")
-    return found.into("radian")
-
-
-def share(name: str, text: str) -> float:
-    """A fraction, plain or in per cent."""
-    found = quantity(name, text, "share")
-    return found.into("dimensionless")
-
-
-def _option(name: str) -> str:
-    return f"--{name.replace('_', '-')}"
+def _form(options: Options, slip_speed: float | None) -> FrictionLaw:
+    """The law without a direction. Raises ValueError unless it has a slip speed where it needs one."""
+    needed = options.friction == Tanh.name
+    if needed and slip_speed is None:
+        example = f"'{KINDS['speed'].example}'"
+        raise ValueError(f"--slip-speed: must be given beside --friction tanh, such as {example}")
+    if not needed and slip_speed is not None:
+        raise ValueError(
+            f"--slip-speed {options.slip_speed!r}: must be left out, only --friction tanh has one"
+        )
+    if slip_speed is not None and not slip_speed > 0:
+        raise ValueError(f"--slip-speed {options.slip_speed!r}: must be > 0")
+    return friction_law(options.friction, slip_speed)
 
 
 def _common_units(given: dict[str, Quantity]) -> "tuple[pint.Unit, pint.Unit] | None":
@@ -127,14 +117,14 @@ def _common_units(given: dict[str, Quantity]) -> "tuple[pint.Unit, pint.Unit] | 
     named = [(name, one) for name, one in given.items() if one.unit is not None]
     if not named:
         return None
-    first = f"{_option(named[0][0])} {named[0][1].text!r}"
+    first = f"{option(named[0][0])} {named[0][1].text!r}"
     for name, kind in OPTIONS.items():
         needed, one = name in ("length", "period"), given.get(name)
         if (one is None and needed) or (one is not None and one.unit is None):
-            option = _option(name)
-            what = option if one is None else f"{option} {one.text!r}"
+            said = option(name)
+            what = said if one is None else f"{said} {one.text!r}"
             raise ValueError(
-                f"{what}: needs a unit beside {first}, as in {option} '{KINDS[kind].example}'; or give "
+                f"{what}: needs a unit beside {first}, as in {said} '{KINDS[kind].example}'; or give "
                 "plain numbers only, in units of the sheet"
             )
     length, period = given["length"].unit, given["period"].unit
@@ -168,7 +158,7 @@ def _wave(options: Options, period: float | None) -> Wave:
     for name in FORMULAS:
         if getattr(options, name) != getattr(default, name):
             raise ValueError(
-                f"--wave-csv {options.wave_csv!r}: must not be combined with {_option(name)}"
+                f"--wave-csv {options.wave_csv!r}: must not be combined with {option(name)}"
             )
     if options.length is None:
         raise ValueError("--length: must be given beside --wave-csv, whose y is in its unit")
@@ -195,7 +185,7 @@ def _preset(options: Options, given: list[Quantity]) -> "Preset":
     default = Options()
     for name in ("wave_csv", "period", *FORMULAS):
         if getattr(options, name) != getattr(default, name):
-            raise ValueError(f"{said}: must not be combined with {_option(name)}")
+            raise ValueError(f"{said}: must not be combined with {option(name)}")
     if any(one.unit is not None for one in given):
         raise ValueError(
             f"{said}: must have plain numbers beside it, its unit of time is that of the reaction; "

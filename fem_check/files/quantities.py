@@ -1,5 +1,6 @@
 """Quantities as people write them, a number and its unit, for scene files and for the command."""
 
+import math
 import re
 from dataclasses import dataclass
 from functools import cache
@@ -50,6 +51,10 @@ UNIT_OF_ANGLE = "needs a unit, as in '5 deg' or '0.1 rad'"
 """What a plain angle is told that might be in degrees or in radians."""
 
 
+TURN_ENDS = "must be from -180 deg to 180 deg, -pi to pi in radians"
+"""What a direction is told that is out of range, whatever its unit."""
+
+
 @dataclass(frozen=True)
 class Quantity:
     """A number with its unit, None for a plain one. kind: a key of KINDS; text: as it was written."""
@@ -96,6 +101,17 @@ def read(value: object, kind: str) -> Quantity:
     if not _fits(unit, kind):
         raise ValueError(f"is not {_article(kind)} {kind}; {example}")
     return Quantity(kind, str(value), number, unit)
+
+
+def direction(angle: Quantity) -> float:
+    """An angle in radians that says where something points; plain numbers are in radians already.
+
+    Raises ValueError, without the name of what it is, beyond half a turn.
+    """
+    found = angle.into("radian")
+    if abs(found) > math.pi * (1 + 1e-12):
+        raise ValueError(TURN_ENDS)
+    return min(max(found, -math.pi), math.pi)  # half a turn may be rounded up
 
 
 def length_unit(text: str) -> "pint.Unit":

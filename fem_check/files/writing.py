@@ -1,5 +1,6 @@
 """Scenes are written as scene files, in plain numbers in units of the sheet, and are the same again."""
 
+import re
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
@@ -7,6 +8,7 @@ from typing import Any
 from fem_check.choice.settings import RunSettings
 from fem_check.excitable.excitation import Excitation
 from fem_check.excitable.periodic.wave import PeriodicExcitation
+from fem_check.files.mistakes import SceneFileError
 from fem_check.files.parts import excitable, friction
 from fem_check.files.reading import parsed
 from fem_check.files.toml import text_of
@@ -33,6 +35,13 @@ from linear_theory.wave.travelling import SineWave, TravellingWave
 
 HEAD = "A scene of sheetcrawl, in plain numbers: lengths, times and stresses in units of the sheet."
 
+INSTEAD = "keep it by to_dict(), which is plain data for a scene.json"
+
+UNNAMED = Path("scene.toml")
+"""Where the text would be."""
+
+PLACE = rf"^{UNNAMED}(:\d+)?: "
+
 Entries = dict[str, Any]
 
 
@@ -52,11 +61,15 @@ def write(scene: Scene, path: str | Path, run: RunSettings | None = None, head: 
 def toml_of(scene: Scene, run: RunSettings | None = None, head: str = HEAD) -> str:
     """The text of that file, found to say the same scene."""
     text = text_of(tables_of(scene, run), head)
-    again = parsed(text, Path("scene.toml")).scene
+    try:
+        again = parsed(text, UNNAMED).scene
+    except SceneFileError as problem:  # of a file that there is not
+        words = "; ".join(re.sub(PLACE, "", mistake) for mistake in problem.mistakes)
+        raise ValueError(f"scene: a scene file cannot say this ({words}); {INSTEAD}") from None
     for part in PARTS:
         mine, theirs = (content_key(getattr(one, part), part) for one in (scene, again))
         if mine != theirs:
-            raise ValueError(f"{part}: a scene file cannot say exactly this; keep it by to_dict()")
+            raise ValueError(f"{part}: a scene file cannot say exactly this; {INSTEAD}")
     return text
 
 
@@ -172,7 +185,7 @@ TABLES_OF: dict[type, tuple[str, Callable[[Any], Entries]]] = {
     Ground: ("ground", _ground),
     Friction: (
         "friction",
-        lambda effect: {"coefficient": effect.coefficient, **friction.entries_of(effect.law)},
+        lambda effect: friction.entries_of_effect(effect.coefficient, effect.law),
     ),
     Inertia: ("inertia", lambda effect: {"density": effect.density}),
     SelfContact: (

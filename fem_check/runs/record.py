@@ -12,6 +12,7 @@ from fem_check.choice.settings import RunSettings
 from fem_check.choice.solving import Solved
 from linear_theory.common.shown import plain
 from linear_theory.common.version import current_version
+from linear_theory.wave.uncertain import error_words
 
 PACKAGES = ("numpy", "scipy", "scikit-fem", "matplotlib")
 
@@ -52,7 +53,7 @@ def errors_of(found: Solved) -> list[dict[str, Any]]:
     if found.motion is None:
         rows = [("numerical: mesh, times, friction balance", speed.error - speed.wave_error)]
         if speed.wave_error:
-            rows.append(("noise of the measured wave", speed.wave_error))
+            rows.append((error_words(found.answer.scene.wave), speed.wave_error))
         rows.append(("model: distance to the nonlinear flat sheet", speed.model_error))
     else:
         of = found.motion.errors

@@ -84,6 +84,11 @@ class ShellModel(Shown):
         """Of the effects between distant parts of the sheet."""
         return tuple(e.coupling(self.discretisation, self.scene) for e in self.effects if e.couples)
 
+    def check_elements(self) -> None:
+        """Raise ValueError for elements that do not suit an effect."""
+        for effect in self.effects:
+            effect.check_elements(self.discretisation, self.scene)
+
     def growth(self, t: float, x: ArrayLike, y: ArrayLike) -> Array:
         """c at points of the undeformed sheet."""
         return np.asarray(self.drive.value(x, y, t))

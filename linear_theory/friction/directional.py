@@ -128,14 +128,14 @@ class Directional(FrictionLaw):
     @property
     def words(self) -> str:
         """See FrictionLaw."""
-        return f"{self.form.words} times {self.details}, fixed to the {self.fixed_to}"
+        return f"{self.form.words} times {self.details}"
 
     @property
     def details(self) -> str:
         """See FrictionLaw."""
         turned = f", heading {self.heading:.3g} rad" if self.heading else ""
         along = f"{self.forward:g} forward, {self.backward:g} backward"
-        return f"{along}, {self.sideways:g} sideways{turned}"
+        return f"{along}, {self.sideways:g} sideways{turned}, fixed to the {self.fixed_to}"
 
     @property
     def formula(self) -> str:

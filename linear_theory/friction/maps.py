@@ -212,7 +212,7 @@ class GivenMap(FrictionMap):
 
 def _lines(creases: Any) -> tuple[tuple[float, ...], ...]:
     """x and y of lines, checked."""
-    if not isinstance(creases, Sequence) or isinstance(creases, str) or len(creases) != len("xy"):
+    if not _is_list(creases) or len(creases) != len("xy") or not all(map(_is_list, creases)):
         raise ValueError(
             f"creases = {validation.shown(creases)}: must be two lists of numbers, x and y"
         )
@@ -220,9 +220,16 @@ def _lines(creases: Any) -> tuple[tuple[float, ...], ...]:
     return tuple(tuple(np.ravel(one).tolist()) for one in places)
 
 
+def _is_list(value: Any) -> bool:
+    """Whether it is a list of any kind, no text."""
+    if isinstance(value, np.ndarray):
+        return value.ndim > 0
+    return isinstance(value, Sequence) and not isinstance(value, str | bytes)
+
+
 def _listed(patches: Any) -> Any:
     """The patches, if they are a list of any kind."""
-    if isinstance(patches, str) or not isinstance(patches, Sequence | np.ndarray):
+    if not _is_list(patches):
         raise ValueError(f"patches = {validation.shown(patches)}: {PATCHES}")
     return patches
 
@@ -250,7 +257,7 @@ class Mapped(Wrapped):
     >>> from linear_theory import Coulomb, Directional, Mapped, Patches
     >>> rear = Patches([(-0.3, 0.3, -0.5, 0.0, 2.0)], edge=0.02)
     >>> print(Mapped(Directional(0.5, 1.5, form=Coulomb()), rear).words)
-    dry friction times 0.5 forward, 1.5 backward, 1 sideways, fixed to the body times a map on the body
+    dry friction times 0.5 forward, 1.5 backward, 1 sideways, fixed to the body, times a map on the body
     """
 
     map: FrictionMap  # type: ignore[misc]  # None of laws without one, in their class
@@ -280,7 +287,7 @@ class Mapped(Wrapped):
     @property
     def words(self) -> str:
         """See FrictionLaw."""
-        return f"{self.law.words} times a map on the {self.map.fixed_to}"
+        return f"{self.law.words}, times a map on the {self.map.fixed_to}"
 
     @property
     def details(self) -> str:

@@ -96,7 +96,7 @@ class OnLowerFace(Wrapped):
 
     >>> from linear_theory import Coulomb, OnLowerFace
     >>> print(OnLowerFace(Coulomb()).words)
-    dry friction on the lower face
+    dry friction, on the lower face
     """
 
     name: ClassVar[str] = "on lower face"
@@ -120,7 +120,7 @@ class OnLowerFace(Wrapped):
     @property
     def words(self) -> str:
         """See FrictionLaw."""
-        return f"{self.law.words} on the lower face"
+        return f"{self.law.words}, on the lower face"
 
     @property
     def details(self) -> str:

@@ -1,9 +1,13 @@
 """The growth couplings of a bilayer of which one layer grows."""
 
+import math
 from typing import NamedTuple
 
 from linear_theory.common import validation
 from linear_theory.common.shown import Shown
+
+LARGEST_RATIO = 1e50
+"""Of the layers, either way: products of powers of both ratios stay within double precision."""
 
 
 class _Couplings(NamedTuple):
@@ -27,7 +31,8 @@ def bilayer(
     layers. A positive growth bends the sheet away from its upper side, b = -curvature * c * a.
 
     With the mean strain eps/2 of equal layers, this law gives the paper's beta = 100 alpha at h = 0.03.
-    Raises ValueError for a thickness or ratio <= 0.
+    Raises ValueError for a thickness <= 0, a ratio outside [1e-50, 1e50], and a growth so large, or a
+    thickness so small, that the curvature is not finite.
 
     >>> from fem_check import Bending, Material, Membrane, Scene, bilayer
     >>> from linear_theory import Sheet, SineWave
@@ -39,11 +44,20 @@ def bilayer(
     """
     eps = validation.real("growth", growth)
     h = validation.positive("thickness", thickness)
-    m = validation.positive("thickness_ratio", thickness_ratio)
-    n = validation.positive("modulus_ratio", modulus_ratio)
+    m, n = _ratio("thickness_ratio", thickness_ratio), _ratio("modulus_ratio", modulus_ratio)
     curvature = 6 * eps * (1 + m) ** 2 / (h * (3 * (1 + m) ** 2 + (1 + m * n) * (m**2 + 1 / (m * n))))
+    if not math.isfinite(curvature):
+        raise ValueError(f"growth = {eps:g}: must have a finite ratio to thickness = {h:g}")
     upper, lower = h * m / (1 + m), h / (1 + m)
     # No net force: n upper (e_u - eps) + lower e_l = 0 with e the strain at the layer's middle.
     above, below = (h - upper) / 2, (lower - h) / 2
     shift = (n * upper * above + lower * below) / (n * upper + lower)
     return Couplings(eps * n * upper / (n * upper + lower) - curvature * shift, curvature)
+
+
+def _ratio(name: str, value: object) -> float:
+    """A ratio of the upper to the lower layer."""
+    number = validation.positive(name, value)
+    if not 1 / LARGEST_RATIO <= number <= LARGEST_RATIO:
+        raise ValueError(f"{name} = {number:g}: must be in [{1 / LARGEST_RATIO:g}, {LARGEST_RATIO:g}]")
+    return number

@@ -355,7 +355,8 @@ class Scene(Shown):
                 raise ValueError(
                     f"effects = {names}: must name Membrane, else the sheet has no in-plane stiffness"
                 )
-        for effect in self.effects:
+        # Those that put the sheet into space first: what the others need there depends on them.
+        for effect in sorted(self.effects, key=lambda effect: not effect.needs_space):
             effect.check_scene(self)
         bends = any(effect.bends for effect in self.effects)
         if self.contact.friction.on_lower_face and not bends:

@@ -33,7 +33,7 @@ from linear_theory.scene.scene import Scene
 from linear_theory.speed.result import CrawlSpeed, Estimate
 from linear_theory.wave.protocol import Wave
 from linear_theory.wave.sampled import drive
-from linear_theory.wave.uncertain import Uncertainty, doubt_of, uncertainty_of
+from linear_theory.wave.uncertain import Uncertainty, doubt_of, error_words, uncertainty_of
 
 Array = NDArray[np.float64]
 Mean = Callable[[Wave], Array]
@@ -143,7 +143,7 @@ def _with_wave_error(
         return solve(tolerance)
     if THEORY.objections(scene):
         found = solve(tolerance)
-        model = f"{found.model}; the error of the measured wave is NOT counted"
+        model = f"{found.model}; the {error_words(scene.wave)} is NOT counted"
         return replace(found, model=model, converged=False)
     tolerance = tolerance.of_speed(scene.alpha, scene.unit)
     scene.drive.check()

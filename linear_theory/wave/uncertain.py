@@ -11,7 +11,8 @@ class Uncertainty(Protocol):
     """What a wave with the attribute `uncertainty` says of its own error.
 
     Speeds count that error: see `linear_theory.speed.wave_error`. A wave whose `uncertainty` is None,
-    or that has none, is exact. One whose `doubt` says something has an error that is not known.
+    or that has none, is exact. Its `words`, where it has some, say what the error is. A wave whose
+    `doubt` says something has an error that is not known.
     """
 
     @property
@@ -28,6 +29,11 @@ class Uncertainty(Protocol):
 def uncertainty_of(wave: Wave) -> Uncertainty | None:
     """What the wave says of its own error; None where it is exact."""
     return getattr(wave, "uncertainty", None)
+
+
+def error_words(wave: Wave) -> str:
+    """What the error of an uncertain wave is, in a few words: the `words` of its `uncertainty`."""
+    return str(getattr(uncertainty_of(wave), "words", "error of the wave"))
 
 
 def doubt_of(wave: Wave) -> str:

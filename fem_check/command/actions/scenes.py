@@ -7,7 +7,7 @@ from fem_check.choice.asked import way_for
 from fem_check.choice.result import Prediction
 from fem_check.choice.solving import solved
 from fem_check.command.options import Options
-from fem_check.command.quantities import share
+from fem_check.command.typed import share
 from fem_check.command.waiting import Waiting
 from fem_check.files.mistakes import Mistakes, SceneFileError
 from fem_check.files.parts.scene_file import SceneFile

@@ -32,6 +32,11 @@ class OrbitUncertainty(Shown):
         return {"share": self.share}
 
     @property
+    def words(self) -> str:
+        """What the error is."""
+        return "numerical error of the excitable wave"
+
+    @property
     def share(self) -> float:
         """Root mean square of the error of c over that of c."""
         c, apart = (self._sampled(scale) for scale in (0.0, 1.0))

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from typing import Any
 
-from fem_check.files.quantities import Quantity
+from fem_check.files.quantities import Quantity, direction
 from fem_check.files.system import System
 from fem_check.files.tables import FrictionMapTable, FrictionTable
 from linear_theory.common import validation
@@ -46,8 +46,16 @@ def _directed(table: FrictionTable, system: System, form: Isotropic) -> Friction
                 lacking = "forward" if forward is None else "backward"
                 raise ValueError(f"{lacking}: must be given beside {name}")
         return form
-    heading = 0.0 if table.heading is None else system.number(table.heading)
+    heading = 0.0 if table.heading is None else _heading(table.heading)
     return Directional(forward, backward, table.sideways, heading, table.fixed_to, form)  # type: ignore[arg-type]
+
+
+def _heading(given: Quantity) -> float:
+    """In radians. Raises ValueError, in the units of the file."""
+    try:
+        return direction(given)
+    except ValueError as problem:
+        raise ValueError(f"heading = {given.text!r}: {problem}") from None
 
 
 def _patches(table: FrictionMapTable, system: System) -> Patches:
@@ -90,6 +98,18 @@ def entries_of(law: FrictionLaw) -> dict[str, Any]:
         raise ValueError(f"friction = {validation.shown(law)}: has no name in a scene file")
     entries = {"law": LAWS[law.name]}
     return {**entries, "slip_speed": law.width} if law.regularised else entries
+
+
+def entries_of_effect(coefficient: float, law: FrictionLaw) -> dict[str, Any]:
+    """What a file says of friction with a coefficient. Raises ValueError for other laws than tanh."""
+    entries = entries_of(law)
+    if entries["law"] != TANH:
+        raise ValueError(
+            f"law = {validation.shown(law)}: cannot be written to a scene file beside a coefficient, "
+            "which there goes with Tanh(slip_speed) alone; keep the scene by to_dict(), which is plain "
+            "data for a scene.json"
+        )
+    return {"coefficient": coefficient, **entries}
 
 
 def _map_entries(found: Any) -> dict[str, Any]:

@@ -16,6 +16,7 @@ from fem_check.files.parts.waves import growth_of, wave_of
 from fem_check.files.system import System, system_of
 from fem_check.files.tables import RunTable
 from fem_check.mesh.elements import from_data
+from fem_check.shell.model import ShellModel
 from linear_theory.common import validation
 from linear_theory.common.shown import Shown
 from linear_theory.scene.scene import Scene
@@ -87,6 +88,9 @@ def _scene(
         with mistakes.under("friction"):
             scene = with_contact(scene, tables.get("friction"), system)
         scene = _with_elements(scene, tables, system, folder, mistakes, made)
+    if scene is not None and not mistakes and "self_contact" in tables:
+        with mistakes.under("self_contact"):
+            ShellModel(scene).check_elements()
     return scene
 
 

@@ -106,6 +106,9 @@ class Effect(ABC):
         """Unit normal of the ground under each point, (3, points); None if it is e_z."""
         return None
 
+    def check_elements(self, discretisation: Discretisation, scene: Scene) -> None:  # noqa: B027
+        """Raise ValueError if the elements of a scene do not suit it, before any step in time."""
+
     def check_scene(self, scene: Scene) -> None:  # noqa: B027 - most need nothing
         """Raise ValueError if the scene lacks what the effect requires or contradicts it."""
 

@@ -67,7 +67,7 @@ class Friction(Value, Effect):
     >>> print(Friction(0.5, law=Viscous()).law.words)
     viscous friction
     >>> print(Friction(0.5, law=Viscous(), surface="bottom").law.words)
-    viscous friction on the lower face
+    viscous friction, on the lower face
     """
 
     coefficient: float

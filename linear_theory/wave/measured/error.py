@@ -39,6 +39,11 @@ class FitUncertainty(Shown):
     size: float
     period_error: float
 
+    @property
+    def words(self) -> str:
+        """What the error is."""
+        return "noise of the measured wave"
+
     def _rows(self) -> Mapping[str, Any]:
         functions = {"basis": self.wave.basis, "larger": self.larger.basis}
         return {"share": self.share, "noise": self.noise, "missed": self.missed, **functions}

@@ -97,19 +97,35 @@ class SelfContact(Value, Effect):
     def coupling(self, discretisation: Discretisation, scene: Scene) -> Coupling:
         """The barrier on a triangulation whose sagitta is a small part of the thickness.
 
-        Raises ValueError for elements too long for the curvature of the sheet, and for a sheet that
-        would touch itself within the length over which points count as neighbours.
+        Raises ValueError as `check_elements`.
         """
+        surface, apart = self._surface(discretisation, scene)
+        return Barrier(surface, self.material.thickness, self.gap, self.stiffness, apart)
+
+    def check_elements(self, discretisation: Discretisation, scene: Scene) -> None:
+        """Raise ValueError for elements or a gap that do not fit the curvature of the sheet.
+
+        Elements may be too long for it, and the sheet may touch itself within the length over which
+        points count as neighbours.
+        """
+        self._surface(discretisation, scene)
+
+    def _surface(self, discretisation: Discretisation, scene: Scene) -> tuple[Triangulation, float]:
+        """The triangulation, and the distance along it within which points are neighbours."""
         sharpest = abs(scene.growth.curvature_coupling) * float(abs(scene.extremes).max())
         surface = Triangulation(discretisation, self._pieces(discretisation, sharpest))
-        apart = surface.longest + ROOM * self.distance / _least_stretch(scene)
+        neighbours = ROOM / _least_stretch(scene)
+        apart = surface.longest + neighbours * self.distance
         if sharpest * (apart + self.distance) > 2 * math.pi:
             most = 2 * math.pi / (apart + self.distance)
+            thickness = self.material.thickness
+            gap = (2 * math.pi / sharpest - surface.longest) / (neighbours + 1) - thickness
+            remedy = f"; or the gap must be <= {gap:.3g}" if gap > 0 else ""
             raise ValueError(
                 f"curvature_coupling: bends the sheet by {sharpest:.3g}, must be by <= {most:.3g} for "
-                f"SelfContact with thickness {self.material.thickness:g} and gap {self.gap:g}"
+                f"SelfContact with thickness {thickness:g} and gap {self.gap:g}{remedy}"
             )
-        return Barrier(surface, self.material.thickness, self.gap, self.stiffness, apart)
+        return surface, apart
 
     def _pieces(self, discretisation: Discretisation, sharpest: float) -> int:
         """An even number of parts of the side of an element, which keeps mirror symmetries."""
