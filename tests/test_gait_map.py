@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from matplotlib.figure import Figure
 
 from fem_check.mesh.location import covering
 from fem_check.runs.lock import claimed
@@ -117,3 +118,14 @@ def test_trapezoids_have_one_area_and_the_optimum_is_that_of_a_parabola() -> Non
     found = speed_map.Grid(np.ones(1), y, speed, 0 * speed, 0 * speed)
     assert fig5.optimum(found, 1)[1.0] == pytest.approx(0.93)
     assert fig5.optimum(found, -1)[1.0] == y[-1]
+
+
+def test_cells_below_their_error_are_hatched() -> None:
+    """Each a rectangle around its place, with what is unknown left alone."""
+    speed = np.array([[0.1, -0.1, np.nan], [0.1, 0.2, 0.1]])
+    error = np.array([[0.2, 0.05, np.inf], [np.inf, 0.1, np.nan]])
+    found = speed_map.Grid(np.array([0.0, 1.0, 3.0]), np.array([0.0, 2.0]), speed, error, 0 * speed)
+    axes = Figure().add_subplot()
+    speed_map.draw_speeds(axes, found, 0.2)
+    boxes = {(p.get_x(), p.get_y(), p.get_width(), p.get_height(), p.get_hatch()) for p in axes.patches}
+    assert boxes == {(-0.5, -1.0, 1.0, 2.0, speed_map.HATCH), (-0.5, 1.0, 1.0, 2.0, speed_map.HATCH)}

@@ -23,6 +23,9 @@ LAWS = ("viscous", "dry")
 FEWEST = 9
 """Rows that make a map."""
 
+MOST_SHOWN = 90
+"""Percentile of |V| at which the colours end: where the sheet snaps V is beyond all others."""
+
 TITLES = {"printed": r"$\sin\,\sin$ (eq. 13)", "cosine": r"$\cos\,\cos$"}
 
 
@@ -65,14 +68,14 @@ def main(arguments: Sequence[str] | None = None) -> None:
     }
     for j, law in enumerate(LAWS):
         speeds = [abs(r.third) for form in FORMS for r in shown[form, law]]
-        most = float(np.nanmax(speeds)) if speeds else 1.0
+        most = float(np.nanpercentile(speeds, MOST_SHOWN)) if speeds else 1.0
         images = [draw_ground(panels[i, j], shown[form, law], most) for i, form in enumerate(FORMS)]
         for i, form in enumerate(FORMS):
             panels[i, j].set_title(f"{TITLES[form]}, {law}", loc="left")
         image = next((found for found in images if found is not None), None)
         if image is not None:
-            bar: dict[str, Any] = {"location": "bottom", "label": "$V$ ($L$ a cycle)", "shrink": 0.8}
-            fig.colorbar(image, ax=list(panels[:, j]), **bar)
+            bar: dict[str, Any] = {"location": "bottom", "label": "$V$ ($L$ a cycle)", "extend": "both"}
+            fig.colorbar(image, ax=list(panels[:, j]), shrink=0.8, **bar)
     for ax in panels[-1]:
         ax.set_xlabel(r"$L/\lambda_x$ (across)")
     for ax in panels[:, 0]:

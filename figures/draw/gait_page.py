@@ -62,12 +62,15 @@ its area L²/2 agree.
 
 ![Speed of trapezoids of one area](../figures/gallery/fig5.png)
 
+Dashed: the best length according to the paper; circles: the best of each ratio; hatched: |V| is below
+its error.
+
 With sines, as eq. 13 has it, ground with ridges along one axis only (B, C) would be flat, so that
 "cosine" ground is run too. The paper's viscous friction, weight times v/v0, is some thousandths of the
 weight at 0.1 L a cycle; slopes reach 0.6. Under dry friction a sheet that buckles may
 take another way with other steps: on flat ground V of the forward gait is
 SPEEDS.
-That range is the least error of all grounds above.
+Such sheets are run a second time with other steps, and the difference is part of their errors.
 
 ![Speed on uneven ground](../figures/gallery/fig6.png)
 

@@ -2,7 +2,6 @@
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -108,10 +107,6 @@ def _grounds() -> Iterator[tuple[str, str, str]]:
         found = {name: kept.get(place) for name, place in terrain.SHOWN.items()}
         if len(kept) < ENOUGH or not all(found.values()):
             continue
-        if law == "dry":
-            ways = list(by_steps("forward").values())
-            least = max(ways) - min(ways)
-            kept = {p: replace(r, error=max(r.error, least)) for p, r in kept.items()}
         shown = {name: kept[place] for name, place in terrain.SHOWN.items()}
         a = shown["A"]
         for letter, words, way in (("B", "least", -1), ("C", "largest", 1)):
@@ -135,8 +130,7 @@ def _grounds() -> Iterator[tuple[str, str, str]]:
 def by_steps(gait: str) -> dict[int, float]:
     """V of a gait under dry friction on flat ground by the number of steps a cycle, L a cycle.
 
-    A sheet that buckles may take another way with other steps, which the error of the steps does not
-    see: the range is the least error of such speeds.
+    A sheet that buckles may take another way with other steps.
     """
     steps = {"none": decisive.STEPS, **decisive.OTHER_STEPS}
     rows = [r for r in decisive.TABLE.read() if (r.gait, r.friction) == (gait, "dry")]

@@ -5,6 +5,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.patches import Rectangle
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
@@ -55,12 +56,26 @@ def draw_speeds(ax: Axes, found: Grid, most: float) -> Any:
     image = ax.pcolormesh(found.x, found.y, found.speed, **look)
     if np.nanmin(found.speed) < 0 < np.nanmax(found.speed) and min(found.speed.shape) > 1:
         ax.contour(found.x, found.y, found.speed, [0.0], colors="black", linewidths=0.8)
-    unsure = np.ma.masked_where(~(np.abs(found.speed) < found.error), np.ones_like(found.speed))
-    if unsure.count():
-        ax.pcolor(found.x, found.y, unsure, shading="nearest", hatch=HATCH, alpha=0)
+    _hatch(ax, found)
     y, x = np.nonzero(found.crossed > 0)
     ax.plot(found.x[x], found.y[y], ".", color="0.25", markersize=2)
     return image
+
+
+def _hatch(ax: Axes, found: Grid) -> None:
+    """Cells whose speed is below its error, one by one: matplotlib hatches no transparent mesh."""
+    (left, right), (low, high) = (_sides(v) for v in (found.x, found.y))
+    look: dict[str, Any] = {"facecolor": "none", "edgecolor": "0.35", "linewidth": 0.0, "hatch": HATCH}
+    for i, j in np.argwhere(np.abs(found.speed) < found.error):
+        size = right[j] - left[j], high[i] - low[i]
+        ax.add_patch(Rectangle((left[j], low[i]), *size, **look))
+
+
+def _sides(centres: Array) -> tuple[Array, Array]:
+    """Of cells, halfway to their neighbours, as pcolormesh has them."""
+    middles = (centres[1:] + centres[:-1]) / 2
+    edges = np.concatenate([[2 * centres[0] - middles[0]], middles, [2 * centres[-1] - middles[-1]]])
+    return edges[:-1], edges[1:]
 
 
 FEWEST = 3
