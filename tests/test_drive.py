@@ -74,10 +74,10 @@ def literal(k: int, share: float = 0.2, times: int = 997) -> float:
 @pytest.mark.parametrize("k", [19, 20, 40])
 def test_a_harmonic_that_times_could_miss_is_seen(k: int) -> None:
     """From 20 equidistant times sin(2 pi 40 t) and sin(2 pi 80 t) are 0, and V was 0.073 and 0.143."""
-    found = crawl_speed(SHEET, trembling(k), ALPHA, rtol=5e-2)
-    assert abs(found.mean - literal(k)) <= min(found.error, 0.02 * abs(found.mean)) + 1e-5
+    found = crawl_speed(SHEET, trembling(k), ALPHA, rtol=2e-2)
+    assert abs(found.mean - literal(k)) <= found.error + 1e-5
     assert found.error <= 0.1 * abs(found.mean)
-    assert found.converged == (found.error <= 5e-2 * abs(found.mean))
+    assert found.converged == (found.error <= 2e-2 * abs(found.mean))
 
 
 def line_reference(k: int, times: int = 4099, points: int = 2001) -> float:
@@ -109,10 +109,10 @@ def test_known_harmonics_are_seen() -> None:
     cosine, sine = np.zeros((2, 40))
     cosine[-1], sine[0] = 0.1, 1.0
     wave = TravellingWave(cosine, sine)
-    found = crawl_speed(SHEET, wave, ALPHA, rtol=5e-2)
+    found = crawl_speed(SHEET, wave, ALPHA, rtol=2e-2)
     # by the series on 16 000 times, and by Ritz on other cells: 0.01861
-    assert abs(found.mean - 0.01861) <= min(found.error, 0.01 * found.mean) + 1e-5
-    assert found.error < 0.05 * found.mean
+    assert abs(found.mean - 0.01861) <= found.error + 1e-5
+    assert found.error < 0.02 * found.mean
 
 
 def planar(wave: object, *effects: object) -> Scene:
@@ -121,8 +121,8 @@ def planar(wave: object, *effects: object) -> Scene:
 
 def test_phases_of_a_cycle_follow_the_harmonics() -> None:
     """At multiples of T/16 sin(2 pi 16 t) is 0: the speed was that without it."""
-    still = cycle_speed(planar(SINE), rtol=3e-2)
-    found = cycle_speed(planar(trembling(16)), rtol=3e-2)
+    still = cycle_speed(planar(SINE), rtol=1e-2)
+    found = cycle_speed(planar(trembling(16)), rtol=1e-2)
     assert abs(found.mean - still.mean) > 3 * (found.error + still.error)
     # to first order in growth both are literal; what the nonlinear sheet adds is the same to alpha
     shift = (found.mean - still.mean) / still.mean
@@ -287,7 +287,7 @@ def test_finer_meshes_are_not_tried_where_they_do_not_help(monkeypatch: pytest.M
         return cycle.Cycle(scene)
 
     monkeypatch.setattr("fem_check.choice.levels.Cycle", counted)
-    found = predict(SHEET, trembling(12, share=0.5), ALPHA, method="cycle", rtol=1e-2)
+    found = predict(SHEET, trembling(12, share=0.5), ALPHA, method="cycle", rtol=1e-3)
     assert not found.converged
     assert len(asked) < len(MESHES)
 
@@ -308,10 +308,10 @@ PLACES = np.random.default_rng(3).uniform(-0.45, 0.45, 6)
 @pytest.mark.parametrize("place", [-0.14511, 0.2977, *PLACES])
 def test_what_trembles_in_a_narrow_place_is_seen_wherever_it_is(place: float) -> None:
     """A hundredth of the body wide; with 24 points it fell between them, and V was -0.59, converged."""
-    wave = narrow(64, place, 0.0085)
-    assert wave.on(SHEET, on_axis(1.0)).rates.highest(0.1) == 64
-    assert wave.on(SHEET).rates.highest(0.1) == 64
-    found = line_balance(wave, 0.05, rtol=0.1, length=1.0)
+    wave = narrow(128, place, 0.0085)
+    assert wave.on(SHEET, on_axis(1.0)).rates.highest(0.1) == 128
+    assert wave.on(SHEET).rates.highest(0.1) == 128
+    found = line_balance(wave, 0.05, rtol=3e-2, length=1.0)
     # 0.0015 to 0.0023 by place; 1009 times and 1000 points are off by up to 3e-5 from 9973 and 2000
     assert abs(found.mean - sorted_line(wave, 1009, 1000, 0.05)) <= found.error + 3e-5
 

@@ -10,7 +10,7 @@ from tests.random_trials import FAMILIES, outcome
 
 SEED = 1
 COUNTS = {"speed": 16, "line": 30, "prediction": 4, "command": 40}
-"""So that all take some 20 s; the whole of what was tried is in the head of `random_trials`."""
+"""So that all take some 30 s; the whole of what was tried is in the head of `random_trials`."""
 
 
 @pytest.mark.parametrize(
