@@ -25,7 +25,7 @@ from fem_check.output.pictures import moving_of
 from fem_check.runs.record import errors_of
 from fem_check.shell.statics.equilibrium import ConvergenceError
 from fem_check.shell.stepping.further import second_runs
-from fem_check.shell.stepping.further.failed import FURTHER
+from fem_check.shell.stepping.further.errors import FURTHER
 from fem_check.shell.stepping.run import Run
 from fem_check.shell.stepping.trajectory import SpeedErrors, Trajectory
 from fem_check.sweeps.records.record import answer_of
@@ -156,7 +156,7 @@ def test_every_run_that_may_fail_has_a_name(name: str) -> None:
 
 def test_three_failures_are_listed() -> None:
     errors = SpeedErrors(0.1, 0.1, math.inf, math.nan, math.inf, math.nan, math.inf)
-    said = "the runs on a coarser mesh, with other steps and with another gap between the layers failed"
+    said = "the runs on a coarser mesh, with other steps and with a narrower gap between layers failed"
     assert errors.failed == said
 
 

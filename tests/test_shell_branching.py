@@ -1,6 +1,7 @@
 """Further runs: of sheets that could have taken another way, and on a coarser mesh."""
 
 import math
+from collections.abc import Callable
 
 import numpy as np
 import pytest
@@ -11,10 +12,11 @@ from fem_check.shell.effects.inertia import Inertia
 from fem_check.shell.effects.koiter import Bending, Membrane
 from fem_check.shell.model import ShellModel
 from fem_check.shell.statics.equilibrium import ConvergenceError
-from fem_check.shell.stepping.further import second_runs
+from fem_check.shell.stepping.further import rigid_ground, second_runs
 from fem_check.shell.stepping.further.branching import may_branch
 from fem_check.shell.stepping.run import Run
 from fem_check.shell.stepping.settings import Settings
+from fem_check.shell.stepping.trajectory import Trajectory
 from figures.measure.paper import decisive
 from linear_theory import Sheet, SineWave, Viscous
 from linear_theory.scene.scene import Scene
@@ -87,14 +89,48 @@ class Failing(Run):
         raise ConvergenceError("no further step", self.history.state, 0.0)
 
 
+def refused(*_: object) -> None:
+    """What a run does whose elements, say, are too long for what the scene names."""
+    raise ValueError("cells = (1, 3): elements are too long")
+
+
+@pytest.mark.parametrize("run", [Failing, refused])
 def test_a_speed_is_kept_where_the_run_on_a_coarser_mesh_fails(
-    monkeypatch: pytest.MonkeyPatch,
+    monkeypatch: pytest.MonkeyPatch, run: object
 ) -> None:
     scene = planar(cells=(2, 4))
     expected = simulate(scene, periods=1, steps=8)
-    monkeypatch.setattr(second_runs, "Run", Failing)
+    monkeypatch.setattr(second_runs, "Run", run)
     found = simulate(scene, periods=1, steps=8, mesh_error=True)
     assert found.mean_speed == expected.mean_speed
     assert found.errors.mesh == math.inf
     assert found.speed.error == math.inf
     assert not found.speed.converged
+
+
+def test_the_limit_of_rigid_ground_is_kept_where_its_coarser_mesh_fails(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """The last call of `simulate` is that on the coarser mesh."""
+    found = simulate(lying().scene.but(cells=(2, 4)), periods=1, steps=8)
+    calls = iter([found, found, found])
+
+    def stepped(*_: object, **__: object) -> Trajectory:
+        try:
+            return next(calls)
+        except StopIteration:
+            raise ConvergenceError("no further step", found.states[-1], 0.0) from None
+
+    monkeypatch.setattr(rigid_ground, "simulate", stepped)
+    limit = rigid_ground.rigid_ground(found.scene, periods=1, most=3, mesh_error=True)
+    assert limit.motions[-1].errors.mesh == math.inf
+
+
+@pytest.mark.parametrize("call", [simulate, rigid_ground.rigid_ground])
+def test_a_mesh_that_cannot_be_coarser_is_refused_before_any_work(
+    monkeypatch: pytest.MonkeyPatch, call: Callable[..., object]
+) -> None:
+    monkeypatch.setattr(Run, "finish", lambda *_: pytest.fail("there was work"))
+    scene = lying().scene.but(cells=(1, 2))
+    with pytest.raises(ValueError, match=r"cells = \(1, 2\): must both be >= 2 if mesh_error = True"):
+        call(scene, periods=1, mesh_error=True)

@@ -23,7 +23,7 @@ from fem_check.shell.model import ShellModel
 from fem_check.shell.statics.equilibrium import ConvergenceError
 from fem_check.shell.statics.newton import Minimiser
 from fem_check.shell.stepping.further.progress import Progress, Whole
-from fem_check.shell.stepping.further.second_runs import COARSER_WORK
+from fem_check.shell.stepping.further.second_runs import WORK
 from fem_check.shell.stepping.schemes import History
 from fem_check.shell.stepping.simulation import simulate
 from fem_check.shell.stepping.step_control import StepSize
@@ -276,7 +276,7 @@ def test_progress_counts_further_runs() -> None:
     shares = np.array([p.share for p in seen])
     assert len(shares) == 24
     assert np.all(np.diff(shares) > 0)
-    assert shares[11] == pytest.approx(1 / (1 + COARSER_WORK))
+    assert shares[11] == pytest.approx(1 / (1 + WORK["mesh"]))
     assert shares[-1] == pytest.approx(1)
     assert {p.task for p in seen[:12]} == {"the motion"}
     assert {p.task for p in seen[12:]} == {"on a coarser mesh"}

@@ -83,6 +83,7 @@ def simulate(
         raise ValueError(f"snapshot = {validation.shown(snapshot)}: must be the path of a file")
     settings = Settings(periods, rtol, steps, ramp, velocity, keep_every, scheme)
     every = validation.integer("snapshot_every", snapshot_every, 1)
+    coarse = second_runs.coarser(scene) if mesh_error else None
     try:
         if snapshot is not None:
             target = _target(Path(snapshot), scene, settings, every)
@@ -91,10 +92,10 @@ def simulate(
             resumed = run.resume(target)
         whole = _whole(progress, mesh_error, scene.drive.has_state)
         run.finish(target, None if whole is None else _watching(run, whole))
-        difference = second_runs.mesh_error(run, whole) if mesh_error else np.nan
+        difference = np.nan if coarse is None else second_runs.mesh_error(run, coarse, whole)
+        feedback = second_runs.feedback_errors(run, whole)
         jumps = second_runs.snap_error(run, whole)
         contact = second_runs.contact_error(run, whole)
-        feedback = second_runs.feedback_errors(run, whole)
     except KeyboardInterrupt:
         # Not a subclass, for which Python would not exit with the status of an interrupted process;
         # from None, since the traceback into a step does not help the user.
@@ -120,10 +121,9 @@ def _whole(progress: bool | Listener | None, mesh_error: bool, feedback: bool) -
     """What tells of the progress of all runs; None if no one listens."""
     if not progress:
         return None
-    planned = {second_runs.COARSER: second_runs.COARSER_WORK} if mesh_error else {}
-    if feedback:
-        planned[second_runs.ROUGHER] = second_runs.LONGER_WORK
-    return Whole(printed if progress is True else progress, planned)
+    whole = Whole(printed if progress is True else progress, {})
+    second_runs.plan(whole, *["mesh"] * mesh_error, *["feedback"] * feedback)
+    return whole
 
 
 def _watching(run: Run, whole: Whole) -> Listener:
@@ -132,9 +132,9 @@ def _watching(run: Run, whole: Whole) -> Listener:
 
     def heard(progress: Progress) -> None:
         if run.branches:
-            whole.plan(second_runs.OTHER, second_runs.LONGER_WORK)
+            second_runs.plan(whole, "snaps")
         if run.touches:
-            whole.plan(second_runs.TIGHTER, second_runs.TIGHTER_WORK)
+            second_runs.plan(whole, "contact")
         listener(progress)
 
     return heard

@@ -4,7 +4,7 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -15,14 +15,13 @@ from fem_check.shell.model import ShellModel
 from fem_check.shell.stepping import columns
 from fem_check.shell.stepping.between import between, interpolation_error, motion_around
 from fem_check.shell.stepping.further.branching import DECISIVE, may_branch
-from fem_check.shell.stepping.further.failed import failed_words
+from fem_check.shell.stepping.further.errors import SpeedErrors
 from fem_check.shell.stepping.power import Works, energy_of
 from fem_check.shell.stepping.sliding import COMPARED
 from fem_check.shell.stepping.step_control import LANDED
 from fem_check.shell.stepping.stepper import amplitude
 from linear_theory.common import validation
 from linear_theory.common.drawable import Drawable
-from linear_theory.common.shown import Shown
 from linear_theory.common.tables import Column, Tabular
 from linear_theory.friction.regime import Regime, regime_of
 from linear_theory.scene.scene import Scene
@@ -51,38 +50,6 @@ on 13 scenes, planar and bending, at rtol = 0.3, 0.1, 0.04 and 0.01: at most 1.1
 
 DRY = 0.3
 """Largest slip ratio for which the distance to dry friction is estimated."""
-
-
-class _Errors(NamedTuple):
-    step: float
-    spread: float
-    mesh: float
-    slip_speed: float
-    snaps: float
-    feedback: float = np.nan
-    contact: float = np.nan
-
-
-class SpeedErrors(Shown, _Errors):
-    """Estimated errors of the mean speed, absolute, length per time.
-
-    step: of the time integration; what is left where its estimate was removed, see `mean_speed`.
-    spread: difference between the last two periods, NaN if there is only one. mesh: from a run on a
-    coarser mesh if requested, else NaN. slip_speed: distance to dry friction, twice the change on
-    halving the slip speed (it decreases at least proportionally), NaN if the slip ratio is above 0.3
-    and friction far from dry; not part of the error of the speed at the given slip speed. snaps: of the
-    path through snap-throughs in the last period (and buckling, of a sheet with inertia), from a run
-    with longer steps; NaN if there are none. feedback: of a wave that the strain acts back on, by its
-    own error and the steps, from a run with longer steps and larger elements of the wave; NaN without.
-    contact: of a sheet that touched itself in the last period, by the gap of `SelfContact`, from a run
-    with half the gap; NaN if it did not. A part is infinite where the run that would have told it
-    failed, see `failed`.
-    """
-
-    @property
-    def failed(self) -> str:
-        """Which of the further runs failed, in words; empty if none did."""
-        return failed_words(self._asdict())
 
 
 @dataclass(frozen=True, eq=False)

@@ -4,6 +4,7 @@ A sheet of weight q per area sinks into ground of stiffness k by (q/k)^(1/2), 0.
 differs from that on rigid ground, to first order in that depth where it is small.
 """
 
+import math
 import sys
 import time
 from collections.abc import Mapping, Sequence
@@ -187,15 +188,24 @@ def rigid_ground(
     most, rtol = validation.integer("most", most, FEWEST), validation.tolerance(rtol)
     begin, report = time.perf_counter(), printed if progress is True else progress or None
     scenes = [_on(scene, _ground(scene).stiffness * factor**k) for k in range(most)]
+    coarse = [coarser(asked) for asked in scenes] if mesh_error else []
     try:
         motions, stopped = _stiffened(scenes, periods, rtol, report)
     finally:
         if progress is True:
             print(file=sys.stderr)
     if mesh_error:
-        coarse = simulate(coarser(motions[-1].scene), periods, rtol)
-        motions[-1] = replace(motions[-1], mesh_error=mesh_change(motions[-1], coarse))
+        rough = coarse[len(motions) - 1]
+        motions[-1] = replace(motions[-1], mesh_error=_mesh_error(motions[-1], rough, periods, rtol))
     return RigidGround(tuple(motions), rtol, time.perf_counter() - begin, stopped)
+
+
+def _mesh_error(found: Trajectory, coarse: Scene, periods: int, rtol: float) -> float:
+    """That of a motion, infinite where the one of the coarser scene fails."""
+    try:
+        return mesh_change(found, simulate(coarse, periods, rtol))
+    except (ConvergenceError, ValueError):
+        return math.inf
 
 
 def _stiffened(

@@ -1,12 +1,13 @@
 """Errors of the mean speed from further runs: on a coarser mesh, and with other steps."""
 
+import math
+from collections.abc import Callable
 from typing import NamedTuple
-
-import numpy as np
 
 from fem_check.mesh.elements import default_cells
 from fem_check.shell.effects.contact.self_contact import SelfContact
 from fem_check.shell.statics.equilibrium import ConvergenceError
+from fem_check.shell.stepping.further.errors import FURTHER
 from fem_check.shell.stepping.further.progress import Whole
 from fem_check.shell.stepping.run import Run
 from fem_check.shell.stepping.step_control import fewest_steps
@@ -32,28 +33,39 @@ gap, by that factor. V is not linear in the gap: in a strip that is rolled up it
 1e-4 L/T from a gap of 0.02 to 0.01, 0.004 and 0.001, so that the whole way is some three such steps.
 The stiffness of the contact is not varied."""
 
-COARSER = "on a coarser mesh"
-OTHER = "with other steps"
-ROUGHER = "with a rougher wave"
-TIGHTER = "with a narrower gap between layers"
-"""Tasks of the further runs, in words."""
-
-COARSER_WORK, LONGER_WORK, TIGHTER_WORK = 0.5, 0.7, 1.0
-"""Their work relative to that of the first run: 4/9 of the elements, steps sqrt 2 times as long, and as
-many of both."""
+WORK = {"mesh": 0.5, "snaps": 0.7, "feedback": 0.7, "contact": 1.0}
+"""Of the run that tells a part of the error, relative to that of the first one: 4/9 of the elements,
+steps sqrt 2 times as long, or as many of both."""
 
 
-def mesh_error(run: Run, whole: Whole | None) -> float:
-    """Mesh error of the mean speed of a finished run, from the same run on a coarser mesh.
+def plan(whole: Whole, *parts: str) -> None:
+    """Tell of runs that are needed for parts of the error."""
+    for part in parts:
+        whole.plan(FURTHER[part], WORK[part])
 
-    Infinite if that run fails: what the first one found is kept.
+
+def _finished(part: str, whole: Whole | None, begin: Callable[[], Run]) -> Run | None:
+    """The run for a part of the error; None if it fails: what the first run found is kept.
+
+    begin: which makes the run, and may be refused what it asks for.
     """
-    coarse = Run(coarser(run.scene), run.settings)
+    if whole is not None:
+        plan(whole, part)
     try:
-        coarse.finish(None, None if whole is None else whole.of(COARSER))
-    except ConvergenceError:
-        return np.inf
-    return mesh_change(run.trajectory(), coarse.trajectory())
+        run = begin()
+        run.finish(None, None if whole is None else whole.of(FURTHER[part]))
+    except (ConvergenceError, ValueError):
+        return None
+    return run
+
+
+def mesh_error(run: Run, coarse: Scene, whole: Whole | None) -> float:
+    """Mesh error of the mean speed of a finished run, from the same run of the `coarser` scene.
+
+    Infinite if that run fails.
+    """
+    rough = _finished("mesh", whole, lambda: Run(coarse, run.settings))
+    return math.inf if rough is None else mesh_change(run.trajectory(), rough.trajectory())
 
 
 def mesh_change(found: Trajectory, coarse: Trajectory) -> float:
@@ -68,21 +80,9 @@ def snap_error(run: Run, whole: Whole | None) -> float:
     """
     found = run.trajectory()
     if not found.branches:
-        return np.nan
-    if whole is not None:
-        whole.plan(OTHER, LONGER_WORK)
-    try:
-        rough = _with_other_steps(run)
-        rough.finish(None, None if whole is None else whole.of(OTHER))
-    except (ConvergenceError, ValueError):
-        return np.inf
-    difference = rough.trajectory().mean_speed - found.mean_speed
-    return float(SNAP_MARGIN * abs(difference))
-
-
-def _with_other_steps(run: Run, coarse: bool = False) -> Run:
-    settings = run.settings.with_other_steps(fewest_steps(run.scene.drive.rates))
-    return Run(run.scene, settings, coarse)
+        return math.nan
+    other = _finished("snaps", whole, lambda: _with_other_steps(run))
+    return math.inf if other is None else SNAP_MARGIN * _apart(other, found)
 
 
 def contact_error(run: Run, whole: Whole | None) -> float:
@@ -92,24 +92,27 @@ def contact_error(run: Run, whole: Whole | None) -> float:
     """
     found, contact = run.trajectory(), run.scene.find(SelfContact)
     if contact is None or not found.presses:
-        return np.nan
-    if whole is not None:
-        whole.plan(TIGHTER, TIGHTER_WORK)
+        return math.nan
     narrower = SelfContact(contact.material, NARROWER * contact.gap, contact.stiffness)
     effects = tuple(narrower if effect is contact else effect for effect in run.scene.effects)
-    try:
-        tight = Run(run.scene.but(effects=effects), run.settings)
-        tight.finish(None, None if whole is None else whole.of(TIGHTER))
-    except (ConvergenceError, ValueError):
-        return np.inf
-    return float(GAP_MARGIN * abs(tight.trajectory().mean_speed - found.mean_speed))
+    tight = _finished("contact", whole, lambda: Run(run.scene.but(effects=effects), run.settings))
+    return math.inf if tight is None else GAP_MARGIN * _apart(tight, found)
+
+
+def _with_other_steps(run: Run, coarse: bool = False) -> Run:
+    settings = run.settings.with_other_steps(fewest_steps(run.scene.drive.rates))
+    return Run(run.scene, settings, coarse)
+
+
+def _apart(other: Run, found: Trajectory) -> float:
+    return float(abs(other.trajectory().mean_speed - found.mean_speed))
 
 
 class FeedbackErrors(NamedTuple):
     """Of the speeds, length per time, and of c."""
 
-    speed: float = np.nan
-    growth: float = np.nan
+    speed: float = math.nan
+    growth: float = math.nan
 
 
 def feedback_errors(run: Run, whole: Whole | None) -> FeedbackErrors:
@@ -120,11 +123,9 @@ def feedback_errors(run: Run, whole: Whole | None) -> FeedbackErrors:
     """
     if not run.scene.drive.has_state:
         return FeedbackErrors()
-    try:
-        rough = _with_other_steps(run, coarse=True)
-        rough.finish(None, None if whole is None else whole.of(ROUGHER))
-    except (ConvergenceError, ValueError):
-        return FeedbackErrors(np.inf, np.inf)
+    rough = _finished("feedback", whole, lambda: _with_other_steps(run, coarse=True))
+    if rough is None:
+        return FeedbackErrors(math.inf, math.inf)
     speeds = rough.trajectory().period_speeds - run.trajectory().period_speeds
     found = (
         FEEDBACK_MARGIN * abs(apart).max() for apart in (speeds, run.feedback.apart(rough.feedback))
