@@ -113,6 +113,7 @@ tables: $(STAMP)
 	$(RUN) -m figures.measure.plate.bent_alone
 	$(RUN) -m figures.draw.saddle.page
 	$(RUN) -m figures.measure.schemes
+	$(RUN) -m figures.measure.self_contact
 	$(RUN) -m figures.measure.turning
 	$(RUN) -m figures.measure.excitable
 	$(RUN) -m tests.hard_cases_page

@@ -31,6 +31,7 @@ from fem_check.shell.statics.sparsity import Sparsity
 from fem_check.shell.stepping.further import second_runs
 from fem_check.shell.stepping.simulation import simulate
 from fem_check.shell.stepping.trajectory import Trajectory
+from figures.measure import self_contact
 from linear_theory import FieldWave, Sheet, crawl_speed
 from linear_theory.scene.scene import Scene
 from tests.shell_scenes import MATERIAL, lying
@@ -384,3 +385,23 @@ def test_scene_files_hold_it(tmp_path: Path) -> None:
     scene.to_toml(path)
     assert Scene.from_toml(path) == scene
     assert Scene.from_dict(scene.to_dict()) == scene
+
+
+def test_errors_by_the_gap_are_honest() -> None:
+    """Of strips that roll up, against the smallest gap."""
+    rows = [r for r in self_contact.TABLE.read() if r.stiffness == 1 and np.isfinite(r.speed)]
+    assert {r.kappa for r in rows} >= {-8.0, -9.0, -10.0}
+    for row in rows:
+        (best,) = (r for r in rows if r.kappa == row.kappa and r.gap == self_contact.GAPS[-1])
+        assert abs(row.speed - best.speed) <= row.error
+        assert row.touching > 0
+        assert row.crossed == 0
+
+
+def test_the_page_has_the_speeds_of_the_table() -> None:
+    """docs/howto/bending.md against figures/data/self_contact.csv."""
+    text = (Path(__file__).parents[1] / "docs" / "howto" / "bending.md").read_text(encoding="utf-8")
+    rows = [r for r in self_contact.TABLE.read() if r.kappa == self_contact.KAPPAS[0]]
+    for usual in (True, False):
+        told = ", ".join(f"{r.speed:.4f}" for r in rows if (r.stiffness == 1) is usual)
+        assert f"{told} L/T" in " ".join(text.split())

@@ -54,8 +54,8 @@ def simulate(
     snaps through in the last period, or buckles and has inertia or dry friction, is simulated a second
     time with other steps, for the error of V: it may take another way. So is one whose strain acts back
     on its wave (`StrainFeedback`): the two are then stepped together, at second order. A sheet that
-    touches itself in the last period (`SelfContact`) is simulated once more with half the gap between
-    its layers.
+    touches itself in the last period (`SelfContact`) is simulated once more with a tenth of the gap
+    between its layers.
 
     A scene without Friction and Inertia is not time dependent; use `cycle_speed.cycle_speed`.
     Raises ValueError for such scenes, for values out of range, for too few `steps` to resolve the wave

@@ -40,7 +40,7 @@ class SpeedErrors(Shown, _Errors):
     with other steps; NaN if there is none. feedback: of a wave that the strain acts back on, by its
     own error and the steps, from a run with longer steps and larger elements of the wave; NaN without.
     contact: of a sheet that touched itself in the last period, by the gap of `SelfContact`, from a run
-    with half the gap; NaN if it did not. A part is infinite where the run that would have told it
+    with a tenth of the gap; NaN if it did not. A part is infinite where the run that would have told it
     failed, see `failed`.
     """
 
