@@ -26,6 +26,7 @@ from numpy.typing import NDArray
 from linear_theory.deformation.load_cases import mixed_norms
 from linear_theory.deformation.plate.basis import derivative
 from linear_theory.deformation.plate.field import PlateField
+from linear_theory.deformation.plate.quadratic import QuadraticSource, bending_moments
 from linear_theory.deformation.plate.solver import PlateSolver
 from linear_theory.deformation.plate.stretching import Amplitudes
 from linear_theory.deformation.ritz import error as ritz_error
@@ -46,41 +47,12 @@ COARSER = 0.75
 
 
 @dataclass(frozen=True, eq=False)
-class DeflectionSource:
+class DeflectionSource(QuadraticSource):
     """Virtual work on the test functions of a solver, of alpha beta and of beta^2."""
 
-    plate: PlateField
     gradients: Array
     growth: Growth
     solver: PlateSolver
-
-    def moments(self, times: Array, amplitudes: Array) -> Array:
-        """At times (T,), (T, 2, degree x + 1, degree y + 1); amplitudes: of the load cases."""
-        grid, fields = self._on_grid()
-        growths = grid.growth(self.plate.drive.value, times)
-        return np.stack(
-            [
-                self._work(grid, np.tensordot(a, fields, 1), c)
-                for a, c in zip(amplitudes.T, growths, strict=True)
-            ]
-        )
-
-    def moment_rates(self, times: Array, amplitudes: Array, rates: Array) -> Array:
-        """Time derivatives of `moments`: a central difference, exact for a quadratic."""
-        grid, fields = self._on_grid()
-        step = self.plate.drive.period / (2 * np.pi)
-        growths = grid.growth(self.plate.drive.value, times)
-        changes = step * grid.growth(self.plate.drive.rate, times)
-        ends = [
-            np.stack(
-                [
-                    self._work(grid, np.tensordot(a + sign * step * b, fields, 1), c + sign * d)
-                    for a, b, c, d in zip(amplitudes.T, rates.T, growths, changes, strict=True)
-                ]
-            )
-            for sign in (1, -1)
-        ]
-        return np.asarray((ends[0] - ends[1]) / (2 * step))
 
     def _work(self, grid: GaussGrid, fields: Array, c: Array) -> Array:
         """(2, degree x + 1, degree y + 1) for w with its derivatives (6, ...), those of u and c."""
@@ -90,8 +62,8 @@ class DeflectionSource:
         second = fields[10:].reshape(2, 3, *c.shape)
         square = (2.0 if self.growth.curvature is Reference.GROWN else 0.0) * c**2
         change = np.stack([square, square, nothing]) - (second * slope[:, None]).sum(0)
-        moment = ground.rigidity * _moments(bent, sheet.poisson)
-        by_growth = ground.rigidity * _moments(change, sheet.poisson)
+        moment = ground.rigidity * bending_moments(bent, sheet.poisson)
+        by_growth = ground.rigidity * bending_moments(change, sheet.poisson)
         turning = by_growth + self.growth.energy_weight * c * moment
         strain = np.stack([gradient[0, 0], gradient[1, 1], (gradient[0, 1] + gradient[1, 0]) / 2])
         xx, yy, xy = self._per_stress * hooke.stress(strain, c, sheet.poisson)
@@ -127,14 +99,6 @@ class DeflectionSource:
         grid = GaussGrid(plate.sheet, (across - 1, along - 1), 1.0)
         fields = np.concatenate([_padded(part, (across, along)) for part in (bent, *flat)], 1)
         return grid, grid.values(fields)
-
-
-def _moments(bent: Array, poisson: float) -> Array:
-    """M(A) of (xx, yy, xy)."""
-    trace = poisson * (bent[0] + bent[1])
-    return np.stack(
-        [(1 - poisson) * bent[0] + trace, (1 - poisson) * bent[1] + trace, (1 - poisson) * bent[2]]
-    )
 
 
 def _padded(table: Array, counts: tuple[int, int]) -> Array:

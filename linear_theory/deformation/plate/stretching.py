@@ -22,6 +22,7 @@ from numpy.typing import NDArray
 from linear_theory.deformation.load_cases import mixed_norms
 from linear_theory.deformation.plate.basis import derivative
 from linear_theory.deformation.plate.field import PlateField
+from linear_theory.deformation.plate.quadratic import QuadraticSource, bending_moments
 from linear_theory.deformation.ritz import error as ritz_error
 from linear_theory.deformation.ritz import legendre
 from linear_theory.deformation.ritz.solver import RitzSolver
@@ -37,41 +38,10 @@ COARSER = 0.75
 
 
 @dataclass(frozen=True, eq=False)
-class BendingSource:
-    """Virtual work on the test functions of `RitzSolver`, quadratic in w and c; of a Ritz degree."""
+class BendingSource(QuadraticSource):
+    """Virtual work on the test functions of `RitzSolver`; of a Ritz degree."""
 
-    plate: PlateField
     degree: Pair
-
-    def moments(self, times: Array, amplitudes: Array) -> Array:
-        """Loads at times (T,), (T, 2, degree x + 1, degree y + 1); amplitudes: of the load cases."""
-        grid, basis = self._grid(), self._padded()
-        growths = grid.growth(self.plate.drive.value, times)
-        derivatives = grid.values(basis)
-        return np.stack(
-            [
-                self._work(grid, np.tensordot(a, derivatives, 1), c)
-                for a, c in zip(amplitudes.T, growths, strict=True)
-            ]
-        )
-
-    def moment_rates(self, times: Array, amplitudes: Array, rates: Array) -> Array:
-        """Time derivatives of `moments`: a central difference, exact for a quadratic."""
-        grid, basis = self._grid(), self._padded()
-        step = self.plate.drive.period / (2 * np.pi)
-        growths = grid.growth(self.plate.drive.value, times)
-        changes = step * grid.growth(self.plate.drive.rate, times)
-        derivatives = grid.values(basis)
-        ends = [
-            np.stack(
-                [
-                    self._work(grid, np.tensordot(a + sign * step * b, derivatives, 1), c + sign * d)
-                    for a, b, c, d in zip(amplitudes.T, rates.T, growths, changes, strict=True)
-                ]
-            )
-            for sign in (1, -1)
-        ]
-        return np.asarray((ends[0] - ends[1]) / (2 * step))
 
     def _work(self, grid: GaussGrid, w: Array, c: Array) -> Array:
         """(2, degree x + 1, degree y + 1) for w_x, w_y, w_xx, w_yy, w_xy (5, ...) and c at points."""
@@ -79,9 +49,8 @@ class BendingSource:
         slope, bent = w[:2], w[2:] + np.stack([c, c, np.zeros_like(c)])
         strain = np.stack([slope[0] ** 2, slope[1] ** 2, slope[0] * slope[1]]) / 2
         stress = -hooke.stress(strain, np.zeros_like(c), nu)
-        trace = nu * (bent[0] + bent[1])
-        moment = np.stack([(1 - nu) * bent[0] + trace, (1 - nu) * bent[1] + trace, (1 - nu) * bent[2]])
-        return self._against_first(grid, stress) + self._against_second(grid, moment, slope)
+        turning = self._against_second(grid, bending_moments(bent, nu), slope)
+        return self._against_first(grid, stress) + turning
 
     def _against_first(self, grid: GaussGrid, stress: Array) -> Array:
         """int P_kj dv_k/dx_j for a symmetric P (xx, yy, xy)."""
@@ -114,14 +83,13 @@ class BendingSource:
         x, y = (max(pair) for pair in zip(self.degree, self.plate.degree, strict=True))
         return x, y
 
-    def _grid(self) -> GaussGrid:
-        return GaussGrid(self.plate.sheet, self._common(), 1.0)
-
-    def _padded(self) -> Array:
-        """Derivatives of w with zeros up to the common degree."""
+    def _on_grid(self) -> tuple[GaussGrid, Array]:
+        """Gauss points of the common degree, and derivatives of w there."""
         table = self.plate.derivative_polynomials()
         more = [c - d for c, d in zip(self._common(), self.plate.degree, strict=True)]
-        return np.pad(table, ((0, 0), (0, 0), (0, more[0]), (0, more[1])))
+        padded = np.pad(table, ((0, 0), (0, 0), (0, more[0]), (0, more[1])))
+        grid = GaussGrid(self.plate.sheet, self._common(), 1.0)
+        return grid, grid.values(padded)
 
 
 def _against_curvatures(moments: Array, axis: int) -> Array:
