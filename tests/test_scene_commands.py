@@ -25,6 +25,7 @@ from fem_check.command import BAD_ARGUMENTS, MET, MISSED, main, screens
 from fem_check.files import gallery, read
 from fem_check.files.schema import schema
 from fem_check.shell.stepping.trajectory import SpeedErrors
+from figures.measure import self_contact
 from linear_theory import Scene, Sheet, SineWave
 from linear_theory.common.progress import Progress
 
@@ -403,6 +404,16 @@ def test_what_is_wrong_with_a_motion_is_a_caution(crossed, snaps, error, said) -
     assert said in found
     assert bool(found) == bool(said)
     assert ("lower bound" in found) == (snaps and np.isnan(error) and crossed is None)
+
+
+@pytest.mark.parametrize("kappa", [-9.0, -2.0])
+def test_the_expected_cost_of_a_sheet_that_touches_itself(kappa: float) -> None:
+    """Of the measured strip, or one that is too open; to the factor stated, and 3 for the machine."""
+    scene, settings = self_contact.scene(kappa, cells=(1, 6)), RunSettings(steps=8, periods=1)
+    start = time.process_time()
+    solved(scene, settings)
+    spent = time.process_time() - start
+    assert 1 / 15 < spent / expected_seconds(scene, "stepped", settings) < 15
 
 
 @pytest.mark.parametrize("name", ["inchworm", "paper", "bumpy"])

@@ -59,15 +59,24 @@ TABLE = Table(
 )
 
 
-def row(kappa: float, gap: float, stiffness: float = 1.0) -> Row:
-    """One strip."""
-    begin, usual = time.process_time(), SelfContact(MATERIAL)
-    contact = SelfContact(MATERIAL, gap, stiffness * usual.stiffness)
+def scene(
+    kappa: float,
+    gap: float | None = None,
+    stiffness: float = 1.0,
+    cells: tuple[int, int] = (1, 8),
+) -> Scene:
+    """A strip. stiffness: over the usual one."""
+    contact = SelfContact(MATERIAL, gap, stiffness * SelfContact(MATERIAL).stiffness)
     bearing = Gravity(2.5e-4), Ground(5.0), Friction(1.0, law="viscous")
     effects = (Membrane(MATERIAL), Bending(MATERIAL), *bearing, contact)
-    scene = Scene(STRIP, WAVE, 0.05, kappa, effects, cells=(1, 8))
+    return Scene(STRIP, WAVE, 0.05, kappa, effects, cells=cells)
+
+
+def row(kappa: float, gap: float, stiffness: float = 1.0) -> Row:
+    """One strip."""
+    begin = time.process_time()
     try:
-        found = simulate(scene, 1, steps=STEPS)
+        found = simulate(scene(kappa, gap, stiffness), 1, steps=STEPS)
     except ConvergenceError:
         lost = (float("nan"),) * 5
         return Row(kappa, gap, stiffness, *lost, time.process_time() - begin)
