@@ -25,7 +25,6 @@ from linear_theory import (
     pulse_wave,
     second_order,
 )
-from linear_theory.deformation.plate import foundation
 from linear_theory.speed.plate import error as rule
 from linear_theory.speed.plate.error import plate_error
 from linear_theory.speed.plate.terms import PlateTerms
@@ -34,47 +33,20 @@ ROWS = model_error.TABLE.read()
 PAPER = saddle.PLACES["paper"]
 
 
-def numbers(row: Row) -> dict[str, float]:
-    ground = foundation(model_error.scene(row, 0.0).effects)
-    return {
-        "width over length": row.width,
-        "Poisson ratio": row.poisson,
-        "thickness over length": row.thickness,
-        "edge layer over length": ground.layer,
-        "depth over thickness": ground.depth / row.thickness,
-        "alpha": row.alpha,
-        "share of lift-off": abs(row.share),
-        "tension": model_error.tension_of(row),
-        "slip": row.slip,
-    }
-
-
-def within(row: Row) -> bool:
-    return all(low <= numbers(row)[name] <= high for name, (low, high) in rule.RANGES.items())
-
-
-def bound(row: Row) -> float:
-    return rule.bound(numbers(row), row.planar, abs(row.mixed) + abs(row.bent))
-
-
-def off(row: Row) -> float:
-    return abs(row.theory - row.cycle)
-
-
-FITTED = [row for row in ROWS if row.number < rule.FITTED and within(row)]
-HELD = [row for row in ROWS if row.number >= rule.FITTED and within(row)]
+FITTED = [row for row in ROWS if row.number < rule.FITTED and model_error.within(row)]
+HELD = [row for row in ROWS if row.number >= rule.FITTED and model_error.within(row)]
 
 
 def test_the_bound_is_from_rows_that_it_covers_with_room() -> None:
     assert len(FITTED) >= 20
-    seen = [row for row in FITTED if off(row) > row.error]
+    seen = [row for row in FITTED if model_error.off(row) > row.error]
     assert len(seen) >= 10
-    assert max(off(row) / bound(row) for row in seen) < 0.7
+    assert max(model_error.off(row) / model_error.bound_of(row) for row in seen) < 0.7
 
 
 def test_the_bound_covers_scenes_that_it_was_not_made_of() -> None:
     assert len(HELD) >= 20
-    missed = [row for row in HELD if not off(row) <= bound(row) + row.error]
+    missed = [row for row in HELD if not model_error.off(row) <= model_error.bound_of(row) + row.error]
     assert len(missed) <= 0.05 * len(HELD), missed
 
 

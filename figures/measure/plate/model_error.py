@@ -30,7 +30,7 @@ from figures.common.records import Table
 from linear_theory import FrictionLaw, Sheet, SineWave, Tanh, Viscous, crawl_speed, second_order
 from linear_theory.common.errors import SheetcrawlError
 from linear_theory.deformation.plate import foundation
-from linear_theory.speed.plate.error import slip_ratio, tension
+from linear_theory.speed.plate.error import RANGES, bound, slip_ratio, tension
 from linear_theory.speed.plate.terms import PlateTerms
 
 
@@ -130,6 +130,38 @@ def tension_of(row: Row) -> float:
     """See `plate.error.tension`."""
     asked = scene(row, 0.0)
     return tension(row.alpha, asked.sheet, foundation(asked.effects))
+
+
+def numbers(row: Row) -> dict[str, float]:
+    """Those of `plate.error.RANGES`, of a row that is known."""
+    ground = foundation(scene(row, 0.0).effects)
+    return {
+        "width over length": row.width,
+        "Poisson ratio": row.poisson,
+        "thickness over length": row.thickness,
+        "edge layer over length": ground.layer,
+        "depth over thickness": ground.depth / row.thickness,
+        "alpha": row.alpha,
+        "share of lift-off": abs(row.share),
+        "tension": tension_of(row),
+        "slip": row.slip,
+    }
+
+
+def within(row: Row) -> bool:
+    """Whether the bound stands for it."""
+    known = numbers(row)
+    return all(low <= known[name] <= high for name, (low, high) in RANGES.items())
+
+
+def bound_of(row: Row) -> float:
+    """The bound, over alpha^2."""
+    return bound(numbers(row), row.planar, abs(row.mixed) + abs(row.bent))
+
+
+def off(row: Row) -> float:
+    """What it is a bound of."""
+    return abs(row.theory - row.cycle)
 
 
 def measured(number: int) -> Row:
