@@ -40,8 +40,8 @@ def way_for(scene: Scene, settings: RunSettings) -> str:
 def check_contact_for(scene: Scene, way: str) -> None:
     """Raise ValueError where a level was chosen that needs contact everywhere, and the sheet lifts off.
 
-    way: as `way_of` names it. Not part of `way_for`, since it takes the deflection of the sheet, tens of
-    milliseconds.
+    way: as `way_of` names it. Not part of `way_for`, since it takes the deflection of the sheet: tens
+    of milliseconds.
     """
     if way == "second order" and not scene.planar:
         with contextlib.suppress(NotConvergedError):  # which the level tells
