@@ -27,7 +27,8 @@ def test_shape_load_and_slip_are_those_of_a_nonlinear_shape(law: FrictionLaw) ->
     asked, t = scene(law), 0.1
     plate = crawl_speed(asked, order=2, rtol=1e-2).deformation
     shapes = cycle_speed(asked.but(cells=(6, 12)), rtol=1e-2).deformation
-    assert plate is not None and shapes is not None
+    assert plate is not None
+    assert shapes is not None
     places, known = (one.places(POINTS, np.array([t]))[:, 0] for one in (plate, shapes))
     flat = np.abs(known[:2] - POINTS).max()
     np.testing.assert_allclose(places[:2], known[:2], atol=0.02 * flat)
@@ -43,7 +44,8 @@ def test_a_sheet_that_bends_alone_slips_with_the_square_of_the_curvature() -> No
     asked, t = scene(Tanh(0.3), 1.0, -0.2).but(alpha=0.0), 0.1
     plate = crawl_speed(asked, order=2, rtol=1e-2).deformation
     shapes = cycle_speed(asked.but(cells=(6, 12)), rtol=1e-2).deformation
-    assert plate is not None and shapes is not None
+    assert plate is not None
+    assert shapes is not None
     touch, right = plate.contact(POINTS, t), shapes.contact(POINTS, t)
     size = np.abs(right.velocity).max()
     np.testing.assert_allclose(touch.velocity, right.velocity, atol=0.05 * size)
