@@ -60,9 +60,9 @@ def speed(options: Options, path: Path | None = None) -> int:
 
 
 def _predicted(question: Asked, options: Options, report: Report) -> Prediction:
-    errors = {"rtol": question.rtol, "atol": question.atol}
+    rtol, atol, method = question.rtol, question.atol, options.method
     with as_typed(options):
-        return predict(question.scene, **errors, method=options.method, progress=report)
+        return predict(question.scene, rtol=rtol, atol=atol, method=method, progress=report)
 
 
 def _told(found: Prediction, units: Units | None, options: Options) -> str:
