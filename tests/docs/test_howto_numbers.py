@@ -13,7 +13,7 @@ from fem_check.shell.effects.contact.self_contact import GAP
 from figures.draw.directional import select
 from figures.measure import directional, directional_cost, excitable, saddle, schemes
 
-HOWTO = Path(__file__).parents[1] / "docs" / "howto"
+HOWTO = Path(__file__).parents[2] / "docs" / "howto"
 
 
 def text_of(name: str) -> str:
