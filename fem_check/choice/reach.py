@@ -6,8 +6,8 @@ WIDEST = 20.0
 """Lengths, up to which a flat sheet may be wide for the levels that are not in ANY_WIDTH.
 
 As far as it was measured: a sine at alpha = 0.1 on sheets 5, 10 and 20 lengths wide takes 3.4, 8.7 and
-27 s of a processor to 1 % by a cycle of shapes, which answers there, and 3, 19 and 30 s to second order,
-which does not reach 1 %; to 0.1 % the cycle takes more than a minute at 20.
+27 s of a processor to 1 % by a cycle of shapes, which answers there, and 3, 19 and 30 s to second
+order, which does not reach 1 %; to 0.1 % the cycle takes more than a minute at 20.
 """
 
 ANY_WIDTH = ("strip", "first order")
