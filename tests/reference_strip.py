@@ -9,9 +9,9 @@ four exponentials. By growth the strip slips with v = -sin k(y - t), by bending 
 
     u' = -w'^2/2 - (h^2/12) (M w')',   M = w'' + c,
 
-up to a rigid motion. Under viscous friction V_ab = -<p v>, V_bb = 0. A law f(v) counts the first harmonic
-of f in V_ab and the second of df/dv in V_bb. Dry friction acts at the points without slip, y = t and
-y = t + 1/2: twice the viscous V_ab, and V_bb = - int du/dt dy at t = y.
+up to a rigid motion. Under viscous friction V_ab = -<p v>, V_bb = 0. A law f(v) counts the first
+harmonic of f in V_ab and the second of df/dv in V_bb. Dry friction acts at the points without slip,
+y = t and y = t + 1/2: twice the viscous V_ab, and V_bb = - int du/dt dy at t = y.
 """
 
 from dataclasses import dataclass
@@ -84,10 +84,12 @@ class Strip:
     @cached_property
     def _amplitudes(self) -> Array:
         """Of the exponentials in w_s and w_c, (2, 4): moment and shear vanish at both ends."""
-        ends, orders = np.array([-0.5, 0.5]), (2, 3)
-        scale = [self.layer**n for n in orders]
-        given = [s * (self._share * _waves(ends, n) + _waves(ends, n - 2)) for s, n in zip(scale, orders)]
-        rows = [s * self._exponentials(ends, n) for s, n in zip(scale, orders, strict=True)]
+        ends = np.array([-0.5, 0.5])
+        rows, given = [], []
+        for n in (2, 3):
+            scale = self.layer**n
+            rows.append(scale * self._exponentials(ends, n))
+            given.append(scale * (self._share * _waves(ends, n) + _waves(ends, n - 2)))
         return -np.linalg.solve(np.concatenate(rows, 1).T, np.concatenate(given, 1).T).T
 
 

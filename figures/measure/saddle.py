@@ -64,9 +64,9 @@ LAWS: dict[str, FrictionLaw] = {"tanh": Tanh(0.3), "viscous": Viscous()}
 ALPHA, OF_LIFT_OFF = {"sine": 0.005, "pulse": 0.01}, 0.3
 """Couplings: alpha by wave, and beta as a share of that at which the sheet lifts off.
 
-The differences for V_bb have an error of alpha^2 beta^2, large on stiff ground: forces in the plane due to
-growth pull at the slopes. For a sine at 0.01 it is 1.1 V_bb there, and 0.07 at 0.0025. The speed of a
-pulse, of order alpha, would hide V_aa at less.
+The differences for V_bb have an error of alpha^2 beta^2, large on stiff ground: forces in the plane due
+to growth pull at the slopes. For a sine at alpha = 0.01 it is 1.1 V_bb there, at 0.0025 it is 0.07. At
+less than 0.01 V_a alpha of a pulse would hide its V_aa.
 """
 
 STEPS, CYCLE_RTOL, COEFFICIENT = 64, 1e-3, 1e-3
