@@ -1,8 +1,8 @@
 """Limits of the plate theory proved: the strip on soft and on stiff ground, the heavy elastica.
 
-Lengths over L, times over T. A strip of bending stiffness B under c = sin k(y - t), k = 2 pi, deflects by
-w = cos(kt) w_s - sin(kt) w_c and slips with v = -sin k(y - t) by growth, u' = -w'^2/2 - (h^2/12) (M w')',
-M = w'' + c, by bending; see `tests/reference_strip.py`.
+Lengths over L, times over T. A strip of bending stiffness B under c = sin k(y - t), k = 2 pi, deflects
+by w = cos(kt) w_s - sin(kt) w_c. It slips with v = -sin k(y - t) by growth, and with du/dt, u' =
+-w'^2/2 - (h^2/12) (M w')', M = w'' + c, by bending; see `tests/reference_strip.py`.
 """
 
 import pytest
@@ -163,7 +163,7 @@ def test_stiff_ground(part):
 
 
 def elastica_balance():
-    """Derivative along the strip of B theta'^2/2 - Q sin(theta) - (what weight and ground do along z)."""
+    """Derivative of B theta'^2/2 - Q sin(theta) + R(z) - q z along the strip, R' = r."""
     angle, force, height = (sp.Function(n)(Y) for n in ("theta", "Q", "z"))
     reaction = sp.Function("r")(height)
     primitive = sp.Function("R")(height)  # of r

@@ -163,7 +163,7 @@ def test_words_that_stand_for_numbers():
 
 FAST = (
     *("balance", "viscous", "edges", "tails", "second_source", "convexity"),
-    *("quantile", "ground_and_plate", "mixed_order", "lower_face"),
+    *("quantile", "ground_and_plate", "mixed_order", "lower_face", "elastica"),
 )
 
 

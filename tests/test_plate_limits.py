@@ -20,6 +20,7 @@ import skfem
 from skfem.helpers import dd, trace
 
 from fem_check import Bending, Friction, Gravity, Ground, Material, Membrane
+from figures.draw.saddle import limits
 from linear_theory import Scene, Sheet, SineWave, Tanh, Viscous, airy_series, second_order
 from linear_theory.deformation.plate import Foundation, plate_field
 from linear_theory.speed.plate.quadratic_form import QuadraticForm
@@ -119,7 +120,9 @@ def test_thin_sheet(thickness: float) -> None:
 
 # ---- a sheet with width
 
-SHEET = Sheet(width=0.5, poisson=0.3, thickness=0.03)
+SHEET = Sheet()
+"""The paper's."""
+
 RIGIDITY = SHEET.thickness**3 / (12 * (1 - SHEET.poisson**2))
 PHASES = (0.05, 0.3)
 """A quarter of a period apart: for means of products of two fields of one frequency."""
@@ -156,10 +159,13 @@ def on_stiff_ground() -> float:
 
 
 def test_sheet_on_stiff_ground() -> None:
-    """The deviation is of first order in the edge layer, with a large factor: 0.36 at 0.01 L."""
-    exact, layers = on_stiff_ground(), np.array([0.02, 0.02 / math.sqrt(2), 0.01])
+    """The deviation is of first order in the edge layer, with a large factor."""
+    (near, share), exact = limits.NEAR_LIMIT, on_stiff_ground()
+    layers = near * np.array([2, math.sqrt(2), 1])
     found = [form(SHEET, RIGIDITY / layer**4).alpha_beta.value / exact for layer in layers]
     assert (found[0] - 1) / (found[2] - 1) == pytest.approx(2, rel=0.1)
+    assert exact == pytest.approx(limits.STIFF_LIMIT, rel=1e-3)
+    assert found[2] - 1 == pytest.approx(share, abs=5e-3)
     # errors of the three, 1e-3, are four times as large in the limit
     assert np.polynomial.Polynomial.fit(layers, found, 2)(0.0) == pytest.approx(1, abs=1.5e-2)
 
@@ -205,3 +211,10 @@ def test_sheet_on_soft_ground() -> None:
     off = [form(SHEET, s * RIGIDITY).alpha_beta.value / (s * RIGIDITY) / exact - 1 for s in (1.0, 8.0)]
     assert abs(off[0]) < 2e-3
     assert off[1] == pytest.approx(8 * off[0], rel=5e-2)
+
+
+def test_ground_on_which_pressure_counts_most() -> None:
+    """As the page says, in between: V_ab vanishes on soft ground and is smaller on rigid ground."""
+    layers = (0.05, limits.STRONGEST, 0.07)
+    found = [abs(form(SHEET, RIGIDITY / layer**4).alpha_beta.value) for layer in layers]
+    assert found[1] > max(found[0], found[2], 1.8 * abs(limits.STIFF_LIMIT))

@@ -13,6 +13,7 @@ from pathlib import Path
 
 from figures.common import output
 from figures.common.command import parser
+from paper.derive import limits as proofs_limits
 from paper.derive import line as proofs_line
 from paper.derive import plate as proofs_plate
 from paper.derive import sheet as proofs_sheet
@@ -40,6 +41,8 @@ STEPS = (
     proofs_plate.directional_sine,
     proofs_plate.ground_and_plate,
     proofs_plate.mixed_order,
+    proofs_limits.strip,
+    proofs_limits.elastica,
     proofs_plate.lower_face,
     proofs_plate.power,
 )
