@@ -41,10 +41,9 @@ STEPS = (
     proofs_plate.directional_sine,
     proofs_plate.ground_and_plate,
     proofs_plate.mixed_order,
-    proofs_limits.strip,
-    proofs_limits.elastica,
     proofs_plate.lower_face,
     proofs_plate.power,
+    proofs_limits.limits,
 )
 
 

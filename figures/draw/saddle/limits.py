@@ -1,7 +1,7 @@
 """What the page on V over growth and curvature says of soft, stiff and rigid ground.
 
-Formulas are proved in tests/test_derivations_limits.py; numbers are held by tests/test_plate_limits.py
-and tests/test_heavy_elastica.py.
+Formulas are proved in tests/plate/test_derivations_limits.py; numbers are held by
+tests/plate/test_plate_limits.py and tests/shell/test_heavy_elastica.py.
 """
 
 STIFF_LIMIT = -0.0658
