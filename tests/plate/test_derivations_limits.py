@@ -33,6 +33,17 @@ def decaying(integrand):
     return sp.simplify(sp.expand(total))
 
 
+def dry_over_viscous():
+    """First harmonic of f = sgn(sin), which V_ab counts, over the mean of df/dv: two jumps of 2."""
+    angle = sp.Symbol("theta", real=True)
+    first = 2 * 2 * sp.integrate(sp.sin(angle), (angle, 0, sp.pi)) / (2 * sp.pi)
+    return first / (2 * 2 / (2 * sp.pi))
+
+
+def test_dry_friction_counts_pressure_twice():
+    assert dry_over_viscous() == 2
+
+
 # ---- soft ground
 
 
