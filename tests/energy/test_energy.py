@@ -25,6 +25,7 @@ from fem_check import (
 )
 from fem_check.answer.energy import energy, with_model_errors
 from fem_check.answer.record import record
+from fem_check.shell.stepping.further.errors import NO_FURTHER
 from linear_theory import (
     Coulomb,
     Directional,
@@ -526,3 +527,16 @@ def test_drag_is_in_the_axes_of_the_law_and_its_error_holds_for_velocities_all_a
         near = velocity[:, None] + sizes * np.stack([np.cos(angles), np.sin(angles)])
         truths = turned.dissipation(near) / 2
         assert abs(truths - found.value).max() <= 1.02 * found.error
+
+
+def test_the_mesh_is_in_the_error_of_stepped_power():
+    """Three waves on four elements: the mesh makes most of the error, and a finer one shows it."""
+    effects = [Membrane(MATERIAL), Gravity(2.5e-4), Friction(1.0, slip_speed=0.02)]
+    coarse = Scene(Sheet(), SineWave(3), 0.15, effects=effects, cells=(2, 4))
+    found = simulate(coarse, 1, steps=32, mesh_error=True)
+    finer = simulate(coarse.but(cells=(3, 12)), 1, steps=32)
+    mesh = found.further.mesh
+    assert abs(found.speed.power.value - finer.speed.power.value) <= mesh.power
+    assert abs(found.mean_speed - finer.mean_speed) <= mesh.speed
+    without = replace(found, further=NO_FURTHER).speed.power
+    assert found.speed.power.error == pytest.approx(without.error + mesh.power)
