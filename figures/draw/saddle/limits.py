@@ -16,6 +16,8 @@ STRONGEST = 0.06
 HEIGHT_ERROR = 5e-4
 """Of the ends of the static shell, relative."""
 
+SHARE = f"{100 * NEAR_LIMIT[1]:g}"
+
 TEXT = f"""**Limits.** Let l = (D/s)^(1/4), over which bending spreads a load. With lengths over L and
 times over T a narrow strip under one sine, k = 2π, D = h³/12, has
 
@@ -27,9 +29,9 @@ times over T a narrow strip under one sine, k = 2π, D = h³/12, has
 | lift-off | ρg/(s max w), w of the free strip | ρg/√(D s) |
 
 On soft ground the sheet takes its free shape and presses little. On stiff ground, and if it is thin,
-it stays flat but for layers of length l at its edges. Away from these w = l⁴ k² c, and in the weak
-sense, with its edges, p tends to D (1 + ν)/ρg ∇²c. A sheet with sides comes to this limit slowly: under
-viscous friction that of the paper has V_ab = −{-STIFF_LIMIT:g} there, is still {NEAR_LIMIT[1]:.0%} away
+it stays flat but for layers of length l at its edges. Away from these s w = −D (1 + ν)∇²c, and in the
+weak sense, with its edges, p tends to D (1 + ν)/ρg ∇²c. A sheet with sides comes to this limit slowly:
+under viscous friction that of the paper has V_ab = −{-STIFF_LIMIT:g} there, is still {SHARE} % away
 at l = {NEAR_LIMIT[0]:g}, and has most at l = {STRONGEST:g}, almost twice as much.
 
 **Rigid ground.** There full contact ends at once: `lift_off` falls like 1/√s. The strip with a natural
