@@ -90,9 +90,9 @@ gaits: $(STAMP)
 	for form in cosine printed; do for friction in dry viscous; do \
 	$(RUN) -m figures.measure.paper.terrain --workers 2 --form $$form --friction $$friction || exit 1; done; done
 	$(RUN) -m figures.measure.paper.gait_map --workers 2
+	$(RUN) -m figures.measure.gaits --workers 2
+	$(RUN) -m figures.measure.gaits_checked --workers 2
 	$(RUN) -m figures.draw.gait_page
-	$(RUN) -m figures.measure.gaits
-	$(RUN) -m figures.measure.gaits_checked
 
 bench-threads: $(STAMP)
 	$(RUN) -m figures.measure.bench.threads

@@ -1,6 +1,6 @@
 """Bending gaits at random: how many end with a speed, how many with a reason, at what cost.
 
-    python -m figures.measure.gaits [--out FILE] [--count 300] [--seconds 180]
+    python -m figures.measure.gaits [--out FILE] [--count 300] [--seconds 180] [--workers 2]
 
 Writes figures/data/gaits.csv, one row for each scene; the scene of a number is always the same. Hours
 of computing for all 300; a run goes on where the file ends. alpha is uniform in [-0.4, 0.4], the rest
@@ -16,7 +16,8 @@ import signal
 import time
 import warnings
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
+from functools import partial
 from types import FrameType
 from typing import Any
 
@@ -31,8 +32,8 @@ from fem_check.shell.effects.koiter import Bending, Membrane
 from fem_check.shell.material import Material
 from fem_check.shell.stepping.simulation import simulate
 from fem_check.shell.stepping.trajectory import Trajectory
+from figures.common.filling import Filling
 from figures.common.folders import DATA
-from figures.common.output import tracked
 from figures.common.records import Table
 from linear_theory import FieldWave, Sheet, SineWave, pulse_wave
 from linear_theory.common.errors import SheetcrawlError
@@ -140,6 +141,11 @@ def gait(number: int) -> Gait:
     return Gait(number, round(alpha, 4), round(kappa, 3), wave, ground, friction, inertia)
 
 
+def gait_of(row: Row) -> Gait:
+    """The scene of a row."""
+    return Gait(**{field.name: getattr(row, field.name) for field in fields(Gait)})
+
+
 class LateError(Exception):
     """The time of a scene is over."""
 
@@ -198,16 +204,17 @@ def _filled(row: Row, found: Trajectory) -> Row:
 
 def main(arguments: Sequence[str] | None = None) -> None:
     """Simulate and write the table after each scene."""
-    settings = {
-        "count": (300, "number of scenes"),
-        "seconds": (180.0, "of the processor, most for one scene"),
-    }
-    options = TABLE.options(__doc__, arguments, **settings)
-    rows = TABLE.read(options.out) if options.out.exists() else []
-    missing = sorted(set(range(options.count)) - {row.number for row in rows})
-    for number in tracked("gaits", missing):
-        rows = sorted([*rows, tried(gait(number), options.seconds)], key=lambda row: row.number)
-        TABLE.write(rows, options.out)
+    options = TABLE.options(
+        __doc__,
+        arguments,
+        count=(300, "number of scenes"),
+        seconds=(180.0, "of the processor, most for one scene"),
+        workers=(1, "processes"),
+    )
+    wanted = [gait(number) for number in range(options.count)]
+    Filling(TABLE, options.out, gait_of).fill(
+        wanted, partial(tried, seconds=options.seconds), options.workers
+    )
 
 
 if __name__ == "__main__":

@@ -1,6 +1,7 @@
 """Whether the errors that are stated for bending gaits at random hold: some of them, run much finer.
 
     python -m figures.measure.gaits_checked [--out FILE] [--gaits figures/data/gaits.csv] [--every 10]
+        [--workers 2]
 
 Reads the table of `figures.measure.gaits` and writes figures/data/gaits_checked.csv, one row for every
 tenth of its scenes that has a speed other than 0 (as symmetry makes that of a standing wave) and a
@@ -11,16 +12,17 @@ stated error is wrong if the speed moves by more. A run goes on where the file e
 
 import time
 import warnings
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 
 import numpy as np
 
 from fem_check.shell.stepping.run import Run
 from fem_check.shell.stepping.settings import Settings
+from figures.common.filling import Filling
 from figures.common.folders import DATA
-from figures.common.output import tracked
 from figures.common.records import Table
 from figures.measure import gaits
 from linear_theory.common.errors import SheetcrawlError
@@ -78,8 +80,7 @@ def chosen(rows: Sequence[gaits.Row], every: int) -> list[gaits.Row]:
 
 def checked(stated: gaits.Row) -> Row:
     """Run a gait again, much finer, and compare."""
-    names = ("number", "alpha", "kappa", "wave", "ground", "friction", "inertia")
-    gait = gaits.Gait(**{name: getattr(stated, name) for name in names})
+    gait = gaits.gait_of(stated)
     begin, crossed = time.process_time(), stated.crossed > 0
     known = {**vars(gait), "speed": stated.speed, "error": stated.error}
     try:
@@ -102,17 +103,21 @@ def checked(stated: gaits.Row) -> Row:
 
 def main(arguments: Sequence[str] | None = None) -> None:
     """Check and write the table after each scene."""
-    settings = {
-        "gaits": (str(gaits.TABLE.path), "table of gaits to check"),
-        "every": (10, "check those whose number it divides"),
-    }
-    options = TABLE.options(__doc__, arguments, **settings)
-    rows = TABLE.read(options.out) if options.out.exists() else []
-    done = {row.number for row in rows}
-    stated = gaits.TABLE.read(Path(options.gaits))
-    for row in tracked("gaits", [r for r in chosen(stated, options.every) if r.number not in done]):
-        rows = sorted([*rows, checked(row)], key=lambda r: r.number)
-        TABLE.write(rows, options.out)
+    options = TABLE.options(
+        __doc__,
+        arguments,
+        gaits=(str(gaits.TABLE.path), "table of gaits to check"),
+        every=(10, "check those whose number it divides"),
+        workers=(1, "processes"),
+    )
+    rows = chosen(gaits.TABLE.read(Path(options.gaits)), options.every)
+    compute = partial(_numbered, {row.number: row for row in rows})
+    numbers = [row.number for row in rows]
+    Filling(TABLE, options.out, lambda row: row.number).fill(numbers, compute, options.workers)
+
+
+def _numbered(rows: Mapping[int, gaits.Row], number: int) -> Row:
+    return checked(rows[number])
 
 
 if __name__ == "__main__":
