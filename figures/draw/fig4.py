@@ -20,7 +20,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from figures.common import style
-from figures.draw.speed_map import HATCH, draw_speeds, grid
+from figures.draw.speed_map import CROSSED, HATCH, Colours, draw_speeds, grid
 from figures.measure.paper import gait_paths
 from figures.measure.paper.gait_map import LARGEST, TABLE, Row, on_whole_grid
 from figures.measure.paper.paper_gait import BACKWARD, FORWARD, FRICTIONS, READINGS
@@ -42,10 +42,10 @@ def best(rows: Sequence[Row], way: int) -> Row:
     return max(fit, key=lambda r: way * r.third)
 
 
-def draw_map(ax: Axes, rows: Sequence[Row], most: float) -> Any:
+def draw_map(ax: Axes, rows: Sequence[Row], colours: Colours) -> Any:
     """One panel; its image."""
     found = grid(rows, "alpha", "kappa")
-    image = draw_speeds(ax, found, most)
+    image = draw_speeds(ax, found, colours)
     line = np.array([-1.0, 1.0]) * LARGEST[1] / 100
     for sign in (-1, 1):
         ax.plot(line, sign * 100 * line, "--", color="black", linewidth=0.8)
@@ -89,9 +89,9 @@ def main(arguments: Sequence[str] | None = None) -> None:
     parts: Any = fig.subfigures(1, 2, width_ratios=[len(laws), 0.8])
     maps, path = parts
     panels = maps.subplots(1, len(laws), sharey=True, squeeze=False)[0]
-    most = float(np.nanpercentile([abs(r.third) for r in rows if r.friction in laws], 95))
+    colours = Colours.of([r.third for r in rows if r.friction in laws], 95)
     for ax, law in zip(panels, laws, strict=True):
-        image = draw_map(ax, on_whole_grid([r for r in rows if r.friction == law]), most)
+        image = draw_map(ax, on_whole_grid([r for r in rows if r.friction == law]), colours)
         ax.set_title(f"{law} friction", loc="left")
     panels[0].set_ylabel(r"rest curvature $\kappa L$ per $c$")
     maps.colorbar(image, ax=list(panels), label="$V$ ($L$ a cycle)", extend="both")
@@ -110,7 +110,8 @@ def _key(fig: Any) -> None:
     labels = [rf"$\kappa L$ = {names[r]}" for r in READINGS]
     marks += [Line2D([], [], marker="*", ls="", mec="black", ms=8, color="gold")]
     marks += [Patch(facecolor="white", edgecolor="0.2", hatch=HATCH, linewidth=0.4)]
-    labels += ["largest $|V|$", "$|V|$ below its error"]
+    marks += [Line2D([], [], ls="", **CROSSED)]
+    labels += ["largest $|V|$", "$|V|$ below its error", "passes through itself"]
     fig.legend(marks, labels, loc="outside lower center", ncols=3, handletextpad=0.3, columnspacing=1.0)
 
 

@@ -15,7 +15,7 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from figures.common import style
-from figures.draw.speed_map import Grid, draw_places, draw_speeds, grid, is_map
+from figures.draw.speed_map import Colours, Grid, draw_places, draw_speeds, grid, is_map
 from figures.measure.paper.trapezoids import GAITS, TABLE, Row
 
 OPTIMUM = {"forward": 0.9, "backward": 1.4}
@@ -48,13 +48,13 @@ def of(rows: Sequence[Row], gait: str, reading: str = "thickness", friction: str
     return grid(kept, "ratio", "length")
 
 
-def draw_gait(ax: Axes, gait: str, found: Grid, most: float) -> Any:
+def draw_gait(ax: Axes, gait: str, found: Grid, colours: Colours) -> Any:
     """One panel; its image."""
     if is_map(found):
-        image = draw_speeds(ax, found._replace(x=np.log2(found.x)), most)
+        image = draw_speeds(ax, found._replace(x=np.log2(found.x)), colours)
     else:
         x, y = np.meshgrid(np.log2(found.x), found.y)
-        image = draw_places(ax, x.ravel(), y.ravel(), found.speed.ravel(), most)
+        image = draw_places(ax, x.ravel(), y.ravel(), found.speed.ravel(), colours)
         ax.set_xlim(-2.2, 2.2)
     tops = optimum(found, WAY[gait])
     ax.plot(
@@ -80,7 +80,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     fig = style.figure(style.DOUBLE_CM, 6.5)
     for ax, gait in zip(fig.subplots(1, 2, sharey=True), GAITS, strict=True):
         found = of(rows, gait)
-        image = draw_gait(ax, gait, found, float(np.nanmax(np.abs(found.speed))))
+        image = draw_gait(ax, gait, found, Colours.of(found.speed))
         fig.colorbar(image, ax=ax, label="$V$ ($L$ a cycle)")
     fig.axes[0].set_ylabel("length $L'/L$")
     for path in style.save(fig, "fig5", options.out, tuple(options.formats)):

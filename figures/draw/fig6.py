@@ -11,11 +11,10 @@ the grounds that the paper shows (B to D).
 from collections.abc import Sequence
 from typing import Any
 
-import numpy as np
 from matplotlib.axes import Axes
 
 from figures.common import style
-from figures.draw.speed_map import MISSING, draw_places, draw_speeds, grid
+from figures.draw.speed_map import MISSING, Colours, draw_places, draw_speeds, grid
 from figures.measure.paper.terrain import FORMS, MOST, SHOWN, TABLE, Row
 
 LAWS = ("viscous", "dry")
@@ -24,20 +23,20 @@ FEWEST = 9
 """Rows that make a map."""
 
 MOST_SHOWN = 90
-"""Percentile of |V| at which the colours end: where the sheet snaps V is beyond all others."""
+"""Percentage of V within the scale of colours: where the sheet snaps V is beyond all others."""
 
 TITLES = {"printed": r"$\sin\,\sin$ (eq. 13)", "cosine": r"$\cos\,\cos$"}
 
 
-def draw_ground(ax: Axes, rows: Sequence[Row], most: float) -> Any:
+def draw_ground(ax: Axes, rows: Sequence[Row], colours: Colours) -> Any:
     """One panel; its image, None where the table has nothing. Few grounds are discs beside letters."""
     ax.set_facecolor(MISSING)
     image = None
     if len(rows) >= FEWEST:
-        image = draw_speeds(ax, grid(rows, "nx", "ny"), most)
+        image = draw_speeds(ax, grid(rows, "nx", "ny"), colours)
     elif rows:
         x, y = [r.nx for r in rows], [r.ny for r in rows]
-        image = draw_places(ax, x, y, [r.third for r in rows], most)
+        image = draw_places(ax, x, y, [r.third for r in rows], colours)
     for letter, place in SHOWN.items():
         ax.annotate(
             letter,
@@ -67,9 +66,8 @@ def main(arguments: Sequence[str] | None = None) -> None:
         for law in LAWS
     }
     for j, law in enumerate(LAWS):
-        speeds = [abs(r.third) for form in FORMS for r in shown[form, law]]
-        most = float(np.nanpercentile(speeds, MOST_SHOWN)) if speeds else 1.0
-        images = [draw_ground(panels[i, j], shown[form, law], most) for i, form in enumerate(FORMS)]
+        colours = Colours.of([r.third for form in FORMS for r in shown[form, law]], MOST_SHOWN)
+        images = [draw_ground(panels[i, j], shown[form, law], colours) for i, form in enumerate(FORMS)]
         for i, form in enumerate(FORMS):
             panels[i, j].set_title(f"{TITLES[form]}, {law}", loc="left")
         image = next((found for found in images if found is not None), None)

@@ -17,6 +17,10 @@ HATCH = "/////"
 """Of places at which |V| is below its error."""
 
 
+CROSSED: dict[str, Any] = {"marker": ".", "color": "0.25", "markersize": 2}
+"""Of gaits whose sheet passes through itself."""
+
+
 class Grid(NamedTuple):
     """Values x (n,) and y (m,); speed, error and crossings (m, n), NaN where the table has no row."""
 
@@ -49,16 +53,42 @@ def _common(values: Sequence[float]) -> Array:
     return np.asarray(found[times > times.max() / 2])
 
 
-def draw_speeds(ax: Axes, found: Grid, most: float) -> Any:
-    """The map on a scale of +-most; its image."""
+class Colours(NamedTuple):
+    """A scale of speeds: its ends, and matplotlib's name of the map."""
+
+    low: float
+    high: float
+    name: str = "RdBu_r"
+
+    @classmethod
+    def of(cls, speeds: Any, share: float = 100.0) -> "Colours":
+        """About 0 where both signs occur, else of the speeds alone.
+
+        share: percentage of them within the scale; where a sheet snaps V may be beyond all others.
+        """
+        known = np.asarray(speeds, float)
+        known = known[np.isfinite(known)]
+        if known.size and (known.min() > 0 or known.max() < 0):
+            low, high = np.percentile(known, [(100 - share) / 2, (100 + share) / 2])
+            return cls(float(low), float(high), "viridis")
+        most = float(np.percentile(abs(known), share)) if known.size else 1.0
+        return cls(-most, most)
+
+    @property
+    def look(self) -> dict[str, Any]:
+        """Arguments of matplotlib."""
+        return {"cmap": self.name, "vmin": self.low, "vmax": self.high}
+
+
+def draw_speeds(ax: Axes, found: Grid, colours: Colours) -> Any:
+    """The map; its image."""
     ax.set_facecolor(MISSING)
-    look: dict[str, Any] = {"cmap": "RdBu_r", "vmin": -most, "vmax": most, "shading": "nearest"}
-    image = ax.pcolormesh(found.x, found.y, found.speed, **look)
+    image = ax.pcolormesh(found.x, found.y, found.speed, shading="nearest", **colours.look)
     if np.nanmin(found.speed) < 0 < np.nanmax(found.speed) and min(found.speed.shape) > 1:
         ax.contour(found.x, found.y, found.speed, [0.0], colors="black", linewidths=0.8)
     _hatch(ax, found)
     y, x = np.nonzero(found.crossed > 0)
-    ax.plot(found.x[x], found.y[y], ".", color="0.25", markersize=2)
+    ax.plot(found.x[x], found.y[y], ls="", **CROSSED)
     return image
 
 
@@ -87,8 +117,8 @@ def is_map(found: Grid) -> bool:
     return min(found.speed.shape) >= FEWEST
 
 
-def draw_places(ax: Axes, x: Any, y: Any, speed: Any, most: float) -> Any:
-    """Single places as discs on a scale of +-most; their image."""
+def draw_places(ax: Axes, x: Any, y: Any, speed: Any, colours: Colours) -> Any:
+    """Single places as discs; their image."""
     ax.set_facecolor("0.93")
-    look: dict[str, Any] = {"cmap": "RdBu_r", "vmin": -most, "vmax": most, "linewidth": 0.6}
+    look: dict[str, Any] = {**colours.look, "linewidth": 0.6}
     return ax.scatter(x, y, c=speed, s=90, edgecolors="black", zorder=2, **look)

@@ -16,7 +16,7 @@ import signal
 import time
 import warnings
 from collections.abc import Sequence
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, replace
 from functools import partial
 from types import FrameType
 from typing import Any
@@ -142,8 +142,8 @@ def gait(number: int) -> Gait:
 
 
 def gait_of(row: Row) -> Gait:
-    """The scene of a row."""
-    return Gait(**{field.name: getattr(row, field.name) for field in fields(Gait)})
+    """The scene of a row, by its number: the table rounds alpha and kappa."""
+    return gait(row.number)
 
 
 class LateError(Exception):

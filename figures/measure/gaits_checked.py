@@ -1,10 +1,10 @@
 """Whether the errors that are stated for bending gaits at random hold: some of them, run much finer.
 
-    python -m figures.measure.gaits_checked [--out FILE] [--gaits figures/data/gaits.csv] [--every 10]
+    python -m figures.measure.gaits_checked [--out FILE] [--gaits figures/data/gaits.csv] [--every 5]
         [--workers 2]
 
 Reads the table of `figures.measure.gaits` and writes figures/data/gaits_checked.csv, one row for every
-tenth of its scenes that has a speed other than 0 (as symmetry makes that of a standing wave) and a
+fifth of its scenes that has a speed other than 0 (as symmetry makes that of a standing wave) and a
 finite error; those that do not pass through themselves first, beyond which a speed is that of no real
 sheet. Each runs again at a quarter of the tolerance, on a mesh 1.5 times finer in each direction: a
 stated error is wrong if the speed moves by more. A run goes on where the file ends.
@@ -107,7 +107,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
         __doc__,
         arguments,
         gaits=(str(gaits.TABLE.path), "table of gaits to check"),
-        every=(10, "check those whose number it divides"),
+        every=(5, "check those whose number it divides"),
         workers=(1, "processes"),
     )
     rows = chosen(gaits.TABLE.read(Path(options.gaits)), options.every)

@@ -126,6 +126,13 @@ def test_cells_below_their_error_are_hatched() -> None:
     error = np.array([[0.2, 0.05, np.inf], [np.inf, 0.1, np.nan]])
     found = speed_map.Grid(np.array([0.0, 1.0, 3.0]), np.array([0.0, 2.0]), speed, error, 0 * speed)
     axes = Figure().add_subplot()
-    speed_map.draw_speeds(axes, found, 0.2)
+    speed_map.draw_speeds(axes, found, speed_map.Colours(-0.2, 0.2))
     boxes = {(p.get_x(), p.get_y(), p.get_width(), p.get_height(), p.get_hatch()) for p in axes.patches}
     assert boxes == {(-0.5, -1.0, 1.0, 2.0, speed_map.HATCH), (-0.5, 1.0, 1.0, 2.0, speed_map.HATCH)}
+
+
+def test_a_scale_is_about_zero_unless_all_go_one_way():
+    assert speed_map.Colours.of([-0.2, np.nan, 0.1]) == (-0.2, 0.2, "RdBu_r")
+    assert speed_map.Colours.of([0.1, np.nan, 0.2]) == (0.1, 0.2, "viridis")
+    assert speed_map.Colours.of([-0.1, -0.2]) == (-0.2, -0.1, "viridis")
+    assert speed_map.Colours.of([]) == (-1.0, 1.0, "RdBu_r")
