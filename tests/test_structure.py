@@ -30,7 +30,17 @@ LAYERS = (
     ),
     *(
         f"fem_check.{part}"
-        for part in ("answer", "choice", "output", "files", "runs", "sweeps", "explorer", "command")
+        for part in (
+            "answer",
+            "choice",
+            "output",
+            "files",
+            "runs",
+            "sweeps",
+            "optimisation",
+            "explorer",
+            "command",
+        )
     ),
     "fem_check",
     "figures",

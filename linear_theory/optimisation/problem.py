@@ -38,7 +38,7 @@ class Evaluation(Shown):
 class Objective(Protocol):
     """Raises `Unusable`, saying why, where there is no value."""
 
-    def __call__(self, point: Array) -> Evaluation:
+    def __call__(self, point: Array, /) -> Evaluation:
         """At a point (unknowns,)."""
         ...
 
