@@ -17,7 +17,6 @@ from fem_check.optimisation.objectives import Objective, objective_of
 from fem_check.optimisation.result import Check, Optimum, Start
 from fem_check.optimisation.unknowns import Unknowns
 from fem_check.optimisation.values import Question
-from fem_check.sweeps.variation import Variation
 from linear_theory.common import validation
 from linear_theory.common.errors import SheetcrawlError
 from linear_theory.common.estimate import Estimate
@@ -41,7 +40,7 @@ FINE = 1e-3
 """Relative tolerance of the answers of a search."""
 
 
-class NothingFound(SheetcrawlError, ValueError):
+class NothingFound(SheetcrawlError):
     """No start has led to a scene with an answer; says why not."""
 
 
@@ -77,7 +76,7 @@ def optimise(
     where no start has an answer, as beyond the reach of the level; KeyboardInterrupt, saying what the
     file has kept.
 
-    >>> from fem_check.optimisation import Harmonics, optimise
+    >>> from fem_check import Harmonics, optimise
     >>> from linear_theory import Scene, Sheet, TravellingWave
     >>> scene = Scene(Sheet(), TravellingWave([1.0, 0.2], [0.0, 0.0]), alpha=0.1)
     >>> found = optimise(scene, {"wave": Harmonics(2, largest=1.0)}, level="strip", check=False)
@@ -86,7 +85,7 @@ def optimise(
     """
     scene = validation.instance("scene", scene, Scene)
     settings = RunSettings(level, rtol)
-    unknowns = Unknowns(scene, over, settings)
+    unknowns = Unknowns(scene, over)
     return search(
         unknowns,
         objective_of(objective),
@@ -98,11 +97,6 @@ def optimise(
         file,
         progress,
     )
-
-
-def base_of(base: Variation, over: Mapping[str, Any], settings: RunSettings) -> Unknowns:
-    """The unknowns of a scene file."""
-    return Unknowns(base.file.scene, over, settings, base)
 
 
 @one_blas_thread
@@ -204,7 +198,7 @@ def _found(
     proof = _certificate(question, best)
     scene, sign = unknowns.scene_at(best.point), objective.sign
     value = Estimate(sign * best.found.value, best.found.error)
-    slopes = question.proof()(best.point).gradient / unknowns.slopes(best.point)
+    slopes = question.proof(best.stage)(best.point).gradient / unknowns.slopes(best.point)
     return Optimum(
         scene=scene,
         values=unknowns.values(best.point),
@@ -219,13 +213,15 @@ def _found(
         check=_check(question, scene) if check else None,
         answers=question.kept.fresh,
         seconds=time.perf_counter() - begin,
+        units=unknowns.units,
+        field_units={field.name: field.axis.unit for field in unknowns.fields},
     )
 
 
 def _certificate(question: Question, best: Climbed) -> Certificate:
     unknowns = question.unknowns
     second = question.has_line_gradient or len(unknowns.names) <= FEW
-    return certificate(question.proof(), unknowns.region, best.point, unknowns.names, second)
+    return certificate(question.proof(best.stage), unknowns.region, best.point, unknowns.names, second)
 
 
 def _why(question: Question, point: Array) -> str:

@@ -98,7 +98,7 @@ class Harmonics(Value):
     Without `mean`, the mean of c is 0. Count of waves and period stay those of the scene. Raises
     ValueError for others.
 
-    >>> from fem_check.optimisation.over import Harmonics
+    >>> from fem_check import Harmonics
     >>> print(Harmonics(5, largest=1.0).unknowns, Harmonics(5, mean_square=0.5, mean=False).unknowns)
     11 10
     """
@@ -184,6 +184,11 @@ def parts_of(over: Mapping[str, Any]) -> tuple[tuple[Field, ...], Harmonics | No
         for field in fields:
             if field.name.startswith("wave.") and field.name != "wave.period":
                 raise ValueError(f"over: {field.name}: must be left out beside harmonics of the wave")
+            if field.name == "growth.swelling":
+                raise ValueError(
+                    "over: growth.swelling: must be growth.alpha beside harmonics of the wave: it is "
+                    "the growth at the crest of a given one"
+                )
     return fields, harmonics
 
 

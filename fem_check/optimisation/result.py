@@ -2,9 +2,10 @@
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
+from fem_check.answer.units import Units
 from fem_check.choice.result import Prediction
 from fem_check.optimisation.objectives import Objective
 from linear_theory.common.estimate import Estimate
@@ -53,7 +54,7 @@ class Optimum(Shown):
     much that differs from the value where dry friction was smoothed, 0 elsewhere; sensitivities: the
     derivative of the objective by each value; starts: how each climb ended; check: by the next higher
     level, None if there is none or none was asked for; answers: that were computed, without those that
-    a file had kept; seconds.
+    a file had kept; seconds. units: of the numbers, None for plain ones; field_units: of the fields.
     """
 
     scene: Scene
@@ -69,6 +70,16 @@ class Optimum(Shown):
     check: Check | None
     answers: int
     seconds: float
+    units: Units | None = None
+    field_units: Mapping[str, str] = field(default_factory=dict)
+
+    @property
+    def unit(self) -> str:
+        """Of the objective, in the units of the scene file if it has some."""
+        if self.units is None:
+            return self.objective.unit
+        named = {"length/time": self.units.speed, "length": self.units.length}
+        return named.get(self.objective.unit, self.objective.unit)
 
     @property
     def level(self) -> str:
@@ -100,7 +111,7 @@ class Optimum(Shown):
 
     def _title(self) -> str:
         met = "converged" if self.converged else "NOT converged"
-        return f"Optimum: {self.objective.name} {with_error(*self.value)} {self.objective.unit}, {met}"
+        return f"Optimum: {self.objective.name} {with_error(*self.value)} {self.unit}, {met}"
 
     def _rows(self) -> Mapping[str, Any]:
         return {

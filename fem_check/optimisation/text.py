@@ -4,9 +4,10 @@ import math
 from collections.abc import Iterator
 
 from fem_check.answer.block import LEVEL_WORDS, wrapped
-from fem_check.answer.rounding import plain
+from fem_check.answer.rounding import measured, plain
 from fem_check.optimisation.result import GAIN, Optimum
-from linear_theory.common.shown import number, with_error
+from linear_theory.common.estimate import Estimate
+from linear_theory.common.shown import number
 
 WIDTH = 80
 
@@ -20,8 +21,8 @@ def text(found: Optimum) -> str:
 
 
 def _lines(found: Optimum) -> Iterator[tuple[str, str]]:
-    unit = f" {found.objective.unit}" if found.objective.unit else ""
-    yield "best", f"{found.objective.name} {with_error(*found.value)}{unit}, {_improvement(found)}"
+    unit = f" {found.unit}" if found.unit else ""
+    yield "best", f"{found.objective.name} {_shown(found.value)}{unit}, {_improvement(found)}"
     yield "at", _values(found)
     if not found.converged:
         yield "NOT MET", _doubts(found)
@@ -40,12 +41,30 @@ def _improvement(found: Optimum) -> str:
     before = found.start.value
     if abs(before) <= found.start.error or not before:
         return f"{plain(before)} as given"
-    return f"{plain(found.value.value / before, 3)} times the {plain(before)} as given"
+    return _against(found.value.value, before)
+
+
+def _against(value: float, before: float) -> str:
+    """One value beside another one."""
+    if value * before <= 0:
+        return f"{plain(before)} as given"
+    return f"{plain(value / before)} times the {plain(before)} as given"
+
+
+def _shown(value: Estimate) -> str:
+    """With its error, where five digits show it."""
+    if value.error < 1e-5 * abs(value.value):
+        return plain(value.value, 5)
+    return measured(value.value, value.error).with_unit("").strip()
 
 
 def _values(found: Optimum) -> str:
     names = sorted(found.values, key=lambda name: -_weight(found, name))[:SHOWN]
-    told = [f"{name} = {number(float(found.values[name]))}" for name in found.values if name in names]
+    told = [
+        f"{name} = {number(float(found.values[name]))} {found.field_units.get(name, '')}".strip()
+        for name in found.values
+        if name in names
+    ]
     more = len(found.values) - len(told)
     return ", ".join(told) + (f"; and {more} smaller amplitudes" if more else "")
 
@@ -90,7 +109,11 @@ def _starts(found: Optimum) -> str:
 
 def _sensitivities(found: Optimum) -> str:
     fields = {n: v for n, v in found.sensitivities.items() if "[" not in n and n != "wave.mean"}
-    return ", ".join(f"{plain(value, 3)} per {name}" for name, value in fields.items())
+    unit = f" {found.unit}" if found.unit else ""
+    return ", ".join(
+        f"{plain(value)}{unit} per {found.field_units.get(name) or 1} of {name}"
+        for name, value in fields.items()
+    )
 
 
 def _check(found: Optimum) -> str:
@@ -100,8 +123,7 @@ def _check(found: Optimum) -> str:
     level = LEVEL_WORDS.get(check.level, check.level)
     if check.best is None:
         return f"none by {level}: {check.failed}"
-    words = f"{with_error(*check.best)} by {level}"
+    words = f"{_shown(check.best)} by {level}"
     if check.start is None or not check.start.value:
         return words
-    ratio = check.best.value / check.start.value
-    return f"{words}, {plain(ratio, 3)} times the {plain(check.start.value)} as given"
+    return f"{words}, {_against(check.best.value, check.start.value)}"

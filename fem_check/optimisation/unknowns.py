@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from fem_check.answer.units import Units
 from fem_check.choice.settings import RunSettings
 from fem_check.optimisation.over import WIDEST as WIDE
 from fem_check.optimisation.over import Field, parts_of, travelling
@@ -21,21 +22,20 @@ Array = NDArray[np.float64]
 class Unknowns:
     """The unknowns of a scene. fields, harmonics: what they are; base: of the fields, None without."""
 
-    def __init__(
-        self,
-        scene: Scene,
-        over: Mapping[str, Any],
-        settings: RunSettings,
-        base: Variation | None = None,
-    ) -> None:
+    def __init__(self, scene: Scene, over: Mapping[str, Any], base: Variation | None = None) -> None:
         self.fields, self.harmonics = parts_of(over)
         self.scene, self._over = scene, over
         self._like = travelling(scene) if self.harmonics else None
         self._base = base
         if self.fields and base is None:
-            self._base = Variation.of(scene, settings)
+            self._base = Variation.of(scene, RunSettings())
         if self._base is not None:
             self._base.check_axes([field.axis for field in self.fields])
+
+    @property
+    def units(self) -> Units | None:
+        """Of the numbers of a scene file; None for plain ones."""
+        return None if self._base is None else self._base.units
 
     @property
     def names(self) -> list[str]:

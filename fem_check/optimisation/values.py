@@ -24,7 +24,7 @@ from linear_theory.common.errors import BeyondReachWarning, SheetcrawlError, Vis
 from linear_theory.common.estimate import Estimate
 from linear_theory.friction.contact import Contact
 from linear_theory.friction.laws import Coulomb, Tanh
-from linear_theory.line.best.gradient import scene_gradient
+from linear_theory.line.best.gradient import LineGradient, scene_gradient
 from linear_theory.optimisation.differences import Differences
 from linear_theory.optimisation.problem import Evaluation, Unusable
 from linear_theory.optimisation.problem import Objective as OfPoints
@@ -34,6 +34,12 @@ Array = NDArray[np.float64]
 
 ON_LINE = "strip"
 """The level that has a gradient of its own."""
+
+ON_LINE_FIELDS = ("growth.alpha", "growth.swelling", "wave.period")
+"""Fields that its gradient knows."""
+
+SMALL = 1e-5
+"""Change of an unknown by which alpha and period are differentiated."""
 
 WIDTHS = (0.3, 0.1, 0.03, 0.01, 0.003, 0.001)
 """Slip speeds of the smooth stages, over |alpha| L/(nT), the unit of speeds on a strip."""
@@ -96,27 +102,35 @@ class Question:
             found = scene_gradient(scene, "strip")
         except ValueError as problem:
             raise Unusable(" ".join(str(problem).split())) from None
-        amplitudes = np.concatenate([found.cosine, found.sine])
         slope = self.objective.sign * (self.objective.slope(scene) or 0.0)
-        gradient = slope * self._chain(point, scene, amplitudes, found.mean, found.alpha, found.period)
+        gradient = slope * self._chain(point, found)
         doubt = np.full(point.size, EXACT * float(np.linalg.norm(gradient)))
         speed = found.speed
         return Evaluation(slope * speed.mean, abs(slope) * speed.error, gradient, doubt, found.kink)
 
-    def _chain(
-        self, point: Array, scene: Scene, amplitudes: Array, mean: float, alpha: float, period: float
-    ) -> Array:
+    def _chain(self, point: Array, of: LineGradient) -> Array:
         """From derivatives by wave and couplings to those by the unknowns."""
-        by_field = {"growth.alpha": alpha, "wave.period": period, "wave.mean": mean}
-        fields = [by_field[field.name] for field in self.unknowns.fields]
+        fields = [self._by_field(point, place, of) for place in self._places]
         harmonics = self.unknowns.harmonics
         if harmonics is None:
-            return np.array(fields) * self.unknowns.slopes(point)
-        waves, n, found = np.zeros(harmonics.unknowns), harmonics.count, amplitudes.size // 2
-        waves[:found], waves[n : n + found] = amplitudes[:found], amplitudes[found:]
+            return np.array(fields)
+        waves, n, found = np.zeros(harmonics.unknowns), harmonics.count, of.cosine.size
+        waves[:found], waves[n : n + found] = of.cosine, of.sine
         if harmonics.mean:
-            waves[-1] = mean
-        return np.concatenate([fields, waves]) * self.unknowns.slopes(point)
+            waves[-1] = of.mean
+        return np.concatenate([fields, harmonics.unit * waves])
+
+    @property
+    def _places(self) -> range:
+        """Of the fields among the unknowns."""
+        return range(len(self.unknowns.fields))
+
+    def _by_field(self, point: Array, place: int, of: LineGradient) -> float:
+        """Through alpha and the period that a field stands for, which no work is needed for."""
+        move = SMALL * np.eye(point.size)[place]
+        one, other = (self.unknowns.scene_at(point + sign * move) for sign in (1, -1))
+        changes = of.alpha * (one.alpha - other.alpha) + of.period * (one.period - other.period)
+        return changes / (2 * SMALL)
 
     def _smooth(self, scene: Scene, width: float) -> Scene:
         """With a tanh law instead of dry friction."""
@@ -130,14 +144,13 @@ class Question:
     def has_line_gradient(self) -> bool:
         """Whether the level is that of the line, with unknowns and objective that it knows."""
         scene = self.unknowns.scene
-        known = {"growth.alpha", "wave.period"}
         return (
             self.settings.level == ON_LINE
             and self.objective.slope(scene) is not None
             and scene.drive.series is not None
             and scene.alpha != 0
             and scene.contact.friction.map is None
-            and all(field.name in known for field in self.unknowns.fields)
+            and all(field.name in ON_LINE_FIELDS for field in self.unknowns.fields)
         )
 
     @property
@@ -164,6 +177,6 @@ class Question:
 
         return evaluated
 
-    def proof(self) -> OfPoints:
-        """What the certificate is of: the last stage, with errors of its gradient."""
-        return self.stages()[-1] if self.has_line_gradient else self.by_differences(careful=True)
+    def proof(self, stage: int = -1) -> OfPoints:
+        """What the certificate is of: a stage, by default the last, with errors of its gradient."""
+        return self.stages()[stage] if self.has_line_gradient else self.by_differences(careful=True)

@@ -3,10 +3,12 @@
 At a maximum the gradient is a combination, with multipliers >= 0, of the normals of the bounds and
 constraints that are met with equality (Karush, Kuhn and Tucker). What is left of it after the best such
 combination is the projected gradient p. Along the directions that leave no constraint, Z, the second
-derivatives H of the objective less its constraints give the largest gain of the quadratic model within
-a box of size 1: for every eigenvector e of Z^T H Z, of eigenvalue l,
+derivatives H of the objective less its constraints give the largest gain of the quadratic model: for
+every eigenvector e of Z^T H Z, of eigenvalue l,
 
-    max over |d| <= 1 of (p . e) d + l d^2/2.
+    max over d of (p . e) d + l d^2/2,
+
+as far as the bounds and the other constraints, linearised, allow, and |d| <= 1.
 
 The sum of these is the `gain` that may have been left. It is infinite at no point, large where the
 gradient is, or where the point is a saddle, and zero at a maximum. Of an objective whose second
@@ -152,11 +154,38 @@ def _second(
             row = np.eye(constraint.excess(point).size)[one.row]
             hessian -= free.T @ constraint.curvature(push * row) @ free
     values, vectors = np.linalg.eigh((hessian + hessian.T) / 2)
-    along = abs(vectors.T @ (free.T @ left))
-    inner = (values < 0) & (along < -values)
+    along = free.T @ left @ vectors
+    gains = [
+        max(0.0, _gain(along[i], values[i], *_room(region, point, free @ vectors[:, i])))
+        for i in range(values.size)
+    ]
+    return float(sum(gains)), float(values[-1])
+
+
+def _room(region: Region, point: Array, direction: Array) -> tuple[float, float]:
+    """How far one may go along a direction and against it, at most 1, by the linearised constraints.
+
+    Those that are met with equality do not count: directions leave none of them.
+    """
+    moves = [direction, -direction]
+    gaps = [region.high - point, point - region.low]
+    for constraint in region.constraints:
+        moves.append(constraint.slopes(point) @ direction)
+        gaps.append(-constraint.excess(point))
+    move, gap = np.concatenate(moves), np.concatenate(gaps)
+    counts = gap > ACTIVE
     with np.errstate(divide="ignore", invalid="ignore"):
-        gains = np.where(inner, along**2 / (-2 * values), along + values / 2)
-    return float(gains.sum()), float(values[-1])
+        steps = gap[counts] / abs(move[counts])
+    ahead, behind = (steps[sign * move[counts] > 0] for sign in (1, -1))
+    return float(np.min(ahead, initial=1.0)), float(np.min(behind, initial=1.0))
+
+
+def _gain(slope: float, curvature: float, ahead: float, behind: float) -> float:
+    """Largest slope d + curvature d^2/2 for -behind <= d <= ahead."""
+    ends = [slope * d + curvature * d * d / 2 for d in (ahead, -behind)]
+    if curvature < 0 and -behind < -slope / curvature < ahead:
+        ends.append(slope * slope / (-2 * curvature))
+    return max(ends)
 
 
 def _reduced(

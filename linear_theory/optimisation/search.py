@@ -5,6 +5,7 @@ to it, and each begun where the last one ended. The ends of all of them are then
 objective itself.
 """
 
+import contextlib
 import math
 import time
 from collections.abc import Callable, Sequence
@@ -47,14 +48,15 @@ class Ascent(Value):
 class Climbed(Shown):
     """Where the climb from a start ended.
 
-    start, point (unknowns,); found: there, None if there is no value at any point; first: of the
-    objective itself at the start, NaN if it has none; evaluations: how many; words: how it ended;
-    seconds.
+    start, point (unknowns,); found: there, None if there is no value at any point; stage: number of the
+    smooth objective that led there; first: of the objective itself at the start, NaN if it has none;
+    evaluations: how many; words: how it ended; seconds.
     """
 
     start: Array
     point: Array
     found: Evaluation | None
+    stage: int
     first: float
     evaluations: int
     words: str
@@ -83,6 +85,11 @@ class _Best:
             self.value, self.point = found.value, np.array(point)
         return -found.value / self.scale, -found.gradient / self.scale
 
+    def offer(self, point: Array) -> None:
+        """Take a point into account, if it has a value; the last of a climb, brought inside."""
+        with contextlib.suppress(Unusable):
+            self(point)
+
 
 def climb(
     objectives: Sequence[Objective],
@@ -97,28 +104,28 @@ def climb(
     tell: called with the number of objectives that are done.
     """
     begin, count, words, point = time.perf_counter(), 0, "", start
-    ends: list[Array] = [start]
+    ends: list[Array] = []
     for stage, objective in enumerate(objectives):
         best = _Best(objective, region)
         try:
-            words = _minimised(best, region, point, how)
+            last, words = _minimised(best, region, point, how)
+            best.offer(region.towards_centre(last))
         except Unusable as outside:
             words = f"left the reach: {outside}"
         count += best.count
-        if best.point is not None:
-            point = region.towards_centre(best.point)
-            ends.append(point)
+        point = start if best.point is None else region.towards_centre(best.point)
+        ends.append(point)
         tell(stage + 1)
-    values = [_usable(truth, end) for end in ends]
+    first, values = _usable(truth, start), [_usable(truth, end) for end in ends]
     found = [(value.value, place) for place, value in enumerate(values) if value is not None]
-    place = max(found)[1] if found else 0
-    first = values[0]
+    place = max(found)[1] if found else len(ends) - 1
     return Climbed(
         start=start,
         point=ends[place],
         found=values[place],
+        stage=place,
         first=math.nan if first is None else first.value,
-        evaluations=count + len(ends),
+        evaluations=count + len(ends) + 1,
         words=words,
         seconds=time.perf_counter() - begin,
     )
@@ -131,8 +138,9 @@ def _usable(objective: Objective, point: Array) -> Evaluation | None:
         return None
 
 
-def _minimised(best: _Best, region: Region, start: Array, how: Ascent) -> str:
-    """Run the optimiser, which leaves its points in `best`; how it ended, in words."""
+def _minimised(best: _Best, region: Region, start: Array, how: Ascent) -> tuple[Array, str]:
+    """Run the optimiser, which leaves its points in `best`; the last one, and how it ended, in
+    words."""
     bounds = Bounds(region.low, region.high, keep_feasible=True)
     options: dict[str, Any] = {"maxiter": how.iterations}
     if how.method == "SLSQP":
@@ -153,7 +161,7 @@ def _minimised(best: _Best, region: Region, start: Array, how: Ascent) -> str:
     ended = minimize(
         best, start, method=how.method, jac=True, bounds=bounds, constraints=rules, options=options
     )
-    return _words(how, ended)
+    return np.asarray(ended.x), _words(how, ended)
 
 
 def _words(how: Ascent, ended: Any) -> str:

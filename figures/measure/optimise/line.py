@@ -61,7 +61,7 @@ TABLE = Table(
 
 def found(harmonics: int, starts: int = STARTS) -> Optimum:
     """The best wave of so many harmonics."""
-    scene = Scene(Sheet(), TravellingWave([1.0, 0.2], [0.0, 0.0]), alpha=ALPHA)
+    scene = Scene(Sheet(), TravellingWave(np.array([1.0, 0.2]), np.zeros(2)), alpha=ALPHA)
     over = {"wave": Harmonics(harmonics, largest=1.0)}
     return optimise(scene, over, level="strip", starts=starts, check=False)
 
