@@ -28,14 +28,14 @@ LARGEST = {"wave": Harmonics(2, largest=1.0)}
 
 @pytest.fixture(scope="module")
 def best():
-    return optimise(STRIP, LARGEST, level="strip", starts=3)
+    return optimise(STRIP, LARGEST, level="strip", starts=2)
 
 
 def test_the_best_wave_on_dry_ground_is_found_from_random_starts(best):
     """Between what a wave of a linear program has, less the margin of |c|, and the bound."""
     value = best.value.value / ALPHA
     assert 0.994 * best_of_one_arc(2).reached < value < dry_bound(2)
-    assert best.agreed == len(best.starts) == 3
+    assert best.agreed == len(best.starts) == 2
     wave = best.scene.wave
     assert 0.99 < size_of(wave) < 1 + 1e-4
     assert line_balance(wave, ALPHA, body="strip", growth_law="exp").mean == best.value.value
@@ -62,7 +62,7 @@ def test_it_is_checked_by_the_next_level(best):
     for words in (
         "best      speed 0.000443",
         "held by   |c| <= 1",
-        "3 of 3",
+        "2 of 2",
         "check",
         "small-strain theory",
     ):
@@ -81,21 +81,22 @@ def test_on_viscous_ground_every_wave_of_one_energy_is_as_good():
 
 
 def test_a_coupling_between_bounds():
-    """The largest speed over alpha against a search without gradients; and at a bound, its slope."""
-    scene = Scene(Sheet(width=0.1), TravellingWave(np.array([1.0, -0.4]), np.zeros(2)), alpha=0.3)
+    """The fastest against the wave by a search without gradients; at a bound, the slope."""
+    scene = Scene(Sheet(width=0.1), WAVE, alpha=0.2)
 
     def speed(alpha):
         return line_balance(scene.wave, alpha, body="strip", growth_law="exp").mean
 
-    inner = minimize_scalar(lambda a: -speed(a), bounds=(-0.5, 0.0), method="bounded")
-    over = {"growth.alpha": (-0.5, 0.0)} if inner.x < -1e-3 else {"growth.alpha": (0.01, 0.5)}
-    found = optimise(scene, over, level="strip", starts=2, check=False)
-    low, high = over["growth.alpha"]
-    expected = max(speed(a) for a in np.linspace(low, high, 41) if a)
-    assert found.value.value >= expected * (1 - 1e-4)
-    alpha, slope = found.values["growth.alpha"], found.sensitivities["growth.alpha"]
-    numeric = (speed(alpha + 1e-6) - speed(alpha - 1e-6)) / 2e-6
-    assert slope == pytest.approx(numeric, rel=1e-2, abs=1e-3)
+    over = {"growth.alpha": (0.01, 0.3)}
+    found = optimise(scene, over, "speed towards -y", level="strip", starts=1, check=False)
+    inner = minimize_scalar(speed, bounds=(0.01, 0.3), method="bounded", options={"xatol": 1e-4})
+    assert found.value.value == pytest.approx(-inner.fun, rel=1e-4)
+    assert found.values["growth.alpha"] == pytest.approx(inner.x, rel=1e-2)
+    assert found.converged
+    held = optimise(scene, over, level="strip", starts=1, check=False)
+    assert held.certificate.held == ("upper bound of growth.alpha",)
+    numeric = (speed(0.3 + 1e-6) - speed(0.3 - 1e-6)) / 2e-6
+    assert held.sensitivities["growth.alpha"] == pytest.approx(numeric, rel=1e-2)
 
 
 def test_any_function_by_differences():

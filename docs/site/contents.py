@@ -37,6 +37,7 @@ HOWTO = {
     "own_wave": "A wave of your own",
     "own_friction_law": "A friction law of your own",
     "friction_direction": "Friction with a direction",
+    "optimise": "The best wave, the best scene",
     "outline": "Another outline",
     "slope": "A slope",
     "energy": "What crawling costs",

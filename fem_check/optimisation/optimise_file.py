@@ -156,7 +156,8 @@ def _over(data: Mapping[str, Any], mistakes: Mistakes) -> dict[str, Any]:
             try:
                 Field.of(path, bounds)
             except ValueError as problem:
-                mistakes.add_words(place, f"[over] {str(problem).removeprefix('over: ')}")
+                words = str(problem).removeprefix("over: ").replace(f"{path!r}: ", f"{path}: ", 1)
+                mistakes.add_words(place, f"[over] {words}")
             found[path] = bounds
     if "harmonics" in data:
         table = _table("harmonics", HarmonicsTable, data["harmonics"], mistakes)

@@ -95,8 +95,8 @@ class Harmonics(Value):
     """The profile of a travelling wave: mean, and cosine and sine amplitudes up to that many harmonics.
 
     Of one size: largest: of |c| over a period; or mean_square: of c. Exactly one of them is given, > 0.
-    Without `mean`, the mean of c is 0. Count of waves and period stay those of the scene. Raises
-    ValueError for others.
+    Without `mean`, the mean of c is 0. Count of waves and period stay those of the scene.
+    Raises ValueError for others.
 
     >>> from fem_check import Harmonics
     >>> print(Harmonics(5, largest=1.0).unknowns, Harmonics(5, mean_square=0.5, mean=False).unknowns)

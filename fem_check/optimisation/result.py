@@ -8,14 +8,11 @@ from typing import Any
 from fem_check.answer.units import Units
 from fem_check.choice.result import Prediction
 from fem_check.optimisation.objectives import Objective
+from fem_check.optimisation.words import shown
 from linear_theory.common.estimate import Estimate
-from linear_theory.common.shown import Shown, number, with_error
-from linear_theory.optimisation.certificate import Certificate
+from linear_theory.common.shown import Shown, number
+from linear_theory.optimisation.certificate import GAIN, Certificate
 from linear_theory.scene.scene import Scene
-
-GAIN = 0.02
-"""Share of the value that may be left for a result to be called converged: of the quadratic model, with
-the errors of the gradient and the distance of a smoothed objective from the true one."""
 
 
 @dataclass(frozen=True)
@@ -111,7 +108,7 @@ class Optimum(Shown):
 
     def _title(self) -> str:
         met = "converged" if self.converged else "NOT converged"
-        return f"Optimum: {self.objective.name} {with_error(*self.value)} {self.unit}, {met}"
+        return f"Optimum: {self.objective.name} {shown(self.value)} {self.unit}, {met}"
 
     def _rows(self) -> Mapping[str, Any]:
         return {

@@ -33,6 +33,10 @@ Array = NDArray[np.float64]
 ACTIVE = 1e-6
 """Distance to a bound or a constraint within which it is met with equality: both are scaled to 1."""
 
+GAIN = 0.02
+"""Share of the value that may be left for a result to be called converged: of the quadratic model, with
+the errors of the gradient and the distance of a smoothed objective from the true one."""
+
 HELD = 1e-9
 """Multipliers above this share of the gradient hold the point at a constraint, which cannot be left."""
 

@@ -65,7 +65,7 @@ class Constraint(Protocol):
 
 
 @dataclass(frozen=True, eq=False)
-class Linear:
+class Linear(Shown):
     """matrix (rows, unknowns) times the point, at most `most` (rows,)."""
 
     name: str
@@ -86,7 +86,7 @@ class Linear:
 
 
 @dataclass(frozen=True, eq=False)
-class Ball:
+class Ball(Shown):
     """The sum of weights (unknowns,) >= 0 times squares, at most `most` > 0, over `most`."""
 
     name: str
@@ -107,7 +107,7 @@ class Ball:
 
 
 @dataclass(frozen=True, eq=False)
-class Region:
+class Region(Shown):
     """Points with low <= point <= high, (unknowns,) each, that meet the constraints.
 
     centre: a point inside, from which every other one can be seen: on the way to it no constraint is
