@@ -33,9 +33,6 @@ Array = NDArray[np.float64]
 LADDER = ("strip", "first order", "second order", "cycle", "stepped")
 """Levels, each checked by the next one that represents the scene."""
 
-FEW = 3
-"""Unknowns up to which second derivatives are computed of objectives without a gradient."""
-
 FINE = 1e-3
 """Relative tolerance of the answers of a search."""
 
@@ -220,8 +217,13 @@ def _found(
 
 def _certificate(question: Question, best: Climbed) -> Certificate:
     unknowns = question.unknowns
-    second = question.has_line_gradient or len(unknowns.names) <= FEW
-    return certificate(question.proof(best.stage), unknowns.region, best.point, unknowns.names, second)
+    return certificate(
+        question.proof(best.stage),
+        unknowns.region,
+        best.point,
+        unknowns.names,
+        question.has_curvature(),
+    )
 
 
 def _why(question: Question, point: Array) -> str:

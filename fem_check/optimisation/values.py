@@ -10,13 +10,15 @@ slip speed.
 import warnings
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
 from fem_check.choice.result import Prediction
-from fem_check.choice.settings import RunSettings
+from fem_check.choice.settings import RTOL, RunSettings
 from fem_check.choice.solving import solve
+from fem_check.optimisation.adjoint import LEVEL, Adjoint
 from fem_check.optimisation.kept import Kept
 from fem_check.optimisation.objectives import Objective
 from fem_check.optimisation.unknowns import Unknowns
@@ -37,6 +39,9 @@ ON_LINE = "strip"
 
 ON_LINE_FIELDS = ("growth.alpha", "growth.swelling", "wave.period")
 """Fields that its gradient knows."""
+
+FEW, SOME = 3, 12
+"""Unknowns up to which second derivatives are computed, by differences and by an adjoint."""
 
 SMALL = 1e-5
 """Change of an unknown by which alpha and period are differentiated."""
@@ -83,6 +88,19 @@ class Question:
     def by_differences(self, careful: bool = False) -> OfPoints:
         """With a gradient by differences. careful: and with its error."""
         return Differences(self.value, self.unknowns.region, careful)
+
+    def by_adjoint(self) -> OfPoints | None:
+        """With a gradient by an adjoint; None where there is none."""
+        adjoint = self._adjoint
+        if adjoint is None:
+            return None
+        return lambda point: self.kept.evaluation("adjoint", point, lambda: adjoint(point))
+
+    @cached_property
+    def _adjoint(self) -> Adjoint | None:
+        if self.settings.level != LEVEL:
+            return None
+        return Adjoint.of(self.unknowns, self.objective, self.settings.rtol or RTOL)
 
     def along_line(self, width: float | None) -> OfPoints:
         """With the gradient on a strip. width: of a tanh law instead of dry friction, over the unit."""
@@ -153,6 +171,11 @@ class Question:
             and all(field.name in ON_LINE_FIELDS for field in self.unknowns.fields)
         )
 
+    def has_curvature(self) -> bool:
+        """Whether second derivatives are worth their gradients, two for each unknown."""
+        count = len(self.unknowns.names)
+        return self.has_line_gradient or count <= (SOME if self._adjoint is not None else FEW)
+
     @property
     def is_dry(self) -> bool:
         """Whether the friction of the scene is dry, and the scene leaves it to be smoothed."""
@@ -162,7 +185,7 @@ class Question:
     def stages(self, widths: tuple[float, ...] = WIDTHS) -> list[OfPoints]:
         """Objectives to climb, one after the other."""
         if not self.has_line_gradient:
-            return [self.by_differences()]
+            return [self.by_adjoint() or self.by_differences()]
         if self.is_dry:
             return [self.along_line(width) for width in widths]
         return [self.along_line(None)]
@@ -179,4 +202,6 @@ class Question:
 
     def proof(self, stage: int = -1) -> OfPoints:
         """What the certificate is of: a stage, by default the last, with errors of its gradient."""
-        return self.stages()[stage] if self.has_line_gradient else self.by_differences(careful=True)
+        if self.has_line_gradient:
+            return self.stages()[stage]
+        return self.by_adjoint() or self.by_differences(careful=True)
