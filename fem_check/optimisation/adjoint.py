@@ -49,7 +49,7 @@ class Adjoint:
         harmonics = unknowns.harmonics
         waves = [] if harmonics is None else [_renamed(name) for name in harmonics.names]
         self._names = [*(field.name for field in unknowns.fields), *waves]
-        self._parameters = import_module(f"{PACKAGE}.parameters.names").parameters(self._names)
+        self._parameters = self._package.parameters(self._names)
 
     @classmethod
     def of(cls, unknowns: Unknowns, objective: Objective, rtol: float) -> "Adjoint | None":

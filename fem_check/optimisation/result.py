@@ -87,7 +87,7 @@ class Optimum(Shown):
     def left(self) -> float:
         """Share of the value that may be left in the neighbourhood; NaN if not known."""
         proof = self.certificate
-        return (proof.gain + proof.doubt + self.rounding) / max(abs(self.value.value), 1e-300)
+        return (proof.gain + self.rounding) / max(abs(self.value.value), 1e-300)
 
     @property
     def converged(self) -> bool:

@@ -49,11 +49,12 @@ class Certificate(Shown):
     """What speaks for a maximum, and what against it.
 
     slope: of the objective in the steepest direction that leaves no constraint, for a step of the whole
-    range; doubt: of it, from the error of the gradient. gain: what may have been left, see the module;
-    highest: the largest eigenvalue of the reduced Hessian, negative at a maximum; NaN if it was not
-    computed, and minus infinity if no direction is left. held: names of the constraints that hold the
-    point; multipliers (unknowns,): dV for a bound that is moved by 1, negative for a lower one. kink:
-    why the gradient is one from one side, in words. value: of the objective.
+    range; doubt: of it, from the error of the gradient. gain: what may have been left, see the module,
+    with that error; NaN if the error is not known. highest: the largest eigenvalue of the reduced
+    Hessian, negative at a maximum; NaN if it was not computed, and minus infinity if no direction is
+    left. held: names of the constraints that hold the point; multipliers (unknowns,): dV for a bound
+    that is moved by 1, negative for a lower one. kink: why the gradient is one from one side, in words.
+    value: of the objective.
     """
 
     value: float
@@ -67,7 +68,7 @@ class Certificate(Shown):
 
     def holds(self, rtol: float) -> bool:
         """Whether no gain above that share of the value is left, errors included, and none unknown."""
-        return not self.kink and self.gain + self.doubt <= rtol * abs(self.value)
+        return not self.kink and self.gain <= rtol * abs(self.value)
 
 
 def certificate(
@@ -83,16 +84,18 @@ def certificate(
     for push, one in zip(pushes, met, strict=True):
         if one.unknown >= 0:
             multipliers[one.unknown] += push * one.sign
-    slope = float(np.linalg.norm(left))
-    gain, highest = slope, math.nan
+    free = null_space(normals[held]) if held.any() else np.eye(point.size)
+    slope, doubt = float(np.linalg.norm(left)), float(np.linalg.norm(abs(free.T) @ found.doubt))
+    gain, highest = slope + doubt, math.nan
     if second:
         pushed = [(push, one) for push, one in zip(pushes, met, strict=True) if push]
-        free = null_space(normals[held]) if held.any() else np.eye(point.size)
         gain, highest = _second(objective, region, point, found, free, pushed, left)
+    if math.isnan(doubt):
+        gain = math.nan
     return Certificate(
         value=found.value,
         slope=slope,
-        doubt=float(np.linalg.norm(found.doubt)),
+        doubt=doubt,
         gain=gain,
         highest=highest,
         held=tuple(dict.fromkeys(one.name for one, h in zip(met, held, strict=True) if h)),
@@ -147,23 +150,24 @@ def _second(
     """Gain of the quadratic model in the free directions, (unknowns, directions), and the largest
     eigenvalue; the linear gain and NaN where the neighbours of the point have no gradient."""
     if not free.shape[1]:
-        return float(np.linalg.norm(left)), -math.inf
+        return 0.0, -math.inf
     try:
         hessian = _reduced(objective, region, point, found, free)
     except Unusable:
-        return float(np.linalg.norm(left)), math.nan
+        size = np.linalg.norm(left) + np.linalg.norm(abs(free.T) @ found.doubt)
+        return float(size), math.nan
     for push, one in pushed:
         if one.constraint >= 0:
             constraint = region.constraints[one.constraint]
             row = np.eye(constraint.excess(point).size)[one.row]
             hessian -= free.T @ constraint.curvature(push * row) @ free
     values, vectors = np.linalg.eigh((hessian + hessian.T) / 2)
-    along = free.T @ left @ vectors
-    gains = [
-        max(0.0, _gain(along[i], values[i], *_room(region, point, free @ vectors[:, i])))
-        for i in range(values.size)
-    ]
-    return float(sum(gains)), float(values[-1])
+    gain = 0.0
+    for curvature, direction in zip(values, (free @ vectors).T, strict=True):
+        slope, doubt = float(direction @ left), float(abs(direction) @ found.doubt)
+        room = _room(region, point, direction)
+        gain += max(_gain(slope + sign * doubt, float(curvature), *room) for sign in (1, -1))
+    return gain, float(values[-1])
 
 
 def _room(region: Region, point: Array, direction: Array) -> tuple[float, float]:
@@ -186,7 +190,7 @@ def _room(region: Region, point: Array, direction: Array) -> tuple[float, float]
 
 def _gain(slope: float, curvature: float, ahead: float, behind: float) -> float:
     """Largest slope d + curvature d^2/2 for -behind <= d <= ahead."""
-    ends = [slope * d + curvature * d * d / 2 for d in (ahead, -behind)]
+    ends = [0.0] + [slope * d + curvature * d * d / 2 for d in (ahead, -behind)]
     if curvature < 0 and -behind < -slope / curvature < ahead:
         ends.append(slope * slope / (-2 * curvature))
     return max(ends)
