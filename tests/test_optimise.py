@@ -2,6 +2,7 @@
 
 import json
 import math
+from importlib.util import find_spec
 
 import numpy as np
 import pytest
@@ -9,6 +10,7 @@ from scipy.optimize import minimize_scalar
 
 from fem_check import Harmonics, Scene, optimise
 from fem_check.choice.settings import RunSettings
+from fem_check.optimisation.adjoint import PACKAGE
 from fem_check.optimisation.kept import Kept, KeptError
 from fem_check.optimisation.objectives import Speed, objective_of
 from fem_check.optimisation.optimising import NothingFound
@@ -97,6 +99,19 @@ def test_a_coupling_between_bounds():
     assert held.certificate.held == ("upper bound of growth.alpha",)
     numeric = (speed(0.3 + 1e-6) - speed(0.3 - 1e-6)) / 2e-6
     assert held.sensitivities["growth.alpha"] == pytest.approx(numeric, rel=1e-2)
+
+
+@pytest.mark.skipif(find_spec(PACKAGE) is None, reason="without the package of adjoints")
+@pytest.mark.parametrize("name", ["speed", "cost of transport"])
+def test_the_adjoint_is_the_gradient_of_differences(name):
+    scene = Scene(Sheet(), TravellingWave(np.array([1.0, 0.2]), np.array([0.0, 0.1])), alpha=0.2)
+    unknowns = Unknowns(scene, {"growth.alpha": (0.1, 0.3), "sheet.width": (0.3, 0.7)})
+    question = Question(unknowns, RunSettings("first order", 1e-4), objective_of(name), Kept())
+    one = question.by_adjoint()(unknowns.present)
+    other = question.by_differences(careful=True)(unknowns.present)
+    assert abs(one.value - other.value) <= one.error + other.error
+    assert np.all(abs(one.gradient - other.gradient) <= one.doubt + other.doubt)
+    assert question.proof()(unknowns.present).gradient == pytest.approx(one.gradient)
 
 
 def test_any_function_by_differences():

@@ -127,8 +127,10 @@ def search(
         try:
             return _found(question, points, how, check, telling, begin)
         except KeyboardInterrupt:
-            where = f"{kept.count} answers are in {path}" if path else "nothing is kept without a file"
-            raise KeyboardInterrupt(f"interrupted; {where}; {again} goes on with them") from None
+            if path is None:
+                raise KeyboardInterrupt("interrupted; nothing is kept without file=...") from None
+            words = f"interrupted; {kept.count} answers are in {path}; {again} goes on with them"
+            raise KeyboardInterrupt(words) from None
 
 
 def _with_level(scene: Scene, settings: RunSettings) -> RunSettings:

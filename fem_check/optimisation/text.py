@@ -90,8 +90,8 @@ def _proof(found: "Optimum") -> str:
     else:
         words += f"; largest curvature {plain(proof.highest / size, 2)}"
     words += f"; gain left {percent(proof.gain / size)}"
-    if found.rounding:
-        words += f"; smoothed friction differs by {percent(found.rounding / size)}"
+    if found.rounding >= LITTLE * size:
+        words += f"; what was climbed differs from the value above by {percent(found.rounding / size)}"
     return words
 
 
