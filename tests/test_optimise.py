@@ -102,11 +102,10 @@ def test_a_coupling_between_bounds():
 
 
 @pytest.mark.skipif(find_spec(PACKAGE) is None, reason="without the package of adjoints")
-@pytest.mark.parametrize("name", ["speed", "cost of transport"])
-def test_the_adjoint_is_the_gradient_of_differences(name):
+def test_the_adjoint_is_the_gradient_of_differences():
     scene = Scene(Sheet(), TravellingWave(np.array([1.0, 0.2]), np.array([0.0, 0.1])), alpha=0.2)
-    unknowns = Unknowns(scene, {"growth.alpha": (0.1, 0.3), "sheet.width": (0.3, 0.7)})
-    question = Question(unknowns, RunSettings("first order", 1e-4), objective_of(name), Kept())
+    unknowns = Unknowns(scene, {"sheet.width": (0.3, 0.7)})
+    question = Question(unknowns, RunSettings("first order", 1e-2), Speed(), Kept())
     one = question.by_adjoint()(unknowns.present)
     other = question.by_differences(careful=True)(unknowns.present)
     assert abs(one.value - other.value) <= one.error + other.error

@@ -8,6 +8,7 @@ objective itself.
 import contextlib
 import math
 import time
+import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -158,9 +159,11 @@ def _minimised(best: _Best, region: Region, start: Array, how: Ascent) -> tuple[
             NonlinearConstraint(one.excess, -np.inf, 0.0, jac=one.slopes) for one in region.constraints
         ]
         options |= {"gtol": how.change, "xtol": how.change}
-    ended = minimize(
-        best, start, method=how.method, jac=True, bounds=bounds, constraints=rules, options=options
-    )
+    with warnings.catch_warnings():
+        warnings.filterwarnings("ignore", "delta_grad == 0.0", UserWarning)  # at bounds nothing changes
+        ended = minimize(
+            best, start, method=how.method, jac=True, bounds=bounds, constraints=rules, options=options
+        )
     return np.asarray(ended.x), _words(how, ended)
 
 
