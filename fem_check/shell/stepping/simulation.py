@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from fem_check.shell.stepping.further import second_runs
+from fem_check.shell.stepping.further.errors import Doubt, Further
 from fem_check.shell.stepping.further.progress import Listener, Progress, Whole, printed
 from fem_check.shell.stepping.run import Run, Target
 from fem_check.shell.stepping.schemes import Scheme
@@ -92,8 +93,8 @@ def simulate(
             resumed = run.resume(target)
         whole = _whole(progress, mesh_error, scene.drive.has_state)
         run.finish(target, None if whole is None else _watching(run, whole))
-        difference = np.nan if coarse is None else second_runs.mesh_error(run, coarse, whole)
-        feedback = second_runs.feedback_errors(run, whole)
+        mesh = Doubt() if coarse is None else second_runs.mesh_error(run, coarse, whole)
+        feedback, growth = second_runs.feedback_errors(run, whole)
         jumps = second_runs.snap_error(run, whole)
         contact = second_runs.contact_error(run, whole)
     except KeyboardInterrupt:
@@ -107,11 +108,7 @@ def simulate(
         run.trajectory(),
         seconds=run.seconds,
         resumed_at=resumed,
-        mesh_error=difference,
-        snap_error=jumps,
-        feedback_error=feedback.speed,
-        growth_error=feedback.growth,
-        contact_error=contact,
+        further=Further(mesh, jumps, feedback, contact, growth),
     )
     warn_if_viscous(scene.contact.friction, found.slip_ratio)
     return found
