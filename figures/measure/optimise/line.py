@@ -45,7 +45,6 @@ class Row:
     middle: float
     ended: int
     left: float
-    converged: bool
     answers: int
     seconds: float
 
@@ -81,7 +80,6 @@ def row(harmonics: int) -> Row:
         middle=float(np.median([one.value for one in best.starts])) / ALPHA,
         ended=best.agreed,
         left=100 * best.left,
-        converged=best.converged,
         answers=best.answers,
         seconds=seconds,
     )
