@@ -34,7 +34,7 @@ class Row:
 
     bound: that no wave reaches; most, reached: the linear program, too high and reached by a wave;
     best: of all starts; middle: their median; ended: how many are within 2 % of the best. left: percent
-    that the certificate leaves, converged: whether it holds. answers; seconds of processor time.
+    that the certificate leaves, which holds up to 2. answers; seconds of processor time.
     """
 
     harmonics: int
