@@ -6,6 +6,7 @@ import warnings
 import numpy as np
 import pytest
 
+from fem_check.answer.rounding import measured
 from fem_check.choice.levels import LEVELS, MESHES, TARGET, cycle, finer
 from fem_check.choice.prediction import predict
 from fem_check.shell.cycle.speed import cycle_speed
@@ -150,3 +151,16 @@ def test_a_wide_sheet_has_an_answer_of_first_order():
         found = predict(Sheet(width=100.0), SineWave(), 0.1, rtol=0.3, method="first order")
     other = crawl_speed(Sheet(width=100.0), SineWave(), 0.1, rtol=0.03, method="ritz")
     assert abs(found.mean - other.mean) <= found.speed.error + other.error
+
+
+def test_energies_of_an_answer_are_printed_ones_with_their_model_errors():
+    found = predict(Sheet(), SineWave(), 0.15, rtol=0.05)
+    assert found.level != TARGET  # so that there are model errors
+    for name in ("power", "cost_of_transport", "efficiency"):
+        told, numerical = getattr(found, name), getattr(found.speed, name)
+        assert told.value == numerical.value
+        assert told.error > numerical.error
+    shown = " ".join(str(found).split())
+    assert f"cost of transport {measured(*found.cost_of_transport).with_unit('mu')}" in shown
+    power = found.growth_power(friction_strain=1e-4)
+    assert power.net.value == pytest.approx(found.power.value, rel=1e-2)

@@ -34,6 +34,7 @@ from linear_theory.growth.growth import Reference
 from linear_theory.growth.laws import GROWTH_LAWS
 from tests.runs.processes import interruptible
 
+DIRECTED = ["--alpha", "0.1", "--forward", "0.5"]
 SPEED = ("speed", "--growth", "5 %")
 PACED = (*SPEED, "--wave", "excitable:pulse-train")
 
@@ -113,17 +114,21 @@ def test_wave_of_harmonics_and_all_options(capsys):
         (["--alpha", "two"], "--alpha"),
         (["speed"], "--alpha"),
         (["--alpha", "nan"], "alpha"),
-        (["--alpha", "0.1", "--width", "-1"], "width = -1: must be > 0"),
+        (["--alpha", "0.1", "--width", "-1"], "--width '-1': must be > 0"),
         (["--alpha", "0.1", "--load", "heavy"], "--load"),
         (["--alpha", "0.1", "--friction", "tanh"], "--slip-speed: must be given"),
-        (["--alpha", "0.1", "--count", "0"], "count = 0"),
-        (["--alpha", "0.1", "--rtol", "2"], "rtol = 2"),
+        (["--alpha", "0.1", "--count", "0"], "--count 0: must be"),
+        (["--alpha", "0.1", "--rtol", "2"], "--rtol '2': must be"),
+        ([*DIRECTED, "--backward", "-1"], "--backward -1: must be > 0"),
+        ([*DIRECTED, "--backward", "2", "--sideways", "0"], "--sideways 0: must be > 0"),
+        (["--alpha", "0.1", "--poisson", "0.7"], "--poisson 0.7: must be"),
+        (["--alpha", "0.1", "--width", "100"], "--width '100': must be <= 20 times the length"),
         (["--alpha", "0.1", "--speed"], "--speed"),
         (["--alpha", "1.5", "--growth-law", "linear"], "alpha c = -1.5 is not within -1"),
         ([*SPEED, "--length", "40 kg"], "--length '40 kg': is not a length"),
         ([*SPEED, "--length", "40 mmm"], "'mmm' is not a known unit"),
         ([*SPEED, "--length", "forty mm"], "such as '40 mm'"),
-        ([*SPEED, "--length", "-40 mm", "--period", "8 s"], "length = -40: must be > 0"),
+        ([*SPEED, "--length", "-40 mm", "--period", "8 s"], "--length '-40 mm': must be > 0"),
         (
             [*SPEED, "--length", "40 mm", "--period", "8 s", "--width", "12"],
             "--width '12': needs a unit",
@@ -192,7 +197,7 @@ def test_negative_numbers_are_no_options(capsys, alpha):
 
 def test_a_negative_infinity_is_refused_as_a_number(capsys):
     status, _, err = run(capsys, "--alpha", "-inf")
-    assert (status, err) == (BAD_ARGUMENTS, "sheetcrawl: alpha contains -inf: must be finite\n")
+    assert (status, err) == (BAD_ARGUMENTS, "sheetcrawl: --alpha -inf: must be finite\n")
 
 
 def test_a_speed_beyond_reach_says_so(capsys):

@@ -4,10 +4,12 @@ import numpy as np
 import pytest
 
 from fem_check import Material, Membrane, Scene, cycle_speed, simulate, write_paraview
+from figures.measure import saddle
 from linear_theory import (
     FieldWave,
     Sheet,
     SineWave,
+    Tanh,
     airy_series,
     crawl_speed,
     friction_field,
@@ -70,6 +72,21 @@ def test_of_a_speed_by_theory(tmp_path):
         force = friction_field(field, 0.1, *points, t).force
         off = data["friction"].T[:2] - force
         assert np.sqrt(np.mean(off**2)) < 0.05
+
+
+def test_of_a_plate_on_its_ground(tmp_path):
+    """Pressure and height obey the ground, linearised about the depth that carries the weight."""
+    paper = saddle.PLACES["paper"]
+    speed = crawl_speed(saddle.scene(paper, SineWave(), Tanh(0.3), 1e-3, -0.1), order=2, rtol=1e-2)
+    write_paraview(speed, tmp_path / "plate.xdmf")
+    _, _, steps = read(tmp_path / "plate.xdmf")
+    for _, data in (steps[0], steps[7]):
+        deflection = data["displacement"].T[2] + (paper.weight / paper.stiffness) ** 0.5
+        grown = data["pressure"] - 1 + 2 * (paper.stiffness / paper.weight) ** 0.5 * deflection
+        assert np.ptp(data["pressure"]) > 0.05
+        # what is left is alpha e, of growth and load by area
+        assert np.abs(grown).max() < 5e-3
+        assert np.abs(deflection).max() > 1e-3
 
 
 def test_of_a_sheet_that_turns(tmp_path):

@@ -207,8 +207,11 @@ def test_a_sheet_in_space_is_drawn_on_its_ground_from_the_side():
     drawn = np.concatenate(ax.collections[1].get_segments())
     np.testing.assert_allclose(drawn[:, 1].max(), run.positions(run.times[-1])[2].max(), atol=2e-3)
     labels = [a.get_ylabel()[:3] for a in run.plot()]
-    assert labels == ["$V(", "$x$", "$x$", "$z$", "tim", "tim", "tim", "wor", "$x$"]
-    force = Simulated(run).friction(inside(*Simulated(run).covering(), 4, 8), 1.0)
+    assert labels == ["$V(", "$x$", "$x$", "$x$", "$z$", "tim", "tim", "tim", "wor", "$x$"]
+    some = inside(*Simulated(run).covering(), 4, 8)
+    force, pressure = Simulated(run).friction(some, 1.0), Simulated(run).pressure(some, 1.0)
+    assert np.all(np.hypot(*force) <= pressure)  # tanh is below 1
+    assert 0 <= pressure.min() < 1 < pressure.max()
     assert np.hypot(*force).max() > 0
 
 

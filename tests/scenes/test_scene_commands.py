@@ -201,6 +201,8 @@ def test_pictures_and_tables_of_a_file(capsys: Any) -> None:
     assert Path("a.png").stat().st_size > 5000
 
 
+DAMPED = "[run] level = 'predict': cannot represent Ground(damping = 0.1); must be 'stepped'"
+
 REFUSED = (
     (("speed", "none.toml"), "none.toml: there is no such file"),
     (("check", "none.toml"), "none.toml: there is no such file"),
@@ -217,8 +219,14 @@ REFUSED = (
         ("speed", "good"),
         "'good': must follow an option, such as --growth, or be a scene file, NAME.toml",
     ),
-    (("speed", "level.toml"), "level = 'predict': linear_theory cannot represent Bending"),
-    (("check", "level.toml"), "level = 'predict': linear_theory cannot represent Bending"),
+    (
+        ("speed", "level.toml"),
+        "[run] level = 'predict': cannot represent Ground(damping = 0.1); must be 'stepped'",
+    ),
+    (
+        ("check", "level.toml"),
+        "[run] level = 'predict': cannot represent Ground(damping = 0.1); must be 'stepped'",
+    ),
     (("new", "none"), "'none': is not a scene of the gallery; there are paper, bumpy"),
     (("check",), "requires an argument"),
     (("check", "good.toml", "more"), "more"),
@@ -233,7 +241,8 @@ def test_bad_input_is_one_line_and_status_2(words: tuple[str, ...], told: str, c
     Path("text.toml").write_text("Dear sheet,\n")
     Path("kg.toml").write_text(f'[sheet]\nlength = "40 kg"\n{bad}')
     Path("thin.toml").write_text(f'[sheet]\nthickness = "-1 mm"\n{bad}')
-    level = '[bending]\n[gravity]\nweight = 1e-4\n[ground]\nstiffness = 1.0\n[run]\nlevel = "predict"\n'
+    level = "[bending]\n[gravity]\nweight = 1e-4\n[friction]\nslip_speed = 0.1\ncoefficient = 1e-3\n"
+    level += '[ground]\nstiffness = 1.0\ndamping = 0.1\n[run]\nlevel = "predict"\n'
     Path("level.toml").write_text(bad + level)
     before = sorted(os.listdir())
     status, out, err = run(capsys, *words)
@@ -339,8 +348,11 @@ def test_the_way_of_a_scene() -> None:
     scenes = {name: read(gallery.FOLDER / f"{name}.toml").scene for name in gallery.names()}
     assert {name: way_of(scene) for name, scene in scenes.items()} == WAYS
     assert way_of(scenes["paper"], "cycle") == "cycle"
-    with pytest.raises(ValueError, match="cannot represent Bending"):
-        way_of(scenes["inchworm"], "predict")
+    assert way_of(scenes["inchworm"], "predict") == "predict"
+    with pytest.raises(
+        ValueError, match=r"level = .strip.: cannot represent Bending.*must be .predict"
+    ):
+        way_of(scenes["inchworm"], "strip")
     with pytest.raises(ValueError, match=r"level = 'best': must be one of 'auto', 'predict'"):
         way_of(scenes["paper"], "best")
     load = "[dead_load]\nforce = [0.0, 1e-3]\n[growth]\nalpha = 0.1\n"

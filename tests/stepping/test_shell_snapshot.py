@@ -157,6 +157,23 @@ def test_a_run_stopped_by_control_c_keeps_all_its_steps(tmp_path: Path) -> None:
     same(simulate(planar(), periods=1, steps=24), resumed)
 
 
+def test_control_c_in_a_further_run_says_that_it_starts_again(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def stopped_there(*_: object) -> float:
+        raise KeyboardInterrupt
+
+    path = tmp_path / "run.npz"
+    monkeypatch.setattr("fem_check.shell.stepping.further.second_runs.snap_error", stopped_there)
+    with pytest.raises(KeyboardInterrupt, match=r"in a further run.*, after all \d+ steps") as told:
+        simulate(planar(), snapshot=path, **OPTIONS)
+    said = f"kept in {path}, but nothing of the further run; the same call starts it again"
+    assert said in str(told.value)
+    monkeypatch.undo()
+    resumed = simulate(planar(), snapshot=path, **OPTIONS)
+    assert resumed.resumed_at == resumed.times[-1]  # no step of the first run is taken again
+
+
 def test_control_c_without_a_snapshot_says_what_would_have_kept_it() -> None:
     left = stopped(None, 4)
     assert left.returncode == -signal.SIGINT

@@ -21,6 +21,7 @@ from fem_check.shell.statics.ramp import follow_mode, ramp
 from linear_theory import SineWave
 from linear_theory.growth.growth import Growth
 from tests.robust.problems.problem import Outcome, Problem, case, family, stated
+from tests.shell.heavy_elastica import rise, strip
 from tests.shell.shell_cases import (
     ELEMENTS,
     affine,
@@ -259,6 +260,11 @@ def depth(stiffness: float) -> Outcome:
     return stated(displacement(d, found.state, (0, 0))[2], exact, 1e-8)
 
 
+def heavy_strip(curvature: float, stiffness: float) -> Outcome:
+    """A strip with natural curvature that lies on the ground by its weight, its ends up."""
+    return stated(strip(curvature, stiffness).rise, rise(curvature, stiffness), 1e-3)
+
+
 CIRCLE = "the arc of a circle, no strain"
 
 PROBLEMS: tuple[Problem, ...] = family(
@@ -389,5 +395,15 @@ PROBLEMS: tuple[Problem, ...] = family(
             lambda k=stiffness: depth(k),
         )
         for stiffness in (5e-4, 0.5, 5e2)
+    ),
+    *(
+        case(
+            f"shell: heavy strip, kappa L = {curvature:g}",
+            "stiff",
+            "all but rigid ground lets go of it in a layer of L/56",
+            "heavy elastica, an integral at any slope",
+            lambda c=curvature: heavy_strip(c, 5e5),
+        )
+        for curvature in (1.0, 4.0)
     ),
 )
