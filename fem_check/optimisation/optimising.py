@@ -76,9 +76,9 @@ def optimise(
     >>> from fem_check import Harmonics, optimise
     >>> from linear_theory import Scene, Sheet, TravellingWave
     >>> scene = Scene(Sheet(), TravellingWave([1.0, 0.2], [0.0, 0.0]), alpha=0.1)
-    >>> found = optimise(scene, {"wave": Harmonics(2, largest=1.0)}, level="strip", check=False)
-    >>> print(f"V = {found.value.value:.4f} L/T, {found.converged}, {found.agreed} of 4 starts")
-    V = 0.0 L/T, True, 4 of 4 starts
+    >>> found = optimise(scene, {"wave": Harmonics(2, largest=1.0)}, level="strip", starts=2)
+    >>> print(f"V = {found.value.value:.3f} L/T, {found.converged}, {found.agreed} of 2 starts")
+    V = 0.053 L/T, True, 2 of 2 starts
     """
     scene = validation.instance("scene", scene, Scene)
     settings = RunSettings(level, rtol)

@@ -17,7 +17,7 @@ def shown(value: Estimate) -> str:
     >>> from fem_check.optimisation.words import shown
     >>> from linear_theory import Estimate
     >>> print(shown(Estimate(0.19204, 3e-4)), shown(Estimate(0.123456, 1e-16)), sep=", ")
-    0.1920 ± 0.0003, 0.12346
+    0.1920 ± 0.0004, 0.12346
     """
     if value.error < EXACT * abs(value.value):
         return plain(value.value, 5)
