@@ -13,6 +13,8 @@ from .excitable.feedback import StrainFeedback
 from .excitable.presets import excitable_preset
 from .excitable.speeds import speeds
 from .mesh.outline import Outline
+from .optimisation.optimising import optimise
+from .optimisation.over import Harmonics
 from .output.paraview import write_paraview
 from .plane_stress.field import PlaneStressField, plane_stress_field
 from .scene import Scene, bilayer
@@ -43,6 +45,7 @@ __all__ = [
     "Friction",
     "Gravity",
     "Ground",
+    "Harmonics",
     "HeightMap",
     "Inertia",
     "Material",
@@ -62,6 +65,7 @@ __all__ = [
     "bilayer",
     "cycle_speed",
     "excitable_preset",
+    "optimise",
     "plane_stress_field",
     "predict",
     "rigid_ground",

@@ -12,7 +12,7 @@ EXAMPLES = ROOT / "figures" / "examples"
 API = (
     *("linear_theory", "linear_theory.friction.law", "linear_theory.friction.isotropic"),
     *("fem_check", "fem_check.output", "fem_check.shell.effects", "fem_check.shell.effects.effect"),
-    *("fem_check.shell.material", "fem_check.sweeps"),
+    *("fem_check.shell.material", "fem_check.sweeps", "fem_check.optimisation"),
 )
 """Modules of the API reference, and those that the index of equations names."""
 
@@ -37,6 +37,7 @@ HOWTO = {
     "own_wave": "A wave of your own",
     "own_friction_law": "A friction law of your own",
     "friction_direction": "Friction with a direction",
+    "optimise": "The best wave, the best scene",
     "outline": "Another outline",
     "slope": "A slope",
     "energy": "What crawling costs",

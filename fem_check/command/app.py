@@ -13,6 +13,7 @@ from fem_check.command.screens import (
     EXPLORE_HELP,
     MOVIE_HELP,
     NEW_HELP,
+    OPTIMISE_HELP,
     PARAVIEW_HELP,
     PLOT_HELP,
     RUN_HELP,
@@ -178,6 +179,21 @@ def _sweep(
     from fem_check.command.actions.sweep import sweep
 
     return sweep(file, out, workers, scheduler, dry_run, export or [], retry)
+
+
+@app.command(name="optimise", help=OPTIMISE_HELP)
+def _optimise(
+    file: Annotated[Path, Parameter(help="An optimisation file, NAME.toml.")],
+    /,
+    *,
+    kept: Annotated[
+        Path | None, Parameter(help="For the answers; NAME.answers.jsonl here unless given.")
+    ] = None,
+    out: Annotated[Path | None, Parameter(help="Write the best scene, .toml.")] = None,
+) -> int:
+    from fem_check.command.actions.optimise import optimise
+
+    return optimise(file, kept, out)
 
 
 @app.command(name="explore", help=EXPLORE_HELP)

@@ -71,11 +71,18 @@ BEYOND = (
     ("a scene file, read and written", "Scene.from_toml(path), scene.to_toml(path)"),
     ("effects of your own", "Scene(..., effects=[Bending(...), Ground(...), ...])"),
     ("many scenes, on many cores", "fem_check.sweep(scene, over={'growth.alpha': [...]})"),
+    ("the best scene between bounds", "fem_check.optimise(scene, over={'growth.alpha': (0.1, 0.3)})"),
     ("the motion in time, step by step", "fem_check.simulate(scene)"),
     ("outlines at small strain", "fem_check.plane_stress_field(Outline(...), wave)"),
     ("waves c(x, y, t), turning, paths", "FieldWave(...), rigid_path(...)"),
 )
 """Tasks beyond the command, and their calls in Python."""
+
+OPTIMISED = (
+    ("The best wave or scene: a file to start from, with comments", "sheetcrawl new optimise"),
+    ("It, with its certificate, as a scene file", "sheetcrawl optimise optimise.toml --out best.toml"),
+)
+"""In this order."""
 
 SPEED_HELP = f"""How fast the sheet crawls, how accurate that is, and what it cost.
 
@@ -138,6 +145,15 @@ pip install 'sheetcrawl[sweep]'
   {SWEEPS[2][1]}
 """
 
+OPTIMISE_HELP = f"""Find the best scene between bounds, and say why it is held to be the best.
+
+Answers are kept in a file: after Ctrl-C or a crash the same command goes on. The exit status is 1 where
+the certificate does not hold.
+
+  {OPTIMISED[0][1]}
+  {OPTIMISED[1][1]}
+"""
+
 EXPLORE = "sheetcrawl explore --port 8800 --no-browser"
 
 EXPLORE_HELP = f"""A page with sliders in the browser: shape, friction, V(alpha) and cost, with errors.
@@ -183,7 +199,9 @@ In Python: from fem_check import predict; help(predict)"""
 
 def examples() -> str:
     """Commands by purpose, and the Python calls for everything else."""
-    lines = [f"{title}\n  {command}\n" for title, command in (*MORE, *FILES, *RUNS, *SWEEPS)]
+    lines = [
+        f"{title}\n  {command}\n" for title, command in (*MORE, *FILES, *RUNS, *SWEEPS, *OPTIMISED)
+    ]
     lines += ["Scene files to start from, for sheetcrawl new", *listed(), ""]
     width = max(len(title) for title, _ in BEYOND)
     lines.append("Beyond the command, in Python (help(name) shows an example of each)")

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 
 COMMANDS = (
-    *("speed", "run", "show", "movie", "plot", "paraview", "sweep"),
+    *("speed", "run", "show", "movie", "plot", "paraview", "sweep", "optimise"),
     *("new", "check", "schema", "explore", "examples"),
 )
 

@@ -98,7 +98,7 @@ def parsed(text: str, path: Path) -> SweepFile:
         )
     if mistakes:
         raise mistakes.error(path, text)
-    base = _base(data["scene"], text, path)
+    base = base_of(data["scene"], text, path)
     plan = None
     with mistakes.under("sweep"):
         design = _design(table)
@@ -108,7 +108,7 @@ def parsed(text: str, path: Path) -> SweepFile:
     return SweepFile(plan, path)
 
 
-def _base(given: Any, text: str, path: Path) -> Variation:
+def base_of(given: Any, text: str, path: Path) -> Variation:
     """The scene: of its own file, or of the tables in this one. Raises SceneFileError."""
     source = (path, text)
     if isinstance(given, str):
@@ -159,14 +159,14 @@ def _axes(given: Any, mistakes: Mistakes) -> tuple[Axis, ...]:
         mistakes.add(("over",), "must be given, with fields such as growth.alpha = [0.1, 0.2]")
         return ()
     found = []
-    for path, value in _flat(given):
+    for path, value in flattened(given):
         place = ("over", *path.split("."))
         try:
             checked(path)
         except ValueError as problem:
             mistakes.add_words(place, f"[over] {str(problem).replace(f'{path!r}: ', f'{path}: ', 1)}")
             continue
-        range_or_list = _between(value, path, mistakes) if isinstance(value, Mapping) else value
+        range_or_list = between(value, path, mistakes) if isinstance(value, Mapping) else value
         if range_or_list is not None:
             try:
                 found.append(axis_of(path, range_or_list))
@@ -175,16 +175,17 @@ def _axes(given: Any, mistakes: Mistakes) -> tuple[Axis, ...]:
     return tuple(found)
 
 
-def _flat(given: Mapping[str, Any], before: str = "") -> Iterator[tuple[str, Any]]:
+def flattened(given: Mapping[str, Any], before: str = "") -> Iterator[tuple[str, Any]]:
     """Dotted paths and what is given; a table with an end of a range is a range."""
     for name, value in given.items():
         if isinstance(value, Mapping) and not {"low", "high"} & value.keys():
-            yield from _flat(value, f"{before}{name}.")
+            yield from flattened(value, f"{before}{name}.")
         else:
             yield f"{before}{name}", value
 
 
-def _between(given: Mapping[str, Any], path: str, mistakes: Mistakes) -> Between | None:
+def between(given: Mapping[str, Any], path: str, mistakes: Mistakes) -> Between | None:
+    """The range of a field; None for the mistakes."""
     try:
         table = RangeTable.model_validate(given)
     except ValidationError as problem:

@@ -159,6 +159,13 @@ class Profile:
         values = function(np.concatenate([self._inside, arcs], 1))
         return float(_weighed(values, np.concatenate([length, parts])).sum())
 
+    def points(self) -> tuple[Array, Array, Array]:
+        """Phases, weights (of the period) and g at the Gauss points of all cells, each (points,)."""
+        width = np.diff(self.nodes)
+        phases = self.nodes[:-1] + width / 2 * (1 + GAUSS_NODES[:, None])
+        weights = GAUSS_WEIGHTS[:, None] * width / (4 * math.pi)
+        return phases.ravel(), weights.ravel(), self._inside.ravel()
+
     @cached_property
     def _inside(self) -> Array:
         """g at the Gauss points of all cells, (points, cells)."""

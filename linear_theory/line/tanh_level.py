@@ -85,11 +85,20 @@ def quadrature(
     profile: Profile, arguments: Callable[[Array], Array], finer: float
 ) -> tuple[Array, Array]:
     """Weights (of the period) and values of g at Gauss points that resolve tanh of the arguments."""
+    measure, _, values = phased_quadrature(profile, arguments, finer)
+    return measure, values
+
+
+def phased_quadrature(
+    profile: Profile, arguments: Callable[[Array], Array], finer: float
+) -> tuple[Array, Array, Array]:
+    """The same with the phases of the points, in radians, between."""
     node, left, right = _panels(profile, arguments, finer)
     half = (right - left) / 2
     distance = left + half + half * GAUSS_NODES[:, None]
     values = polynomial(profile.taylor[:, node], distance)
-    return (GAUSS_WEIGHTS[:, None] * abs(half) / (2 * math.pi)).ravel(), values.ravel()
+    measure = (GAUSS_WEIGHTS[:, None] * abs(half) / (2 * math.pi)).ravel()
+    return measure, (profile.nodes[node] + distance).ravel(), values.ravel()
 
 
 def _panels(

@@ -7,7 +7,7 @@ import re
 import tempfile
 import typing
 from decimal import Decimal
-from functools import cache
+from functools import cache, partial
 from pathlib import Path
 
 import numpy as np
@@ -123,6 +123,18 @@ def swept():
     return fem_check.sweep(
         scene, {"growth.alpha": [0.1, 0.2]}, path, level="strip", rtol=0.1, workers=1
     )
+
+
+@cache
+def optimum():
+    scene = linear_theory.Scene(SHEET, SINE, alpha=0.1)
+    return fem_check.optimise(scene, {"growth.alpha": (0.1, 0.2)}, level="strip", starts=1)
+
+
+def part_of_optimum(name):
+    found = optimum()
+    parts = (found.certificate, found.check, found.objective, found.starts[0])
+    return next(part for part in parts if type(part).__name__ == name)
 
 
 def potential():
@@ -267,6 +279,9 @@ MADE = {
     "Works": lambda: trajectory().power,
     "EnergySI": lambda: linear_theory.Scale(0.04, 8.0).energy(speed(), 2e-3, 0.4),
     "GrowthPower": lambda: speed().growth_power(1e-2),
+    "Harmonics": lambda: fem_check.Harmonics(3, largest=1.0),
+    "Optimum": optimum,
+    **{name: partial(part_of_optimum, name) for name in ("Certificate", "Check", "Speed", "Start")},
 }
 """One of each public type and of what their calls return; what follows a space tells variants apart."""
 

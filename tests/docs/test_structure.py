@@ -20,7 +20,7 @@ ROOT = Path(__file__).parents[2]
 LAYERS = (
     *(f"linear_theory.{part}" for part in ("common", "identity", "sheet", "wave", "growth")),
     *(f"linear_theory.{part}" for part in ("friction", "motion", "deformation", "energy", "scene")),
-    *(f"linear_theory.{part}" for part in ("balance", "speed", "line")),
+    *(f"linear_theory.{part}" for part in ("balance", "speed", "line", "optimisation")),
     "linear_theory",
     *(f"fem_check.{part}" for part in ("version", "scene", "mesh", "plane_stress", "excitable")),
     *(f"fem_check.shell.{part}" for part in ("material", "kinematics", "effects", "statics")),
@@ -30,7 +30,17 @@ LAYERS = (
     ),
     *(
         f"fem_check.{part}"
-        for part in ("answer", "choice", "output", "files", "runs", "sweeps", "explorer", "command")
+        for part in (
+            "answer",
+            "choice",
+            "output",
+            "files",
+            "runs",
+            "sweeps",
+            "optimisation",
+            "explorer",
+            "command",
+        )
     ),
     "fem_check",
     "figures",

@@ -19,6 +19,9 @@ WIDEST = 100
 SWEEP = "sweep"
 """Beside the scenes of the gallery, a sweep file to start from."""
 
+OPTIMISE = "optimise"
+"""Likewise an optimisation file."""
+
 WAYS = {
     "predict": "the cheapest theory or cycle of shapes that is known to meet the tolerance",
     "cycle": "static shapes through one period, then the balance of friction on them",
@@ -45,6 +48,12 @@ def new(name: str | None, path: Path | None) -> int:
 
         _write_all({target: example()}, name)
         print(f"{target} written; next: sheetcrawl sweep {target} --dry-run")
+        return MET
+    if name == OPTIMISE:
+        from fem_check.command.actions.optimise import example as optimisation
+
+        _write_all({target: optimisation()}, name)
+        print(f"{target} written; next: sheetcrawl optimise {target}")
         return MET
     texts = {target.parent / file: text for file, text in gallery.tables(name).items()}
     _write_all({**texts, target: gallery.text(name)}, name)
@@ -73,7 +82,7 @@ def _write_all(texts: dict[Path, str], name: str) -> None:
 
 
 def _other(name: str) -> str:
-    where = "mine" if name == SWEEP or not gallery.tables(name) else "folder/mine"
+    where = "mine" if name in (SWEEP, OPTIMISE) or not gallery.tables(name) else "folder/mine"
     return f"sheetcrawl new {name} {where}.toml"
 
 

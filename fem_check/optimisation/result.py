@@ -1,0 +1,121 @@
+"""What an optimisation found: the best scene, what it is worth, and why it is held to be the best."""
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from fem_check.answer.units import Units
+from fem_check.choice.result import Prediction
+from fem_check.optimisation.objectives import Objective
+from fem_check.optimisation.words import shown
+from linear_theory.common.estimate import Estimate
+from linear_theory.common.shown import Shown, number
+from linear_theory.optimisation.certificate import GAIN, Certificate
+from linear_theory.scene.scene import Scene
+
+
+@dataclass(frozen=True)
+class Start(Shown):
+    """From where to where one climb led. first, value: of the objective at its ends, NaN where it has
+    none; words: how it ended; answers: how many were asked for; seconds."""
+
+    first: float
+    value: float
+    words: str
+    answers: int
+    seconds: float
+
+
+@dataclass(frozen=True)
+class Check(Shown):
+    """The objective by a higher level, of the best scene and of the given one (None where it has none).
+
+    failed: why the level has no answer for the best scene, in words; empty if it has.
+    """
+
+    level: str
+    best: Estimate | None
+    start: Estimate | None
+    failed: str = ""
+
+
+@dataclass(frozen=True, eq=False)
+class Optimum(Shown):
+    """The best scene of an optimisation.
+
+    scene: the best one; values: its fields and amplitudes by name, in the units of their bounds;
+    objective; answer: its `Prediction` by the level of the search; value: of the objective, with the
+    numerical error; start: of the scene as it was given, None if it has none; certificate: of the last
+    objective that was climbed (see `linear_theory.optimisation.certificate`), and `rounding`, by how
+    much that differs from the value where dry friction was smoothed, 0 elsewhere; sensitivities: the
+    derivative of the objective by each value; starts: how each climb ended; check: by the next higher
+    level, None if there is none or none was asked for; answers: that were computed, without those that
+    a file had kept; seconds. units: of the numbers, None for plain ones; field_units: of the fields.
+    """
+
+    scene: Scene
+    values: Mapping[str, Any]
+    objective: Objective
+    answer: Prediction
+    value: Estimate
+    start: Estimate | None
+    certificate: Certificate
+    rounding: float
+    sensitivities: Mapping[str, float]
+    starts: tuple[Start, ...]
+    check: Check | None
+    answers: int
+    seconds: float
+    units: Units | None = None
+    field_units: Mapping[str, str] = field(default_factory=dict)
+
+    @property
+    def unit(self) -> str:
+        """Of the objective, in the units of the scene file if it has some."""
+        if self.units is None:
+            return self.objective.unit
+        named = {"length/time": self.units.speed, "length": self.units.length}
+        return named.get(self.objective.unit, self.objective.unit)
+
+    @property
+    def level(self) -> str:
+        """Of the search."""
+        return self.answer.level
+
+    @property
+    def left(self) -> float:
+        """Share of the value that may be left in the neighbourhood; NaN if not known."""
+        proof = self.certificate
+        return (proof.gain + self.rounding) / max(abs(self.value.value), 1e-300)
+
+    @property
+    def converged(self) -> bool:
+        """Whether the certificate holds: at most GAIN is left, and there is a gradient."""
+        return not self.certificate.kink and self.left <= GAIN
+
+    @property
+    def agreed(self) -> int:
+        """How many starts ended within GAIN of the best one."""
+        best = max(one.value * self.objective.sign for one in self.starts if not math.isnan(one.value))
+        near = GAIN * abs(best)
+        return sum(one.value * self.objective.sign >= best - near for one in self.starts)
+
+    def __str__(self) -> str:
+        from fem_check.optimisation.text import text
+
+        return text(self)
+
+    def _title(self) -> str:
+        met = "converged" if self.converged else "NOT converged"
+        return f"Optimum: {self.objective.name} {shown(self.value)} {self.unit}, {met}"
+
+    def _rows(self) -> Mapping[str, Any]:
+        return {
+            "level": self.level,
+            "values": ", ".join(f"{name} {number(value)}" for name, value in self.values.items()),
+            "start": "unknown" if self.start is None else self.start.value,
+            "left": self.left,
+            "starts": f"{self.agreed} of {len(self.starts)} ended here",
+            "seconds": self.seconds,
+        }

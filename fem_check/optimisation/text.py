@@ -1,0 +1,130 @@
+"""An optimum on the screen, in the style of the block of an answer."""
+
+import math
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from fem_check.answer.block import LEVEL_WORDS, wrapped
+from fem_check.answer.rounding import plain
+from fem_check.optimisation.words import LITTLE, against, percent, shown
+from linear_theory.common.shown import number
+from linear_theory.optimisation.certificate import GAIN
+
+if TYPE_CHECKING:
+    from fem_check.optimisation.result import Optimum
+
+WIDTH = 80
+
+NOTHING = 1e-6
+"""Amplitudes below this share of the largest are not printed."""
+
+SHOWN = 12
+"""Values that are printed; of a wave of more harmonics the largest ones."""
+
+
+def text(found: "Optimum") -> str:
+    """The lines."""
+    return "\n".join(wrapped(label, words, WIDTH) for label, words in _lines(found) if words)
+
+
+def _lines(found: "Optimum") -> Iterator[tuple[str, str]]:
+    unit = f" {found.unit}" if found.unit else ""
+    yield "best", f"{found.objective.name} {shown(found.value)}{unit}, {_improvement(found)}"
+    yield "at", _values(found)
+    if not found.converged:
+        yield "NOT MET", _doubts(found)
+    yield "proof", _proof(found)
+    yield "held by", ", ".join(found.certificate.held)
+    yield "starts", _starts(found)
+    yield "depends", _sensitivities(found)
+    yield "check", _check(found)
+    words = LEVEL_WORDS.get(found.level, found.level)
+    yield "took", f"{number(float(f'{found.seconds:.2g}'))} s, {found.answers} answers by {words}"
+
+
+def _improvement(found: "Optimum") -> str:
+    if found.start is None:
+        return "the scene as given has none"
+    before = found.start.value
+    if abs(before) <= found.start.error or not before:
+        return f"{plain(before)} as given"
+    return against(found.value.value, before)
+
+
+def _values(found: "Optimum") -> str:
+    weights = {name: _weight(found, name) for name in found.values}
+    least = NOTHING * max((w for w in weights.values() if w < math.inf), default=0.0)
+    names = sorted(weights, key=lambda name: -weights[name])[:SHOWN]
+    names = [name for name in found.values if name in names and weights[name] > least]
+    told = [
+        f"{name} = {plain(float(found.values[name]))} {found.field_units.get(name, '')}".strip()
+        for name in names
+    ]
+    more = len(found.values) - len(told)
+    return ", ".join(told) + (f"; and {more} smaller amplitudes" if more else "")
+
+
+def _weight(found: "Optimum", name: str) -> float:
+    """Fields first, then amplitudes by their size."""
+    harmonic = "[" in name or name == "wave.mean"
+    return abs(float(found.values[name])) if harmonic else math.inf
+
+
+def _doubts(found: "Optimum") -> str:
+    if found.certificate.kink:
+        return found.certificate.kink
+    if math.isnan(found.left):
+        return "the error of the gradient is not known"
+    return f"a gain of {100 * found.left:.2g} % may be left, allowed is {100 * GAIN:g} %"
+
+
+def _proof(found: "Optimum") -> str:
+    proof, size = found.certificate, max(abs(found.value.value), 1e-300)
+    words = f"projected gradient {percent(proof.slope / size)} per range of the unknowns"
+    if proof.doubt > max(0.1 * proof.slope, LITTLE * size):
+        words += f" ± {percent(proof.doubt / size)}"
+    if proof.highest == -math.inf:
+        words += "; bounds hold every direction"
+    elif math.isnan(proof.highest):
+        words += "; curvature not computed"
+    else:
+        words += f"; largest curvature {plain(proof.highest / size, 2)}"
+    words += f"; gain left {percent(proof.gain / size)}"
+    if found.rounding >= LITTLE * size:
+        words += f"; what was climbed differs from the value above by {percent(found.rounding / size)}"
+    return words
+
+
+def _starts(found: "Optimum") -> str:
+    ends = ", ".join(plain(one.value) for one in found.starts)
+    bad = {one.words for one in found.starts if one.words != "converged"}
+    words = f"{found.agreed} of {len(found.starts)} ended within {100 * GAIN:g} % of the best ({ends})"
+    return words + "".join(f"; {one}" for one in sorted(bad))
+
+
+def _sensitivities(found: "Optimum") -> str:
+    held = [name for name in found.field_units if _bound(found, name)]
+    fields = {name: found.sensitivities[name] for name in held}
+    unit = f" {found.unit}" if found.unit else ""
+    return ", ".join(
+        f"{plain(value)}{unit} per {found.field_units.get(name) or 1} of {name}"
+        for name, value in fields.items()
+    )
+
+
+def _bound(found: "Optimum", name: str) -> bool:
+    """Whether a bound holds a field: elsewhere the derivative is 0 but for what the search has left."""
+    return any(held.endswith(f" bound of {name}") for held in found.certificate.held)
+
+
+def _check(found: "Optimum") -> str:
+    check = found.check
+    if check is None:
+        return ""
+    level = LEVEL_WORDS.get(check.level, check.level)
+    if check.best is None:
+        return f"none by {level}: {check.failed}"
+    words = f"{shown(check.best)} by {level}"
+    if check.start is None or not check.start.value:
+        return words
+    return f"{words}, {against(check.best.value, check.start.value)}"

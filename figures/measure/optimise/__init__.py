@@ -1,0 +1,1 @@
+"""Optimised waves and scenes against answers that are known otherwise."""
