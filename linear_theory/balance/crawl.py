@@ -3,7 +3,7 @@
 import math
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import NamedTuple
+from typing import NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,6 +19,7 @@ from linear_theory.motion.rigid import RigidNorm
 from linear_theory.wave.protocol import Drive
 
 Array = NDArray[np.float64]
+Kind = TypeVar("Kind", bound=Balance)
 
 MOST_TIMES = 4096
 MOST_WORK = 8_000_000
@@ -239,19 +240,28 @@ class Crawl:
             return steepest
         return steepest * float(law.map.values(*self._motion(np.zeros(1)).position, 0.0).max())
 
-    def _motion(self, times: Array) -> Motion:
-        field, r = self.field, self.resolution
+    @property
+    def grid(self) -> CellGrid:
+        """Cells of the balance."""
         across, along = self.drive.short_waves
-        grid = CellGrid.graded(field.sheet, along, r.density, self.mirrored, across)
-        if self.contact.friction.map is not None:
-            grid = grid.cut_at(*self.contact.friction.map.creases)
-        return field.motion(times, grid, r.order)
+        grid = CellGrid.graded(
+            self.field.sheet, along, self.resolution.density, self.mirrored, across
+        )
+        friction = self.contact.friction.map
+        return grid if friction is None else grid.cut_at(*friction.creases)
+
+    def _motion(self, times: Array) -> Motion:
+        return self.field.motion(times, self.grid, self.resolution.order)
 
     def _rate(self, times: Array, motion: Motion) -> Array:
         """e of the load 1 + alpha e, (times, cells, n, n)."""
         return self.contact.load.rate(motion.dilation, motion.growth)
 
     def _balance(self, times: Array) -> Balance:
+        return self.balance_of(Balance, times)
+
+    def balance_of(self, kind: type[Kind], times: Array) -> Kind:
+        """The balance at given times, as an object of that class."""
         motion, r = self._motion(times), self.resolution
         rate = self._rate(times, motion)
         check_load(motion, rate, self.alpha)
@@ -260,4 +270,4 @@ class Crawl:
             share = law.map.values(*motion.position, np.reshape(times, (-1, 1, 1, 1)))
             motion = replace(motion, area=motion.area * share)
         resolution = r.halvings, r.tolerance
-        return Balance(motion, rate, self.alpha, law, *resolution, rest=rest, joint=self.joint)
+        return kind(motion, rate, self.alpha, law, *resolution, rest=rest, joint=self.joint)

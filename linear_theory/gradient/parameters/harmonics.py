@@ -1,0 +1,236 @@
+"""Parameters of a travelling wave: amplitudes and phases of its harmonics, mean, period, number."""
+
+import math
+from abc import abstractmethod
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import ClassVar
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from linear_theory.common import validation
+from linear_theory.gradient.direction import Direction, GrowthChange
+from linear_theory.gradient.parameters.parameter import Parameter, lacks
+from linear_theory.scene.scene import Scene
+from linear_theory.wave.travelling import TravellingWave
+
+Array = NDArray[np.float64]
+
+
+class OfWave(Parameter):
+    """One of the numbers of a travelling wave."""
+
+    def wave(self, scene: Scene) -> TravellingWave:
+        """That of the scene. Raises ValueError for another one."""
+        if not isinstance(scene.wave, TravellingWave):
+            raise lacks(self.name, "a TravellingWave", scene.wave)
+        return scene.wave
+
+
+@dataclass(frozen=True)
+class OfHarmonic(OfWave):
+    """One of the numbers of a harmonic k = 1, 2, ..., which the wave may not have yet (0)."""
+
+    harmonic: int
+    field: ClassVar[str]
+
+    def __post_init__(self) -> None:
+        validation.integer("harmonic", self.harmonic, 1)
+
+    @property
+    def name(self) -> str:
+        """Entries of lists count from 0: the amplitude of cos(phi) is "wave.cosine.0"."""
+        return f"wave.{self.field}.{self.harmonic - 1}"
+
+    def value(self, scene: Scene) -> float:
+        """See Parameter."""
+        return self.number(*self.pair(scene))
+
+    def changed(self, scene: Scene, value: float) -> Scene:
+        """See Parameter."""
+        wave, k = self.wave(scene), self.harmonic
+        pair = self.with_number(*self.pair(scene), validation.real(self.name, value))
+        parts = [_padded(part, k) for part in (wave.cosine, wave.sine)]
+        for part, amplitude in zip(parts, pair, strict=True):
+            part[k - 1] = amplitude
+        return scene.but(wave=TravellingWave(*parts, wave.count, wave.period, wave.mean))
+
+    def direction(self, scene: Scene) -> Direction:
+        """See Parameter."""
+        wave = self.wave(scene)
+        cosine, sine = self.slope(*self.pair(scene))
+        amplitudes = np.zeros((2, self.harmonic))
+        amplitudes[:, -1] = cosine, sine
+        change = TravellingWave(*amplitudes, wave.count, wave.period)
+        return Direction(growth_of(change, scene))
+
+    def pair(self, scene: Scene) -> tuple[float, float]:
+        """Amplitudes of its cosine and sine."""
+        wave, k = self.wave(scene), self.harmonic
+        cosine, sine = (float(_padded(part, k)[k - 1]) for part in (wave.cosine, wave.sine))
+        return cosine, sine
+
+    @abstractmethod
+    def number(self, cosine: float, sine: float) -> float:
+        """The number, from the amplitudes."""
+
+    @abstractmethod
+    def with_number(self, cosine: float, sine: float, value: float) -> tuple[float, float]:
+        """Amplitudes with another number."""
+
+    @abstractmethod
+    def slope(self, cosine: float, sine: float) -> tuple[float, float]:
+        """What the amplitudes change by per unit of the number."""
+
+
+@dataclass(frozen=True)
+class Cosine(OfHarmonic):
+    """The amplitude of cos(k phi)."""
+
+    field = "cosine"
+
+    def number(self, cosine: float, sine: float) -> float:
+        """See OfHarmonic."""
+        return cosine
+
+    def with_number(self, cosine: float, sine: float, value: float) -> tuple[float, float]:
+        """See OfHarmonic."""
+        return value, sine
+
+    def slope(self, cosine: float, sine: float) -> tuple[float, float]:
+        """See OfHarmonic."""
+        return 1.0, 0.0
+
+
+@dataclass(frozen=True)
+class Sine(OfHarmonic):
+    """The amplitude of sin(k phi)."""
+
+    field = "sine"
+
+    def number(self, cosine: float, sine: float) -> float:
+        """See OfHarmonic."""
+        return sine
+
+    def with_number(self, cosine: float, sine: float, value: float) -> tuple[float, float]:
+        """See OfHarmonic."""
+        return cosine, value
+
+    def slope(self, cosine: float, sine: float) -> tuple[float, float]:
+        """See OfHarmonic."""
+        return 0.0, 1.0
+
+
+@dataclass(frozen=True)
+class Amplitude(OfHarmonic):
+    """The a in a cos(k phi - psi), > 0."""
+
+    field = "amplitude"
+
+    def number(self, cosine: float, sine: float) -> float:
+        """See OfHarmonic."""
+        return math.hypot(cosine, sine)
+
+    def with_number(self, cosine: float, sine: float, value: float) -> tuple[float, float]:
+        """See OfHarmonic."""
+        along = self.slope(cosine, sine)
+        return value * along[0], value * along[1]
+
+    def slope(self, cosine: float, sine: float) -> tuple[float, float]:
+        """Raises ValueError for an amplitude of 0, which has no phase."""
+        size = math.hypot(cosine, sine)
+        if size == 0:
+            k = self.harmonic - 1
+            raise ValueError(
+                f"over = {self.name!r}: the amplitude must not be 0, for it has no phase then; "
+                f"use 'wave.cosine.{k}' and 'wave.sine.{k}'"
+            )
+        return cosine / size, sine / size
+
+
+@dataclass(frozen=True)
+class Phase(OfHarmonic):
+    """The psi in a cos(k phi - psi), radians."""
+
+    field = "phase"
+
+    def number(self, cosine: float, sine: float) -> float:
+        """See OfHarmonic."""
+        return math.atan2(sine, cosine)
+
+    def with_number(self, cosine: float, sine: float, value: float) -> tuple[float, float]:
+        """See OfHarmonic."""
+        size = math.hypot(cosine, sine)
+        return size * math.cos(value), size * math.sin(value)
+
+    def slope(self, cosine: float, sine: float) -> tuple[float, float]:
+        """See OfHarmonic."""
+        return -sine, cosine
+
+
+@dataclass(frozen=True)
+class Mean(OfWave):
+    """The mean of the wave over a wavelength."""
+
+    name = "wave.mean"
+
+    def value(self, scene: Scene) -> float:
+        """See Parameter."""
+        return self.wave(scene).mean
+
+    def changed(self, scene: Scene, value: float) -> Scene:
+        """See Parameter."""
+        wave = self.wave(scene)
+        return scene.but(
+            wave=TravellingWave(wave.cosine, wave.sine, wave.count, wave.period, value)
+        )
+
+    def direction(self, scene: Scene) -> Direction:
+        """See Parameter."""
+        return Direction(GrowthChange(_one, _zero))
+
+
+@dataclass(frozen=True)
+class Period(OfWave):
+    """The period, in the time of which everything goes but the law of friction."""
+
+    name = "wave.period"
+
+    def value(self, scene: Scene) -> float:
+        """See Parameter."""
+        return self.wave(scene).period
+
+    def changed(self, scene: Scene, value: float) -> Scene:
+        """See Parameter."""
+        return scene.but(wave=replace(self.wave(scene), period=value))
+
+    def direction(self, scene: Scene) -> Direction:
+        """Raises ValueError for a map of friction that has the period of the wave."""
+        friction = scene.contact.friction.map
+        if friction is not None and friction.kinetic:
+            raise ValueError(f"over = {self.name!r}: the map of friction must not depend on time")
+        return Direction(period=1 / self.value(scene))
+
+
+def growth_of(change: TravellingWave, scene: Scene) -> GrowthChange:
+    """A wave as a change of c."""
+    length = scene.sheet.length
+
+    def of(function: Callable[..., Array]) -> Callable[[ArrayLike, ArrayLike, ArrayLike], Array]:
+        return lambda x, y, t: function(0.0, y, t, length)
+
+    return GrowthChange(of(change.value), of(change.rate), waves=float(change.orders[-1]))
+
+
+def _padded(amplitudes: Array, harmonic: int) -> Array:
+    """A copy with that many harmonics at least."""
+    return np.pad(amplitudes, (0, max(harmonic - amplitudes.size, 0)))
+
+
+def _one(x: ArrayLike, y: ArrayLike, t: ArrayLike) -> Array:
+    return np.ones(np.broadcast_shapes(np.shape(y), np.shape(t)))
+
+
+def _zero(x: ArrayLike, y: ArrayLike, t: ArrayLike) -> Array:
+    return np.zeros(np.broadcast_shapes(np.shape(y), np.shape(t)))
