@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import dataclass, replace
+from dataclasses import field as dataclass_field
 from functools import cached_property
 from typing import NamedTuple, TypeVar
 
@@ -99,12 +100,16 @@ def joint_resolution(rtol: float, smooth: bool = False) -> Resolution:
 
 @dataclass(frozen=True)
 class Crawl:
-    """A crawling sheet (field, growth coupling, contact) and the resolution of its balance."""
+    """A crawling sheet (field, growth coupling, contact) and the resolution of its balance.
+
+    waves: along the sheet, that the cells resolve even if its own wave has longer ones only.
+    """
 
     field: LinearField
     alpha: float
     contact: Contact
     resolution: Resolution
+    waves: int = dataclass_field(default=0, kw_only=True)
 
     @classmethod
     def to(cls, rtol: float, field: LinearField, alpha: float, contact: Contact) -> "Crawl":
@@ -244,9 +249,9 @@ class Crawl:
     def grid(self) -> CellGrid:
         """Cells of the balance."""
         across, along = self.drive.short_waves
-        grid = CellGrid.graded(
-            self.field.sheet, along, self.resolution.density, self.mirrored, across
-        )
+        along = max(along, self.waves)
+        density = self.resolution.density
+        grid = CellGrid.graded(self.field.sheet, along, density, self.mirrored, across)
         friction = self.contact.friction.map
         return grid if friction is None else grid.cut_at(*friction.creases)
 

@@ -114,7 +114,7 @@ def _batch(crawl: Crawl, times: Array, q: Array, alpha: float, wanted: Wanted) -
         y=y,
         value=value,
         rate=rate,
-        alpha=found.alpha,
+        alpha=found.alpha if alpha else none,
         slip=found.slip,
         width=width + found.arms,
         poisson=poisson,
@@ -159,7 +159,7 @@ class _Elastic(NamedTuple):
         moments = _moments(crawl, found.load, _points(field) if grown else counts)
         moments = moments.reshape(-1, *moments.shape[2:])
         growing = None
-        if crawl.contact.load is Load.CURRENT:
+        if crawl.contact.load is Load.CURRENT and moments.any():
             load = elastic.dilation_load(moments, field.sheet)
             growing = elastic.adjoint(solver, load, mirrored)
         return cls(crawl, field, times, moving, growing, moments)

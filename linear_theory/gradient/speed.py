@@ -48,7 +48,7 @@ def speed_gradient(scene: Scene, over, order: int = 1, rtol: float = 1e-4) -> Sp
     found = resolved(Crawl.to(tolerance.rtol, deformation, scene.alpha, scene.contact), tolerance)
     speed = speed_of(found, tolerance)
     middle = time.process_time()
-    means = Derivatives(found.course, directions, [ALONG]).means()
+    means = Derivatives(found.course, directions, [ALONG], rtol**0.5).means()
     alpha = scene.alpha
     explicit = np.array([d.alpha / alpha - d.period for d in directions])
     values = alpha * means.values[0] + speed.mean * explicit

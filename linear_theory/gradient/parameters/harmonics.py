@@ -2,15 +2,14 @@
 
 import math
 from abc import abstractmethod
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import ClassVar
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from linear_theory.common import validation
-from linear_theory.gradient.direction import Direction, GrowthChange
+from linear_theory.gradient.direction import Direction, Harmonic
 from linear_theory.gradient.parameters.parameter import Parameter, lacks
 from linear_theory.scene.scene import Scene
 from linear_theory.wave.travelling import TravellingWave
@@ -58,12 +57,7 @@ class OfHarmonic(OfWave):
 
     def direction(self, scene: Scene) -> Direction:
         """See Parameter."""
-        wave = self.wave(scene)
-        cosine, sine = self.slope(*self.pair(scene))
-        amplitudes = np.zeros((2, self.harmonic))
-        amplitudes[:, -1] = cosine, sine
-        change = TravellingWave(*amplitudes, wave.count, wave.period)
-        return Direction(growth_of(change, scene))
+        return Direction((Harmonic(self.harmonic, *self.slope(*self.pair(scene))),))
 
     def pair(self, scene: Scene) -> tuple[float, float]:
         """Amplitudes of its cosine and sine."""
@@ -188,7 +182,8 @@ class Mean(OfWave):
 
     def direction(self, scene: Scene) -> Direction:
         """See Parameter."""
-        return Direction(GrowthChange(_one, _zero))
+        self.wave(scene)
+        return Direction((Harmonic(0, 1.0),))
 
 
 @dataclass(frozen=True)
@@ -213,24 +208,7 @@ class Period(OfWave):
         return Direction(period=1 / self.value(scene))
 
 
-def growth_of(change: TravellingWave, scene: Scene) -> GrowthChange:
-    """A wave as a change of c."""
-    length = scene.sheet.length
-
-    def of(function: Callable[..., Array]) -> Callable[[ArrayLike, ArrayLike, ArrayLike], Array]:
-        return lambda x, y, t: function(0.0, y, t, length)
-
-    return GrowthChange(of(change.value), of(change.rate), waves=float(change.orders[-1]))
-
-
 def _padded(amplitudes: Array, harmonic: int) -> Array:
     """A copy with that many harmonics at least."""
     return np.pad(amplitudes, (0, max(harmonic - amplitudes.size, 0)))
 
-
-def _one(x: ArrayLike, y: ArrayLike, t: ArrayLike) -> Array:
-    return np.ones(np.broadcast_shapes(np.shape(y), np.shape(t)))
-
-
-def _zero(x: ArrayLike, y: ArrayLike, t: ArrayLike) -> Array:
-    return np.zeros(np.broadcast_shapes(np.shape(y), np.shape(t)))
