@@ -168,7 +168,12 @@ class Crawl:
     @cached_property
     def work(self) -> int:
         """Work per time: points of the balance plus unknowns of the deformation solved for."""
-        return int(self._motion(np.zeros(1)).area.size) + self.field.numbers
+        return self.points + self.field.numbers
+
+    @cached_property
+    def points(self) -> int:
+        """Points of the balance."""
+        return int(self._motion(np.zeros(1)).area.size)
 
     def affords(self, times: Array) -> bool:
         """Whether the balance at these times is within the work limit."""

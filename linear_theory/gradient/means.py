@@ -30,8 +30,7 @@ from linear_theory.gradient.adjoint import LawChange
 from linear_theory.gradient.along import along
 from linear_theory.gradient.direction import Direction
 from linear_theory.gradient.quantity import Quantity
-from linear_theory.gradient.sensitivity import MapChange, Wanted, sensitivities
-from linear_theory.wave.protocol import PER_HARMONIC
+from linear_theory.gradient.sensitivity import Linearised, MapChange, Wanted, sensitivities
 
 Array = NDArray[np.float64]
 
@@ -45,6 +44,9 @@ SAFETY = 2.0
 """Of the largest change there, for the mean over all times."""
 
 MOST_REFINEMENTS = 2
+
+PER_HARMONIC = 2.5
+"""Times per period of the highest harmonic of the directions at first, enough for its error to show."""
 
 COARSE = 3e-2
 """Tolerance by which the deformation resolves harmonics that the wave does not have."""
@@ -123,14 +125,16 @@ class Derivatives:
 
     def _at(self, crawl: Crawl, times: Array, motion: RigidMotion) -> tuple[Array, bool]:
         """Derivatives at times (T,), (k, directions, T), and whether friction resists all motions."""
-        q = motion.leading + crawl.alpha * motion.remainder
-        whole = sensitivities(crawl, times, q, crawl.alpha, self._wanted)
-        found = along(whole, times, self.directions, crawl)
-        if self._without_leading.any():
-            first = sensitivities(crawl, times, motion.leading, 0.0, self._wanted)
-            part = along(first, times, self.directions, crawl)
+        near = crawl is not self.course.crawl
+        whole = Linearised(motion.leading + crawl.alpha * motion.remainder, crawl.alpha, near)
+        first = Linearised(motion.leading, 0.0, near)
+        aside = bool(self._without_leading.any())
+        at, *others = sensitivities(crawl, times, [whole, first] if aside else [whole], self._wanted)
+        found = along(at, times, self.directions, crawl)
+        for other in others:
+            part = along(other, times, self.directions, crawl)
             found -= np.where(self._without_leading[:, None], part, 0.0)
-        return found, bool(whole.flat.any())
+        return found, bool(at.flat.any())
 
     @cached_property
     def _crawl(self) -> Crawl:

@@ -7,6 +7,7 @@ gives weights of velocity and load, that of the elastic problem (`elastic`) the 
 """
 
 from collections.abc import Sequence
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -21,6 +22,7 @@ from linear_theory.gradient import elastic
 from linear_theory.gradient.adjoint import AdjointBalance, LawChange, Weights
 from linear_theory.gradient.quantity import Quantity
 from linear_theory.motion.motion import CellGrid
+from linear_theory.sheet.rectangle import Sheet
 
 Array = NDArray[np.float64]
 
@@ -82,45 +84,82 @@ class Sensitivity(NamedTuple):
     flat: NDArray[np.bool_]
 
 
-def sensitivities(crawl: Crawl, times: Array, q: Array, alpha: float, wanted: Wanted) -> Sensitivity:
-    """Derivatives at motions q (times, 3), in batches; alpha: that of the load, 0 or the crawl's."""
-    size = max(BATCH // crawl.work, 1)
-    parts = [
-        _batch(crawl, times[i : i + size], q[i : i + size], alpha, wanted)
-        for i in range(0, times.size, size)
+class Linearised(NamedTuple):
+    """Motions about which to take derivatives.
+
+    q: (times, 3), per unit alpha; alpha: that of their load 1 + alpha e; near: whether they are only
+    near the balance, so that a Newton step is due.
+    """
+
+    q: Array
+    alpha: float
+    near: bool = False
+
+
+def sensitivities(
+    crawl: Crawl, times: Array, motions: Sequence[Linearised], wanted: Wanted
+) -> list[Sensitivity]:
+    """Derivatives at each of the motions, at times (T,)."""
+    size = max(BATCH // crawl.points, 1)
+    batches = [slice(i, i + size) for i in range(0, times.size, size)]
+    parts = [_batch(crawl, times[some], _some(motions, some), wanted) for some in batches]
+    found = [_joined(part) for part in zip(*parts, strict=True)]
+    return [
+        _sensitivity(crawl, times, one, motion.alpha, wanted)
+        for one, motion in zip(found, motions, strict=True)
     ]
-    first = parts[0]
-    if len(parts) == 1:
-        return first
-    axis = {"value": 1, "rate": 1, "flat": 0}
-    joined = {
-        name: np.concatenate([getattr(part, name) for part in parts], axis.get(name, -1))
-        for name in Sensitivity._fields[2:]
-    }
-    return Sensitivity(first.x, first.y, **joined)
 
 
-def _batch(crawl: Crawl, times: Array, q: Array, alpha: float, wanted: Wanted) -> Sensitivity:
+def _some(motions: Sequence[Linearised], some: slice) -> list[Linearised]:
+    return [motion._replace(q=motion.q[some]) for motion in motions]
+
+
+class _Parts(NamedTuple):
+    """Of one motion, with times (T,) on the last axis but of moments, where they are on the second.
+
+    velocity (k, T, 2, i, j), load (k, T, i, j): moments of weights against p_i p_j; maps (n, k, T).
+    """
+
+    velocity: Array
+    load: Array
+    alpha: Array
+    slip: Array
+    arms: Array
+    laws: Array
+    maps: Array
+    flat: Array
+
+
+def _batch(
+    crawl: Crawl, times: Array, motions: Sequence[Linearised], wanted: Wanted
+) -> list[_Parts]:
+    """Of every motion, at a few times."""
     balance = crawl.balance_of(AdjointBalance, times)
-    found = balance.weights(
-        balance.polished(q, alpha), alpha, wanted.quantities, wanted.laws, bool(wanted.maps)
-    )
-    elastic_part = _Elastic.of(crawl, times, found)
-    x, y, (value, rate) = elastic_part.at_points(wanted.across)
-    none = np.zeros_like(found.alpha)
-    width, poisson = elastic_part.by_sheet() if wanted.sheet else (none, none)
-    return Sensitivity(
-        x=x,
-        y=y,
-        value=value,
-        rate=rate,
-        alpha=found.alpha if alpha else none,
-        slip=found.slip,
-        width=width + found.arms,
-        poisson=poisson,
-        laws=found.laws,
-        maps=_by_maps(crawl, times, found, wanted.maps),
-        flat=found.flat,
+    field = crawl.field
+    assert isinstance(field, RitzField)
+    across, along = field.degree
+    counts = _points(field) if crawl.contact.load is Load.GROWN else (across + 1, along + 1)
+    found = []
+    for q, alpha, near in motions:
+        q = balance.polished(q, alpha) if near else q
+        at = balance.weights(q, alpha, wanted.quantities, wanted.laws, bool(wanted.maps))
+        velocity = _moments(crawl, at.velocity, (across + 1, along + 1)).swapaxes(1, 2)
+        load = _moments(crawl, at.load, counts)
+        maps = _by_maps(crawl, times, at, wanted.maps)
+        found.append(_Parts(velocity, load, at.alpha, at.slip, at.arms, at.laws, maps, at.flat))
+    return found
+
+
+def _joined(parts: Sequence[_Parts]) -> _Parts:
+    """Of all times."""
+    if len(parts) == 1:
+        return parts[0]
+    axes = {"velocity": 1, "load": 1}
+    return _Parts(
+        *(
+            np.concatenate([getattr(part, name) for part in parts], axes.get(name, -1))
+            for name in _Parts._fields
+        )
     )
 
 
@@ -131,77 +170,95 @@ def _by_maps(crawl: Crawl, times: Array, found: Weights, maps: Sequence[MapChang
     return np.array(by).reshape(-1, *found.alpha.shape)
 
 
+def _sensitivity(
+    crawl: Crawl, times: Array, parts: _Parts, alpha: float, wanted: Wanted
+) -> Sensitivity:
+    elastic_part = _Elastic.of(crawl, parts)
+    x, y, (value, rate) = elastic_part.at_points(wanted.across)
+    none = np.zeros_like(parts.alpha)
+    width, poisson = elastic_part.by_sheet(times) if wanted.sheet else (none, none)
+    return Sensitivity(
+        x=x,
+        y=y,
+        value=value,
+        rate=rate,
+        alpha=parts.alpha if alpha else none,
+        slip=parts.slip,
+        width=width + parts.arms,
+        poisson=poisson,
+        laws=parts.laws,
+        maps=parts.maps,
+        flat=parts.flat,
+    )
+
+
 class _Elastic(NamedTuple):
-    """The adjoint of the elastic problem for weights at times (T,), cases (k T,).
+    """The adjoint of the elastic problem for weights at T times, cases (k T,).
 
     moving, growing: z of the weights of velocity and of load, the latter None for a load that does not
-    depend on the strain; moments: of the weights of load against p_i p_j.
+    depend on the strain; load: moments of the weights of load, (k T, i, j); shape: (k, T).
     """
 
     crawl: Crawl
     field: RitzField
-    times: Array
     moving: Array
     growing: Array | None
-    moments: Array
+    load: Array
+    shape: tuple[int, ...]
 
     @classmethod
-    def of(cls, crawl: Crawl, times: Array, found: Weights) -> "_Elastic":
-        """For weights at the points of cells."""
-        field = crawl.field._for_times(times)
+    def of(cls, crawl: Crawl, parts: _Parts) -> "_Elastic":
+        """For moments of weights."""
+        field, mirrored = crawl.field, crawl.mirrored
         assert isinstance(field, RitzField)
-        counts = tuple(d + 1 for d in field.degree)
-        solver, mirrored = field.solver, crawl.mirrored
-        velocity = _moments(crawl, found.velocity, counts).swapaxes(1, 2)
-        velocity = velocity.reshape(-1, *velocity.shape[2:])
-        moving = elastic.adjoint(solver, elastic.displacement_load(velocity), mirrored)
-        grown = crawl.contact.load is Load.GROWN
-        moments = _moments(crawl, found.load, _points(field) if grown else counts)
-        moments = moments.reshape(-1, *moments.shape[2:])
+        velocity = parts.velocity.reshape(-1, *parts.velocity.shape[2:])
+        load = parts.load.reshape(-1, *parts.load.shape[2:])
+        moving = elastic.adjoint(field.solver, elastic.displacement_load(velocity), mirrored)
         growing = None
-        if crawl.contact.load is Load.CURRENT and moments.any():
-            load = elastic.dilation_load(moments, field.sheet)
-            growing = elastic.adjoint(solver, load, mirrored)
-        return cls(crawl, field, times, moving, growing, moments)
+        if crawl.contact.load is Load.CURRENT and load.any():
+            dilation = elastic.dilation_load(load, field.sheet)
+            growing = elastic.adjoint(field.solver, dilation, mirrored)
+        return cls(crawl, field, moving, growing, load, parts.alpha.shape)
 
-    def at_points(self, across: bool) -> tuple[Array, Array, tuple[Array, Array]]:
+    def at_points(self, across: bool) -> tuple[Array, Array, list[Array]]:
         """Gauss points, and derivatives by c and dc/dt there, with the weights of the quadrature."""
-        sheet, load = self.field.sheet, self.crawl.contact.load
+        sheet = self.field.sheet
         rate = elastic.density(sheet, self.moving)
         if self.growing is not None:
             value = elastic.density(sheet, self.growing)
         else:
-            value = 2 * self.moments if load is Load.GROWN else np.zeros_like(rate)
+            grown = self.crawl.contact.load is Load.GROWN
+            value = 2 * self.load if grown else np.zeros_like(rate)
         if self.crawl.mirrored:
             value[:, 1::2] = 0.0  # of the integrals over half a sheet
         (x, weights_x), (y, weights_y) = (gauss_legendre(n) for n in _points(self.field))
         if not across:
             x, weights_x = np.zeros(1), np.full(1, 2.0)
             value, rate = value[:, :1], rate[:, :1]
-        found = tuple(
-            np.einsum("xi,cij,yj->cxy", *(_basis(x, weights_x, one, 1), one, _basis(y, weights_y, one, 2)), optimize=True).reshape(-1, self.times.size, x.size, y.size)
-            for one in (value, rate)
-        )
+        found = []
+        for one in (value, rate):
+            by_x = weights_x[:, None] * legendre.orthonormal(one.shape[1], x)
+            by_y = weights_y[:, None] * legendre.orthonormal(one.shape[2], y)
+            found.append((by_x @ one @ by_y.T).reshape(*self.shape, x.size, y.size))
         return x * sheet.width / 2, y * sheet.length / 2, found
 
-    def by_sheet(self) -> tuple[Array, Array]:
+    def by_sheet(self, times: Array) -> tuple[Array, Array]:
         """Derivatives by the logarithm of the width and by Poisson's ratio, (k, T) each."""
-        field, sheet = self.field, self.field.sheet
-        repeats = len(self.moving) // self.times.size
-        factors = field._amplitudes(self.times), field._amplitude_rates(self.times)
-        width = poisson = np.zeros(len(self.moving))
+        sheet = self.field.sheet
+        field = self.field._for_times(times)
+        width, poisson = np.zeros((2, *self.shape))
+        factors = field._amplitudes(times), field._amplitude_rates(times)
         for z, factor in zip((self.growing, self.moving), factors, strict=True):
             if z is None:
                 continue
-            c, u = (
-                np.tile(np.tensordot(factor.T, basis, 1), (repeats, *(1,) * (basis.ndim - 1)))
-                for basis in (field._growth, field._solution)
-            )
-            width = width + elastic.by_width(sheet, c, u, z)
-            poisson = poisson + elastic.by_poisson(sheet, c, u, z)
-            if z is self.growing:
-                width = width + elastic.dilation_by_width(sheet, self.moments, u)
-        return tuple(one.reshape(repeats, -1) for one in (width, poisson))
+            c, u = (np.tensordot(factor.T, one, 1) for one in (field._growth, field._solution))
+            for i, own in enumerate(z.reshape(*self.shape, *z.shape[1:])):
+                width[i] += elastic.by_width(sheet, c, u, own)
+                poisson[i] += elastic.by_poisson(sheet, c, u, own)
+                if z is self.growing:
+                    load = self.load.reshape(*self.shape, *self.load.shape[1:])[i]
+                    width[i] += elastic.dilation_by_width(sheet, load, u)
+        return width, poisson
 
 
 def _points(field: RitzField) -> tuple[int, int]:
@@ -210,18 +267,23 @@ def _points(field: RitzField) -> tuple[int, int]:
     return across + across // 4 + 12, along + along // 4 + 12
 
 
-def _basis(places: Array, weights: Array, factors: Array, axis: int) -> Array:
-    """Polynomials p_i at points times the weights there, (points, degrees)."""
-    return weights[:, None] * legendre.orthonormal(factors.shape[axis], places)
-
-
 def _moments(crawl: Crawl, weights: Array, counts: tuple[int, int]) -> Array:
     """Sums of weights (..., cells, n, n) times p_i p_j at their points, (..., *counts)."""
-    sheet, grid, n = crawl.field.sheet, crawl.grid, crawl.resolution.order
+    grid, n = crawl.grid, crawl.resolution.order
+    across, along = _tables(crawl.field.sheet, grid, n, counts)
     columns, rows = len(grid.x_edges) - 1, len(grid.y_edges) - 1
-    x, y, _ = grid.points(n)
-    places = x[::rows].ravel() * 2 / sheet.width, y[:rows].ravel() * 2 / sheet.length
-    across, along = (legendre.orthonormal(c, p) for c, p in zip(counts, places, strict=True))
     table = weights.reshape(*weights.shape[:-3], columns, rows, n, n).swapaxes(-3, -2)
     table = table.reshape(*weights.shape[:-3], columns * n, rows * n)
     return np.asarray(across.T @ table @ along)
+
+
+@lru_cache(maxsize=8)
+def _tables(
+    sheet: Sheet, grid: CellGrid, order: int, counts: tuple[int, int]
+) -> tuple[Array, Array]:
+    """p_i(2 x/W) and p_j(2 y/L) at the points of all cells, (points, degrees)."""
+    rows = len(grid.y_edges) - 1
+    x, y, _ = grid.points(order)
+    places = x[::rows].ravel() * 2 / sheet.width, y[:rows].ravel() * 2 / sheet.length
+    across, along = (legendre.orthonormal(c, p) for c, p in zip(counts, places, strict=True))
+    return across, along
