@@ -12,6 +12,8 @@ from numpy.typing import NDArray
 from linear_theory.balance.crawl import Crawl
 from linear_theory.gradient.direction import Direction, GrowthChange, Harmonic
 from linear_theory.gradient.sensitivity import Sensitivity
+from linear_theory.wave.fractional import FractionalWave
+from linear_theory.wave.travelling import TravellingWave
 
 Array = NDArray[np.float64]
 
@@ -55,13 +57,14 @@ class _Waves:
     def __init__(
         self, at: Sensitivity, times: Array, directions: Sequence[Direction], crawl: Crawl
     ) -> None:
-        series, self._reversal = crawl.drive.series, crawl.reversal_time
         ks = sorted({one.k for d in directions for one in d.harmonics})
         self._place = {k: i for i, k in enumerate(ks)}
-        if series is None:
+        if not ks:
             return
-        self._frequency = 2 * np.pi / series.period
-        angle = np.multiply.outer(2 * np.pi * series.count / crawl.field.sheet.length * at.y, ks)
+        wave, self._reversal = crawl.drive.wave, crawl.reversal_time
+        assert isinstance(wave, TravellingWave | FractionalWave)
+        self._frequency = 2 * np.pi / wave.period
+        angle = np.multiply.outer(2 * np.pi * wave.count / crawl.field.sheet.length * at.y, ks)
         turn = np.multiply.outer(self._frequency * times, ks)
         cosine, sine = np.cos(turn), np.sin(turn)
         # of cos(k phi), sin(k phi) = (even or odd in y) times (cosine or sine in t)

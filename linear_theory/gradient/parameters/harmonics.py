@@ -9,9 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linear_theory.common import validation
-from linear_theory.gradient.direction import Direction, Harmonic
+from linear_theory.gradient.direction import Direction, GrowthChange, Harmonic
 from linear_theory.gradient.parameters.parameter import Parameter, lacks
 from linear_theory.scene.scene import Scene
+from linear_theory.wave.fractional import FractionalWave
 from linear_theory.wave.travelling import TravellingWave
 
 Array = NDArray[np.float64]
@@ -21,10 +22,19 @@ class OfWave(Parameter):
     """One of the numbers of a travelling wave."""
 
     def wave(self, scene: Scene) -> TravellingWave:
-        """That of the scene. Raises ValueError for another one."""
-        if not isinstance(scene.wave, TravellingWave):
-            raise lacks(self.name, "a TravellingWave", scene.wave)
-        return scene.wave
+        """That of the scene, or the profile of a fractional one. Raises ValueError for another one."""
+        wave = scene.wave
+        if isinstance(wave, FractionalWave):
+            return wave.profile
+        if not isinstance(wave, TravellingWave):
+            raise lacks(self.name, "a TravellingWave", wave)
+        return wave
+
+    def with_wave(self, scene: Scene, wave: TravellingWave) -> Scene:
+        """The scene with that wave, or profile of a fractional one."""
+        own = scene.wave
+        whole = not isinstance(own, FractionalWave)
+        return scene.but(wave=wave if whole else FractionalWave(wave, own.count))
 
 
 @dataclass(frozen=True)
@@ -53,7 +63,7 @@ class OfHarmonic(OfWave):
         parts = [_padded(part, k) for part in (wave.cosine, wave.sine)]
         for part, amplitude in zip(parts, pair, strict=True):
             part[k - 1] = amplitude
-        return scene.but(wave=TravellingWave(*parts, wave.count, wave.period, wave.mean))
+        return self.with_wave(scene, TravellingWave(*parts, wave.count, wave.period, wave.mean))
 
     def direction(self, scene: Scene) -> Direction:
         """See Parameter."""
@@ -176,9 +186,8 @@ class Mean(OfWave):
     def changed(self, scene: Scene, value: float) -> Scene:
         """See Parameter."""
         wave = self.wave(scene)
-        return scene.but(
-            wave=TravellingWave(wave.cosine, wave.sine, wave.count, wave.period, value)
-        )
+        changed = TravellingWave(wave.cosine, wave.sine, wave.count, wave.period, value)
+        return self.with_wave(scene, changed)
 
     def direction(self, scene: Scene) -> Direction:
         """See Parameter."""
@@ -198,7 +207,7 @@ class Period(OfWave):
 
     def changed(self, scene: Scene, value: float) -> Scene:
         """See Parameter."""
-        return scene.but(wave=replace(self.wave(scene), period=value))
+        return self.with_wave(scene, replace(self.wave(scene), period=value))
 
     def direction(self, scene: Scene) -> Direction:
         """Raises ValueError for a map of friction that has the period of the wave."""
@@ -206,6 +215,50 @@ class Period(OfWave):
         if friction is not None and friction.kinetic:
             raise ValueError(f"over = {self.name!r}: the map of friction must not depend on time")
         return Direction(period=1 / self.value(scene))
+
+
+@dataclass(frozen=True)
+class Count(OfWave):
+    """The number of waves on the sheet, which need not be whole: L over the wavelength.
+
+    The speed of the wave, wavelength over period, changes with it.
+    """
+
+    name = "wave.count"
+
+    def value(self, scene: Scene) -> float:
+        """See Parameter."""
+        self.wave(scene)
+        return float(scene.wave.count)  # type: ignore[attr-defined]
+
+    def changed(self, scene: Scene, value: float) -> Scene:
+        """See Parameter."""
+        wave, count = self.wave(scene), validation.real(self.name, value)
+        if count.is_integer():
+            return scene.but(wave=TravellingWave(wave.cosine, wave.sine, int(count), *_rest(wave)))
+        return scene.but(wave=FractionalWave(wave, count))
+
+    def direction(self, scene: Scene) -> Direction:
+        """See Parameter."""
+        wave, count, length = self.wave(scene), self.value(scene), scene.sheet.length
+        k = wave.harmonics
+        slope = TravellingWave(k * wave.sine, -k * wave.cosine, 1, wave.period)
+        frequency = 2 * np.pi / wave.period
+
+        def phase(y: Array, t: Array) -> Array:
+            return 2 * np.pi * count * y / length - frequency * t
+
+        def value(x: Array, y: Array, t: Array) -> Array:
+            return 2 * np.pi * y / length * slope.profile(phase(y, t))
+
+        def rate(x: Array, y: Array, t: Array) -> Array:
+            return -frequency * 2 * np.pi * y / length * slope.profile_slope(phase(y, t))
+
+        return Direction(growth=GrowthChange(value, rate, across=False))
+
+
+def _rest(wave: TravellingWave) -> tuple[float, float]:
+    return wave.period, wave.mean
 
 
 def _padded(amplitudes: Array, harmonic: int) -> Array:
