@@ -334,9 +334,7 @@ class Balance:
         unknowns = len(self._modes)
         return sums[:unknowns].T, sums[unknowns:].T.reshape(count, unknowns, unknowns)
 
-    def _refined(
-        self, values: Array, owners: Integers, motion: Velocities, halvings: int
-    ) -> Graded:
+    def _refined(self, values: Array, owners: Integers, motion: Velocities, halvings: int) -> Graded:
         """Cells (channels, cells, n, n) halved towards points at rest and cut along creases."""
         order = values.shape[-1]
         sample = np.array([0, order // 2, order - 1])

@@ -217,9 +217,10 @@ class _State:
         slope = np.broadcast_to(slope, self.q.shape)
         if work:
             force = product(self.law.tangent, self.slip)[own._kept]
-            slope = slope + work * self.totals(
-                self.load * np.stack(own._along(force, self.leaves.values))
-            ).T
+            slope = (
+                slope
+                + work * self.totals(self.load * np.stack(own._along(force, self.leaves.values))).T
+            )
         found = np.linalg.pinv(self.stiffness, rcond=SINGULAR, hermitian=True) @ slope[:, :, None]
         return np.asarray(-found[:, :, 0])
 

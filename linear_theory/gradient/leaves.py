@@ -77,4 +77,3 @@ def point_weights(leaves: Graded, order: int) -> Array:
     """Weights of the points of leaves in an integral, but for the area, (leaves, n, n)."""
     weights = gauss(order).weights
     return leaves.shares[:, None, None] * np.multiply.outer(weights, weights)
-

@@ -133,7 +133,7 @@ class Derivatives:
         found = along(at, times, self.directions, crawl)
         for other in others:
             part = along(other, times, self.directions, crawl)
-            found -= np.where(self._without_leading[:, None], part, 0.0)
+            found -= np.where(self._without_leading[..., None], part, 0.0)
         return found, bool(at.flat.any())
 
     @cached_property
@@ -170,10 +170,11 @@ class Derivatives:
 
     @cached_property
     def _without_leading(self) -> NDArray[np.bool_]:
-        """Along which directions q_0 keeps no mean, (directions,)."""
+        """Of which motions, and along which directions, q_0 keeps no mean, (k, directions)."""
         crawl = self._crawl
         second = crawl.starts_at_second_order
-        return np.array([second and d.keeps_sign(crawl.drive) for d in self.directions], bool)
+        kept = np.array([second and d.keeps_sign(crawl.drive) for d in self.directions], bool)
+        return np.array([kept & (one.work == 0) for one in self.quantities])
 
 
 def _some(motion: RigidMotion, which: Array) -> RigidMotion:

@@ -130,9 +130,7 @@ class _Parts(NamedTuple):
     flat: Array
 
 
-def _batch(
-    crawl: Crawl, times: Array, motions: Sequence[Linearised], wanted: Wanted
-) -> list[_Parts]:
+def _batch(crawl: Crawl, times: Array, motions: Sequence[Linearised], wanted: Wanted) -> list[_Parts]:
     """Of every motion, at a few times."""
     balance = crawl.balance_of(AdjointBalance, times)
     field = crawl.field
@@ -278,9 +276,7 @@ def _moments(crawl: Crawl, weights: Array, counts: tuple[int, int]) -> Array:
 
 
 @lru_cache(maxsize=8)
-def _tables(
-    sheet: Sheet, grid: CellGrid, order: int, counts: tuple[int, int]
-) -> tuple[Array, Array]:
+def _tables(sheet: Sheet, grid: CellGrid, order: int, counts: tuple[int, int]) -> tuple[Array, Array]:
     """p_i(2 x/W) and p_j(2 y/L) at the points of all cells, (points, degrees)."""
     rows = len(grid.y_edges) - 1
     x, y, _ = grid.points(order)

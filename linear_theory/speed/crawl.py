@@ -126,7 +126,11 @@ def theory_speed(
     validation.choice("method", method, METHODS if order == 1 else ("auto", "ritz"))
     method = method if order == 1 else "ritz"
     solve = partial(second_order_speed, scene) if order == 2 else partial(_first, scene, method)
-    found = with_wave_error(scene, tolerance, solve)
+    return completed(with_wave_error(scene, tolerance, solve), scene, order, method)
+
+
+def completed(found: CrawlSpeed, scene: Scene, order: int, method: str) -> CrawlSpeed:
+    """The speed of a scene with its distance to the nonlinear sheet and the shape to draw."""
     # Computed again for drawing, so that a speed does not keep a solution and its tables in memory.
     deformation = drawn_deformation(scene, method)
     distance = model_error(LEVELS[order], scene) if scene.planar else plate_error(scene)

@@ -264,4 +264,3 @@ def _rest(wave: TravellingWave) -> tuple[float, float]:
 def _padded(amplitudes: Array, harmonic: int) -> Array:
     """A copy with that many harmonics at least."""
     return np.pad(amplitudes, (0, max(harmonic - amplitudes.size, 0)))
-
