@@ -172,8 +172,9 @@ class LinearField(Shown, ABC):
     def _growth_at(self, position: Array, times: Array) -> Array:
         """c at the points of cells, (2, cells, n, n), of which one x each will do for waves along y."""
         if self.drive.depends_on_x:
-            return self.drive.value(*position, times)
-        some = self.drive.value(*position[:, :, :1], times)
+            return self.drive.value(position[0], position[1], times)
+        x, y = position[:, :, :1]
+        some = self.drive.value(x, y, times)
         return np.broadcast_to(some, (*some.shape[:2], *position.shape[2:]))
 
     def _on_cells(self, grid: CellGrid, order: int) -> tuple[Array, Array, Array, Array]:

@@ -22,7 +22,7 @@ PLACES = np.array([-0.43, -0.17, 0.08, 0.31])
 
 
 class Harmonic(NamedTuple):
-    """cosine cos(k phi) + sine sin(k phi), phi = 2 pi (n y/L - t/T) of the wave of the scene; k >= 0."""
+    """cosine cos(k phi) + sine sin(k phi), phi = 2 pi (n y/L - t/T) as in its wave, k >= 0."""
 
     k: int
     cosine: float

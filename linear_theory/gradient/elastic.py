@@ -1,8 +1,8 @@
 """The adjoint of the elastic problem: from weights of displacement to the growth that causes it.
 
 A Ritz solution u of growth c has the least energy: a(u, z) = l(c; z) for all displacements z (see
-`ritz.solver`). A linear function g of u is then l(c; z) with the z that solves a(u, z) = g(u) for all u:
-one solve with the kept factor, and g(u[dc]) is the integral of dc times
+`ritz.solver`). A linear function g of u is then l(c; z) with the z that solves a(u, z) = g(u) for all
+u: one solve with the kept factor, and g(u[dc]) is the integral of dc times
 
     S = div z/(1 - nu)
 

@@ -1,4 +1,4 @@
-"""The transpose of the refinement of cells: weights at points of leaves, moved to the cells they are of.
+"""The transpose of the refinement of cells: weights at points of leaves, moved to whole cells.
 
 `cells.graded` and `creases.cut` interpolate the values of a cell, polynomials, to the Gauss points of
 its parts. What an integral over the parts changes by is a sum over these points of a weight times the

@@ -5,8 +5,8 @@ time: its mean is taken by the rule for that of V, with the same estimate of its
 added where that is too large. What finer cells and higher degrees of the deformation change at three
 times is the error of the rest.
 
-V of a wave with c(t + T/2) = -c(t) is of second order in alpha, as the leading q_0 has no mean, exactly;
-nor has its derivative along a direction that keeps this symmetry: it is left out there.
+V of a wave with c(t + T/2) = -c(t) is of second order in alpha, as the leading q_0 has no mean,
+exactly; nor has its derivative along a direction that keeps this symmetry: it is left out there.
 """
 
 import math

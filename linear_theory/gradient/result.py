@@ -13,13 +13,16 @@ from linear_theory.speed.result import CrawlSpeed
 
 Array = NDArray[np.float64]
 
+FEW = 7
+"""Most parameters that are shown one by one."""
+
 AT_REST = (
     "part of the sheet is at rest at some time, where dry friction balances a range of forces: V may "
     "have a kink, and this is one of its subgradients"
 )
 FLAT = (
-    "at some time friction does not resist a motion of the sheet: V may have a kink, and this is one of "
-    "its subgradients"
+    "at some time friction does not resist a motion of the sheet: V may have a kink, and this is one "
+    "of its subgradients"
 )
 
 
@@ -55,9 +58,11 @@ class Gradient(Shown):
         return f"{type(self).__name__}: {smooth}, {len(self.names)} parameters"
 
     def _rows(self) -> Mapping[str, Any]:
-        rows = {
-            n: with_error(v, e) for n, v, e in zip(self.names, self.values, self.errors, strict=True)
-        }
+        each = zip(self.names, self.values, self.errors, strict=True)
+        rows: dict[str, Any] = {name: with_error(value, error) for name, value, error in each}
+        if len(rows) > FEW:
+            names = ", ".join(self.names)
+            rows = {"parameters": names, "values": self.values, "errors": self.errors}
         words = {f"kinks[{i}]": kink for i, kink in enumerate(self.kinks)}
         seconds = {"seconds": self.seconds, "speed_seconds": self.speed_seconds}
         return {**words, **seconds, **rows}

@@ -127,7 +127,7 @@ class _Parts(NamedTuple):
     arms: Array
     laws: Array
     maps: Array
-    flat: Array
+    flat: NDArray[np.bool_]
 
 
 def _batch(crawl: Crawl, times: Array, motions: Sequence[Linearised], wanted: Wanted) -> list[_Parts]:
@@ -162,10 +162,11 @@ def _joined(parts: Sequence[_Parts]) -> _Parts:
 
 
 def _by_maps(crawl: Crawl, times: Array, found: Weights, maps: Sequence[MapChange]) -> Array:
-    own = crawl.contact.friction.map
-    position = crawl.field._on_cells(crawl.grid, crawl.resolution.order)[0]
-    by = [(found.area * one.share(own, *position, times)).sum((-3, -2, -1)) for one in maps]
-    return np.array(by).reshape(-1, *found.alpha.shape)
+    own, area = crawl.contact.friction.map, found.area
+    if area is None:
+        return np.zeros((0, *found.alpha.shape))
+    x, y = crawl.field._on_cells(crawl.grid, crawl.resolution.order)[0]
+    return np.stack([(area * one.share(own, x, y, times)).sum((-3, -2, -1)) for one in maps])
 
 
 def _sensitivity(

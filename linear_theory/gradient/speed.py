@@ -1,7 +1,7 @@
 """Gradients of the speed and of the cost of transport in the theory of small strain.
 
-With velocities per unit alpha, V = alpha mean(q), and q balances friction (`adjoint`). Along a direction
-in which the wave changes by dc, alpha by da, the law by df, ...,
+With velocities per unit alpha, V = alpha mean(q), and q balances friction (`adjoint`). Along a
+direction in which the wave changes by dc and alpha by da,
 
     dq(t) = int value dc + rate dc/dt dA + ...   (`sensitivity`),
     dV = alpha mean(dq) + V da/alpha.
@@ -145,7 +145,7 @@ class _Solved(NamedTuple):
         tolerance = Tolerance(rtol)
         if scene.alpha == 0:
             raise ValueError(
-                "alpha = 0: must not be 0, where V = 0 whatever the wave; second_order has V/alpha there"
+                "alpha = 0: must not be 0, where V = 0 whatever the wave; second_order gives V/alpha"
             )
         chosen = parameters(over)
         directions = [one.direction(scene) for one in chosen]

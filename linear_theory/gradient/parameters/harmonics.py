@@ -33,8 +33,9 @@ class OfWave(Parameter):
     def with_wave(self, scene: Scene, wave: TravellingWave) -> Scene:
         """The scene with that wave, or profile of a fractional one."""
         own = scene.wave
-        whole = not isinstance(own, FractionalWave)
-        return scene.but(wave=wave if whole else FractionalWave(wave, own.count))
+        if isinstance(own, FractionalWave):
+            return scene.but(wave=FractionalWave(wave, own.count))
+        return scene.but(wave=wave)
 
 
 @dataclass(frozen=True)
@@ -60,10 +61,9 @@ class OfHarmonic(OfWave):
         """See Parameter."""
         wave, k = self.wave(scene), self.harmonic
         pair = self.with_number(*self.pair(scene), validation.real(self.name, value))
-        parts = [_padded(part, k) for part in (wave.cosine, wave.sine)]
-        for part, amplitude in zip(parts, pair, strict=True):
-            part[k - 1] = amplitude
-        return self.with_wave(scene, TravellingWave(*parts, wave.count, wave.period, wave.mean))
+        cosine, sine = _padded(wave.cosine, k), _padded(wave.sine, k)
+        cosine[k - 1], sine[k - 1] = pair
+        return self.with_wave(scene, TravellingWave(cosine, sine, wave.count, wave.period, wave.mean))
 
     def direction(self, scene: Scene) -> Direction:
         """See Parameter."""
@@ -229,7 +229,8 @@ class Count(OfWave):
     def value(self, scene: Scene) -> float:
         """See Parameter."""
         self.wave(scene)
-        return float(scene.wave.count)  # type: ignore[attr-defined]
+        assert isinstance(scene.wave, TravellingWave | FractionalWave)
+        return float(scene.wave.count)
 
     def changed(self, scene: Scene, value: float) -> Scene:
         """See Parameter."""
