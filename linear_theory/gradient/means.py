@@ -160,6 +160,7 @@ class Derivatives:
             self.quantities,
             sheet=any(d.width or d.poisson for d in directions),
             across=any(d.growth is not None and d.growth.across for d in directions),
+            waves=max(d.highest for d in directions) * abs(getattr(crawl.drive.wave, "count", 1)),
             laws=[
                 LawChange(d.law.ahead.per(alpha), d.law.behind.per(alpha), d.law.apart, mirrored)
                 for d in directions

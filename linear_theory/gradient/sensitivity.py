@@ -6,6 +6,7 @@ at Gauss points x, y of the sheet, with their weights: the adjoint of the fricti
 gives weights of velocity and load, that of the elastic problem (`elastic`) the growth that makes them.
 """
 
+import math
 from collections.abc import Sequence
 from functools import lru_cache
 from typing import NamedTuple
@@ -51,13 +52,14 @@ class MapChange(NamedTuple):
 class Wanted(NamedTuple):
     """Which derivatives are asked for.
 
-    sheet: by its width and Poisson ratio; across: by growth that depends on x; laws, maps: by those of
-    their numbers.
+    sheet: by its width and Poisson ratio; across: by growth that depends on x; waves: along the sheet,
+    of the shortest harmonic; laws, maps: by those of their numbers.
     """
 
     quantities: Sequence[Quantity]
     sheet: bool = False
     across: bool = False
+    waves: float = 0.0
     laws: Sequence[LawChange] = ()
     maps: Sequence[MapChange] = ()
 
@@ -173,7 +175,7 @@ def _sensitivity(
     crawl: Crawl, times: Array, parts: _Parts, alpha: float, wanted: Wanted
 ) -> Sensitivity:
     elastic_part = _Elastic.of(crawl, parts)
-    x, y, (value, rate) = elastic_part.at_points(wanted.across)
+    x, y, (value, rate) = elastic_part.at_points(wanted.across, wanted.waves)
     none = np.zeros_like(parts.alpha)
     width, poisson = elastic_part.by_sheet(times) if wanted.sheet else (none, none)
     return Sensitivity(
@@ -219,8 +221,11 @@ class _Elastic(NamedTuple):
             growing = elastic.adjoint(field.solver, dilation, mirrored)
         return cls(crawl, field, moving, growing, load, parts.alpha.shape)
 
-    def at_points(self, across: bool) -> tuple[Array, Array, list[Array]]:
-        """Gauss points, and derivatives by c and dc/dt there, with the weights of the quadrature."""
+    def at_points(self, across: bool, waves: float) -> tuple[Array, Array, list[Array]]:
+        """Gauss points, and derivatives by c and dc/dt there, with the weights of the quadrature.
+
+        across, waves: see `Wanted`.
+        """
         sheet = self.field.sheet
         rate = elastic.density(sheet, self.moving)
         if self.growing is not None:
@@ -230,7 +235,7 @@ class _Elastic(NamedTuple):
             value = 2 * self.load if grown else np.zeros_like(rate)
         if self.crawl.mirrored:
             value[:, 1::2] = 0.0  # of the integrals over half a sheet
-        (x, weights_x), (y, weights_y) = (gauss_legendre(n) for n in _points(self.field))
+        (x, weights_x), (y, weights_y) = (gauss_legendre(n) for n in _points(self.field, waves))
         if not across:
             x, weights_x = np.zeros(1), np.full(1, 2.0)
             value, rate = value[:, :1], rate[:, :1]
@@ -260,10 +265,15 @@ class _Elastic(NamedTuple):
         return width, poisson
 
 
-def _points(field: RitzField) -> tuple[int, int]:
-    """Gauss points across and along for a change of growth, exact for degrees 3/2 of the field's."""
+def _points(field: RitzField, waves: float = 0.0) -> tuple[int, int]:
+    """Gauss points across and along for a change of growth, exact for degrees 3/2 of the field's.
+
+    waves: along, of a change that may be shorter than the field resolves: a wave needs pi degrees, and
+    some more, against polynomials of the field's degree.
+    """
     across, along = field.degree
-    return across + across // 4 + 12, along + along // 4 + 12
+    least = math.ceil((along + 1.2 * math.pi * waves) / 2) + 12
+    return across + across // 4 + 12, max(along + along // 4 + 12, least)
 
 
 def _moments(crawl: Crawl, weights: Array, counts: tuple[int, int]) -> Array:
