@@ -83,6 +83,6 @@ class CostGradient(Gradient):
     """That of the cost of transport, over mu; see `cost_gradient`."""
 
 
-def kinks_of(speed: CrawlSpeed, flat: bool) -> tuple[str, ...]:
-    """Why derivatives are subgradients only."""
-    return tuple(words for words, there in ((AT_REST, speed.sticks), (FLAT, flat)) if there)
+def kinks_of(sticks: bool, flat: bool) -> tuple[str, ...]:
+    """Why derivatives are subgradients only: parts at rest, motions that friction does not resist."""
+    return tuple(words for words, there in ((AT_REST, sticks), (FLAT, flat)) if there)

@@ -85,7 +85,7 @@ def speed_gradient(scene: Scene, over: Any, order: int = 1, rtol: float = 1e-4) 
     means = found.means([ALONG])
     values, errors = found.by_motion(means, 0, found.speed.estimate)
     seconds = time.perf_counter() - start
-    kinks = kinks_of(found.speed, means.flat)
+    kinks = found.kinks(means)
     return SpeedGradient(
         found.speed, found.parameters, values, errors, kinks, seconds, found.speed.seconds
     )
@@ -124,7 +124,7 @@ def cost_gradient(scene: Scene, over: Any, rtol: float = 1e-4) -> CostGradient:
     values = (power - cost.value * distance) / size
     errors = (power_error + cost.value * distance_error + cost.error * abs(distance)) / size
     errors = errors + speed.error / size * abs(values)
-    seconds, kinks = time.perf_counter() - start, kinks_of(speed, means.flat)
+    seconds, kinks = time.perf_counter() - start, found.kinks(means)
     return CostGradient(speed, found.parameters, values, errors, kinks, seconds, speed.seconds)
 
 
@@ -167,6 +167,12 @@ class _Solved(NamedTuple):
     def means(self, quantities: Sequence[Quantity]) -> Means:
         """Derivatives of the means of quantities."""
         return Derivatives(self.course, self.directions, quantities, self.rtol**0.5).means()
+
+    def kinks(self, means: Means) -> tuple[str, ...]:
+        """Why derivatives are subgradients only."""
+        dry = self.course.crawl.contact.friction.width == 0
+        still = dry and self.course.motion.fastest == 0
+        return kinks_of(self.speed.sticks or still, means.flat)
 
     def by_motion(
         self, means: Means, which: int, own: Estimate, sign: float = 1.0
