@@ -225,8 +225,8 @@ def test_parameters_change_scenes():
     names = [*names_of(scene.but(contact=TANH)), "wave.amplitude.1", "wave.phase.0", "wave.period"]
     names += ["wave.count", "friction.backward", "friction.heading", "friction.map.mu.0"]
     for one in parameters(names):
-        changed = one.changed(scene, one.value(scene) - 0.25)
-        assert one.value(changed) == pytest.approx(one.value(scene) - 0.25), one.name
+        changed = one.changed(scene, one.value(scene) - 0.05)
+        assert one.value(changed) == pytest.approx(one.value(scene) - 0.05), one.name
         assert one.changed(changed, one.value(scene)).key() != changed.key()
 
 

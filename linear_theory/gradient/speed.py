@@ -68,8 +68,7 @@ def speed_gradient(scene: Scene, over: Any, order: int = 1, rtol: float = 1e-4) 
     Raises ValueError for parameters that are not known or that the scene does not have, and for scenes
     beyond the theory.
 
-    >>> from linear_theory import Contact, Scene, Sheet, SineWave, Tanh
-    >>> from linear_theory.gradient import speed_gradient
+    >>> from linear_theory import Contact, Scene, Sheet, SineWave, Tanh, speed_gradient
     >>> scene = Scene(Sheet(), SineWave(), alpha=0.2, contact=Contact("current", Tanh(0.05)))
     >>> found = speed_gradient(scene, ["alpha", "sheet.width", "wave.cosine.1"], rtol=1e-3)
     >>> for name, value in zip(found.names, found.values, strict=True):
@@ -99,8 +98,7 @@ def cost_gradient(scene: Scene, over: Any, rtol: float = 1e-4) -> CostGradient:
     as for `speed_gradient`. Raises ValueError as it does, and where the cost is infinite as no distance
     is resolved.
 
-    >>> from linear_theory import Contact, Scene, Sheet, SineWave, Tanh
-    >>> from linear_theory.gradient import cost_gradient
+    >>> from linear_theory import Contact, Scene, Sheet, SineWave, Tanh, cost_gradient
     >>> scene = Scene(Sheet(), SineWave(), alpha=0.2, contact=Contact("current", Tanh(0.05)))
     >>> print(f"{cost_gradient(scene, 'alpha', rtol=1e-3)['growth.alpha']:.1f}")
     -11.7

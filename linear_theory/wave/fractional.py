@@ -27,8 +27,7 @@ class FractionalWave(Value):
     but 0 (negative runs towards -y). Where it is whole, a `TravellingWave` gives the same at less cost.
     Raises ValueError for anything else.
 
-    >>> from linear_theory import SineWave
-    >>> from linear_theory.wave.fractional import FractionalWave
+    >>> from linear_theory import FractionalWave, SineWave
     >>> wave = FractionalWave(SineWave(), count=1.5)
     >>> print(wave.value(x=0.0, y=[0.0, 0.5], t=0.0).round(6))  # sin(1.5 pi) at the end
     [ 0. -1.]

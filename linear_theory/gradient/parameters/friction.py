@@ -53,8 +53,7 @@ class SlipSpeed(OfFriction):
 
     def law_with(self, law: FrictionLaw, value: float) -> FrictionLaw:
         """See OfFriction."""
-        self._tanh(law)
-        return law.scaled(self._tanh(law).slip_speed / value)
+        return law.scaled(self._tanh(law).slip_speed / validation.positive(self.name, value))
 
     def direction(self, scene: Scene) -> Direction:
         """See Parameter."""
