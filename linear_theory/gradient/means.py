@@ -92,7 +92,7 @@ class Derivatives:
         highest = max((one.highest for one in self.directions), default=0)
         if highest:
             finer = course.grid.with_steps(crawl.drive.period / (PER_HARMONIC * highest))
-            course = course if finer.times.size == course.grid.times.size else course.on(finer)
+            course = course.on(finer)
         values, flat = self._at(crawl, course.grid.times, course.motion)
         for _ in range(MOST_REFINEMENTS):
             grid, added = self._refined(course.grid, values)
@@ -161,11 +161,7 @@ class Derivatives:
             sheet=any(d.width or d.poisson for d in directions),
             across=any(d.growth is not None and d.growth.across for d in directions),
             waves=max(d.highest for d in directions) * abs(getattr(crawl.drive.wave, "count", 1)),
-            laws=[
-                LawChange(d.law.ahead.per(alpha), d.law.behind.per(alpha), d.law.apart, mirrored)
-                for d in directions
-                if d.law is not None
-            ],
+            laws=law_changes(directions, alpha, mirrored),
             maps=[MapChange(*d.map, mirrored) for d in directions if d.map is not None],
         )
 
@@ -176,6 +172,15 @@ class Derivatives:
         second = crawl.starts_at_second_order
         kept = np.array([second and d.keeps_sign(crawl.drive) for d in self.directions], bool)
         return np.array([kept & (one.work == 0) for one in self.quantities])
+
+
+def law_changes(directions: Sequence[Direction], alpha: float, mirrored: bool) -> list[LawChange]:
+    """Of the directions that change the law, for velocities per unit of that alpha."""
+    return [
+        LawChange(d.law.ahead.per(alpha), d.law.behind.per(alpha), d.law.apart, mirrored)
+        for d in directions
+        if d.law is not None
+    ]
 
 
 def _some(motion: RigidMotion, which: Array) -> RigidMotion:

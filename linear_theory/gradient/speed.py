@@ -33,9 +33,10 @@ from linear_theory.gradient.parameters.names import parameters
 from linear_theory.gradient.parameters.parameter import Parameter
 from linear_theory.gradient.quantity import ACROSS, ALONG, WORK, Quantity
 from linear_theory.gradient.result import CostGradient, SpeedGradient, kinks_of
+from linear_theory.gradient.second import order_gradients
 from linear_theory.scene.level import THEORY
 from linear_theory.scene.scene import Scene
-from linear_theory.speed.crawl import completed, speed_of
+from linear_theory.speed.crawl import ORDERS, completed, speed_of, theory_speed
 from linear_theory.speed.result import CrawlSpeed
 from linear_theory.speed.wave_error import with_wave_error
 
@@ -59,8 +60,9 @@ def speed_gradient(scene: Scene, over: Any, order: int = 1, rtol: float = 1e-4) 
     also of harmonics that the wave does not have yet, "wave.mean", "wave.period" and "wave.count" (as a
     real number, see `FractionalWave`); of friction "friction.slip_speed", "friction.forward",
     "friction.backward", "friction.sideways", "friction.heading", "friction.map.mu.0". Other waves have
-    parameters by `WaveFamily`. order: of the theory, 1. rtol: of the speed. The errors of the
-    derivatives follow from it and are estimated each.
+    parameters by `WaveFamily`. order: of the theory, as for `crawl_speed`; 2 for motions that are
+    mirror symmetric, at the cost of two deformations per parameter (see `gradient.second`). rtol: of
+    the speed; the errors of the derivatives follow from it and are estimated each.
 
     Where V has a kink, as where part of the sheet is at rest under dry friction, the result is a
     subgradient, and `kinks` says why. Errors do not count that of a measured wave.
@@ -77,8 +79,10 @@ def speed_gradient(scene: Scene, over: Any, order: int = 1, rtol: float = 1e-4) 
     sheet.width    -0.020
     wave.cosine.1   0.128
     """
-    if validation.integer("order", order) != 1:
-        raise ValueError(f"order = {order}: must be 1")
+    if validation.integer("order", order) not in ORDERS:
+        raise ValueError(f"order = {order}: must be one of {', '.join(map(str, ORDERS))}")
+    if order == 2:
+        return _second(scene, over, rtol)
     found = _Solved.of(scene, over, rtol)
     start = time.perf_counter()
     means = found.means([ALONG])
@@ -126,6 +130,38 @@ def cost_gradient(scene: Scene, over: Any, rtol: float = 1e-4) -> CostGradient:
     return CostGradient(speed, found.parameters, values, errors, kinks, seconds, speed.seconds)
 
 
+def _second(scene: Scene, over: Any, rtol: float) -> SpeedGradient:
+    """Of order 2."""
+    chosen, directions = _asked(scene, over)
+    speed = theory_speed(scene, Tolerance(rtol), 2)
+    start, alpha = time.perf_counter(), scene.alpha
+    first, second = speed.first_order, speed.second_order
+    orders = order_gradients(scene, chosen, directions, rtol)
+    powers = np.array([alpha, alpha**2])
+    values, errors = powers @ orders.values, abs(powers) @ orders.errors
+    by_alpha, period = (np.array([getattr(d, n) for d in directions]) for n in ("alpha", "period"))
+    values = values + by_alpha * (first + 2 * alpha * second) - period * speed.mean
+    errors = errors + speed.error * (2 * abs(by_alpha / alpha) + abs(period))
+    if speed.sticks:  # V is not smooth in alpha then
+        values, errors = np.full_like(values, np.nan), np.full_like(errors, np.inf)
+    seconds = time.perf_counter() - start
+    return SpeedGradient(
+        speed, chosen, values, errors, kinks_of(speed.sticks, False), seconds, speed.seconds
+    )
+
+
+def _asked(scene: Any, over: Any) -> tuple[tuple[Parameter, ...], list[Direction]]:
+    """Parameters and their directions. Raises ValueError as `speed_gradient` does."""
+    scene = validation.instance("scene", scene, Scene)
+    THEORY.require(scene)
+    if scene.alpha == 0:
+        raise ValueError(
+            "alpha = 0: must not be 0, where V = 0 whatever the wave; second_order gives V/alpha"
+        )
+    chosen = parameters(over)
+    return chosen, [one.direction(scene) for one in chosen]
+
+
 class _Solved(NamedTuple):
     """A scene whose motion is known, and the directions of its parameters."""
 
@@ -138,15 +174,8 @@ class _Solved(NamedTuple):
     @classmethod
     def of(cls, scene: Scene, over: Any, rtol: float) -> "_Solved":
         """Raises ValueError as `speed_gradient` does."""
-        scene = validation.instance("scene", scene, Scene)
-        THEORY.require(scene)
+        chosen, directions = _asked(scene, over)
         tolerance = Tolerance(rtol)
-        if scene.alpha == 0:
-            raise ValueError(
-                "alpha = 0: must not be 0, where V = 0 whatever the wave; second_order gives V/alpha"
-            )
-        chosen = parameters(over)
-        directions = [one.direction(scene) for one in chosen]
         courses: list[Course] = []
 
         def solve(tolerance: Tolerance) -> CrawlSpeed:
