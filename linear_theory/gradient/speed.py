@@ -75,9 +75,9 @@ def speed_gradient(scene: Scene, over: Any, order: int = 1, rtol: float = 1e-4) 
     >>> found = speed_gradient(scene, ["alpha", "sheet.width", "wave.cosine.1"], rtol=1e-3)
     >>> for name, value in zip(found.names, found.values, strict=True):
     ...     print(f"{name:13} {value:7.3f}")
-    growth.alpha    0.648
-    sheet.width    -0.020
-    wave.cosine.1   0.128
+    growth.alpha    0.658
+    sheet.width    -0.008
+    wave.cosine.1   0.135
     """
     if validation.integer("order", order) not in ORDERS:
         raise ValueError(f"order = {order}: must be one of {', '.join(map(str, ORDERS))}")
@@ -105,7 +105,7 @@ def cost_gradient(scene: Scene, over: Any, rtol: float = 1e-4) -> CostGradient:
     >>> from linear_theory import Contact, Scene, Sheet, SineWave, Tanh, cost_gradient
     >>> scene = Scene(Sheet(), SineWave(), alpha=0.2, contact=Contact("current", Tanh(0.05)))
     >>> print(f"{cost_gradient(scene, 'alpha', rtol=1e-3)['growth.alpha']:.1f}")
-    -11.7
+    -12.8
     """
     found = _Solved.of(scene, over, rtol)
     speed, cost = found.speed, found.speed.cost_of_transport
