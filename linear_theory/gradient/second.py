@@ -22,6 +22,7 @@ from numpy.typing import NDArray
 from linear_theory.balance.course import Course
 from linear_theory.balance.crawl import Resolution
 from linear_theory.balance.period import resolved
+from linear_theory.common.progress import track
 from linear_theory.deformation.ritz import RitzField
 from linear_theory.deformation.ritz import error as ritz_error
 from linear_theory.deformation.ritz.solver import RitzSolver
@@ -115,9 +116,10 @@ class _Second:
         """Derivatives of q_0 and q_1 at times (T,), (2, parameters, T)."""
         small = SMALL if self.law.width > 0 else SMALL_DRY
         here = self._motion(self.scene, times, resolution)
+        pairs = list(zip(self.over, self.directions, strict=True))
         changes = [
             self._change(one, direction, times, resolution, here)
-            for one, direction in zip(self.over, self.directions, strict=True)
+            for one, direction in track("deformation by each parameter", pairs)
         ]
         motion = self.course.motion
         ahead, behind = (

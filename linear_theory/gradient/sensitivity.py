@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linear_theory.balance.crawl import BATCH, Crawl
+from linear_theory.common.progress import track
 from linear_theory.common.quadrature import gauss_legendre
 from linear_theory.deformation.ritz import RitzField, legendre
 from linear_theory.friction.load import Load
@@ -104,7 +105,10 @@ def sensitivities(
     """Derivatives at each of the motions, at times (T,)."""
     size = max(BATCH // crawl.points, 1)
     batches = [slice(i, i + size) for i in range(0, times.size, size)]
-    parts = [_batch(crawl, times[some], _some(motions, some), wanted) for some in batches]
+    parts = [
+        _batch(crawl, times[some], _some(motions, some), wanted)
+        for some in track("adjoint of the friction balance", batches)
+    ]
     found = [_joined(part) for part in zip(*parts, strict=True)]
     return [
         _sensitivity(crawl, times, one, motion.alpha, wanted)

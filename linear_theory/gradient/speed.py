@@ -24,6 +24,7 @@ from linear_theory.balance.crawl import Crawl
 from linear_theory.balance.period import resolved
 from linear_theory.common import validation
 from linear_theory.common.estimate import Estimate
+from linear_theory.common.progress import Report, watched
 from linear_theory.common.threads import one_blas_thread
 from linear_theory.common.tolerance import Tolerance
 from linear_theory.deformation.ritz import ritz_field
@@ -50,7 +51,14 @@ FIELD_SHARE = 0.1
 
 
 @one_blas_thread
-def speed_gradient(scene: Scene, over: Any, order: int = 1, rtol: float = 1e-4) -> SpeedGradient:
+def speed_gradient(
+    scene: Scene,
+    over: Any,
+    order: int = 1,
+    rtol: float = 1e-4,
+    *,
+    progress: bool | Report | None = None,
+) -> SpeedGradient:
     """Derivatives of the mean speed V with respect to parameters, by one adjoint solve for all.
 
     scene: planar, as for `crawl_speed`, of any wave, with alpha not 0. over: parameters, objects or
@@ -62,7 +70,8 @@ def speed_gradient(scene: Scene, over: Any, order: int = 1, rtol: float = 1e-4) 
     "friction.backward", "friction.sideways", "friction.heading", "friction.map.mu.0". Other waves have
     parameters by `WaveFamily`. order: of the theory, as for `crawl_speed`; 2 for motions that are
     mirror symmetric, at the cost of two deformations per parameter (see `gradient.second`). rtol: of
-    the speed; the errors of the derivatives follow from it and are estimated each.
+    the speed; the errors of the derivatives follow from it and are estimated each. progress: True
+    prints on stderr, a function is called with a `progress.Progress`.
 
     Where V has a kink, as where part of the sheet is at rest under dry friction, the result is a
     subgradient, and `kinks` says why. Errors do not count that of a measured wave.
@@ -81,8 +90,12 @@ def speed_gradient(scene: Scene, over: Any, order: int = 1, rtol: float = 1e-4) 
     """
     if validation.integer("order", order) not in ORDERS:
         raise ValueError(f"order = {order}: must be one of {', '.join(map(str, ORDERS))}")
-    if order == 2:
-        return _second(scene, over, rtol)
+    with watched(progress, "speed_gradient"):
+        return (_first if order == 1 else _second)(scene, over, rtol)
+
+
+def _first(scene: Scene, over: Any, rtol: float) -> SpeedGradient:
+    """Of order 1."""
     found = _Solved.of(scene, over, rtol)
     start = time.perf_counter()
     means = found.means([ALONG])
@@ -95,7 +108,9 @@ def speed_gradient(scene: Scene, over: Any, order: int = 1, rtol: float = 1e-4) 
 
 
 @one_blas_thread
-def cost_gradient(scene: Scene, over: Any, rtol: float = 1e-4) -> CostGradient:
+def cost_gradient(
+    scene: Scene, over: Any, rtol: float = 1e-4, *, progress: bool | Report | None = None
+) -> CostGradient:
     """Derivatives of the cost of transport (`CrawlSpeed.cost_of_transport`, over mu), likewise.
 
     With P the power of friction and D the speed in any direction, d(P/D) = dP/D - P dD/D^2. Arguments
@@ -107,6 +122,12 @@ def cost_gradient(scene: Scene, over: Any, rtol: float = 1e-4) -> CostGradient:
     >>> print(f"{cost_gradient(scene, 'alpha', rtol=1e-3)['growth.alpha']:.1f}")
     -12.8
     """
+    with watched(progress, "cost_gradient"):
+        return _cost(scene, over, rtol)
+
+
+def _cost(scene: Scene, over: Any, rtol: float) -> CostGradient:
+    """Of order 1."""
     found = _Solved.of(scene, over, rtol)
     speed, cost = found.speed, found.speed.cost_of_transport
     if not np.isfinite(cost.value) or not np.isfinite(cost.error):
