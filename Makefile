@@ -117,7 +117,7 @@ tables: $(STAMP)
 	$(RUN) -m figures.measure.self_contact
 	$(RUN) -m figures.measure.turning
 	$(RUN) -m figures.measure.excitable
-	$(RUN) -m tests.hard_cases_page
+	$(RUN) -m tests.robust.hard_cases_page
 	$(RUN) -m paper.numbers.shell
 	$(RUN) -m paper.derive
 	$(RUN) -m paper.numbers

@@ -26,7 +26,7 @@ PAGE_PPI = 110.0
 """Resolution of the pages as PNG: legible on a screen."""
 
 COMMANDS = {
-    "docs/hard_cases.json": "python -m tests.hard_cases_page",
+    "docs/hard_cases.json": "python -m tests.robust.hard_cases_page",
     "linear_theory/data/model_error.csv": "python -m figures.measure.model_error",
     "paper/generated/numbers.json": "python -m paper.numbers",
     "paper/generated/derivations.json": "python -m paper.derive",

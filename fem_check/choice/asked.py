@@ -1,9 +1,13 @@
 """Whether the question of a scene and its [run] has an answer, before any work on it."""
 
+import contextlib
+
 from fem_check.choice.expected import RAMP
 from fem_check.choice.settings import RunSettings
 from fem_check.choice.ways import way_of
+from linear_theory.common.errors import NotConvergedError
 from linear_theory.scene.scene import Scene
+from linear_theory.speed.plate.contact import require_contact
 
 
 def way_for(scene: Scene, settings: RunSettings) -> str:
@@ -31,3 +35,14 @@ def way_for(scene: Scene, settings: RunSettings) -> str:
             f"level = {settings.level!r}: must be 'stepped' or 'auto' beside this wave ({problem})"
         ) from None
     return way
+
+
+def check_contact_for(scene: Scene, way: str) -> None:
+    """Raise ValueError where a level was chosen that needs contact everywhere, and the sheet lifts off.
+
+    way: as `way_of` names it. Not part of `way_for`, since it takes the deflection of the sheet: tens
+    of milliseconds.
+    """
+    if way == "second order" and not scene.planar:
+        with contextlib.suppress(NotConvergedError):  # which the level tells
+            require_contact(scene)

@@ -19,6 +19,7 @@ from linear_theory.common.tolerance import Tolerance
 from linear_theory.scene.level import PLATE
 from linear_theory.scene.scene import Scene
 from linear_theory.speed.crawl import theory_speed
+from linear_theory.speed.plate.contact import require_contact
 from linear_theory.speed.plate.error import plate_error
 
 BENDING = ("second order", "cycle")
@@ -35,7 +36,7 @@ def bending_answer(scene: Scene, tolerance: Tolerance, method: str = "auto") -> 
     if method == "cycle":
         return replace(_by_cycle(scene, tolerance), reason="requested")
     begin = time.perf_counter()
-    obstacle = _obstacle(scene, tolerance)
+    obstacle = _obstacle(scene)
     if not obstacle:
         try:
             found = _by_plate(scene, tolerance)
@@ -52,12 +53,17 @@ def bending_answer(scene: Scene, tolerance: Tolerance, method: str = "auto") -> 
     return replace(found, reason=f"{reason}; not second order: {obstacle}", passed=(passed,))
 
 
-def _obstacle(scene: Scene, tolerance: Tolerance) -> str:
-    """Why the plate cannot meet the tolerance, known without its speed; empty if it may."""
+def _obstacle(scene: Scene) -> str:
+    """Why the plate cannot meet a tolerance, known without its speed; empty if it may."""
     objections = PLATE.objections(scene)
     if objections:
         return f"it cannot represent {'; '.join(objections)}"
-    return "its model error is unknown here" if math.isnan(plate_error(scene)) else ""
+    try:
+        require_contact(scene)
+        unknown = math.isnan(plate_error(scene))
+    except (NotConvergedError, ValueError) as problem:
+        return str(problem)
+    return "its model error is unknown here" if unknown else ""
 
 
 def _by_plate(scene: Scene, tolerance: Tolerance) -> Prediction:

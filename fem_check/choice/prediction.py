@@ -7,6 +7,7 @@ from dataclasses import replace
 
 from fem_check.choice.bending import BENDING, bending_answer
 from fem_check.choice.levels import LEVELS, TARGET_EFFECTS, distance
+from fem_check.choice.reach import check_width
 from fem_check.choice.result import Passed, Prediction, not_estimated, total_error
 from fem_check.choice.settings import SHARE
 from fem_check.shell.abilities import CYCLE, left_out
@@ -24,18 +25,13 @@ from linear_theory.friction.load import Load
 from linear_theory.friction.regime import warn_if_viscous
 from linear_theory.growth.growth import Reference
 from linear_theory.growth.laws import GrowthLaw
-from linear_theory.scene.level import THEORY
+from linear_theory.scene.level import PLATE, THEORY, Level
 from linear_theory.scene.scene import Scene
 from linear_theory.sheet.rectangle import Sheet
 from linear_theory.speed.reach import warn_if_beyond
 from linear_theory.wave.protocol import Wave
 
 METHODS = ("auto", *LEVELS)
-
-WIDEST = 20.0
-"""Lengths, up to which a flat sheet may be wide for the levels that are not in THEORIES."""
-
-THEORIES = ("strip", "first order")
 
 
 def predict(
@@ -67,7 +63,7 @@ def predict(
     levels; `solve` answers those that neither represents. progress: True prints on stderr, a function
     is called with a `linear_theory.common.progress.Progress`.
 
-    Raises ValueError for bad input, for sheets wider than WIDEST lengths unless by method "strip" or
+    Raises ValueError for bad input, for sheets wider than 20 lengths unless by method "strip" or
     "first order", and what the chosen level raises. Warns as `crawl_speed` does, for
     the level that gives the answer.
 
@@ -81,10 +77,10 @@ def predict(
     scene = Scene.stated(
         sheet, wave, alpha, load, friction, slip_speed, growth_law=growth_law, area=area
     )
-    (THEORY if scene.planar else CYCLE).require(scene)
-    tolerance = Tolerance(rtol, atol).of_speed(scene.alpha, scene.unit)
     validation.choice("method", method, METHODS if scene.planar else ("auto", *BENDING))
-    _require_reach(scene, method)
+    _target(scene, method).require(scene)
+    tolerance = Tolerance(rtol, atol).of_speed(scene.alpha, scene.unit)
+    check_width(scene, method)
     with watched(progress, "predict"):
         if not scene.planar:
             found = bending_answer(scene, tolerance, method)
@@ -98,14 +94,11 @@ def predict(
     return replace(found, seconds=time.perf_counter() - start)
 
 
-def _require_reach(scene: Scene, method: str) -> None:
-    """Raise ValueError for a flat sheet so wide that its edge layers would take minutes."""
-    sheet = scene.sheet
-    if scene.planar and method not in THEORIES and sheet.width > WIDEST * sheet.length:
-        raise ValueError(
-            f"width = {sheet.width:g}: must be <= {WIDEST:g} times the length, {sheet.length:g}, for "
-            f"method = {method!r}; only 'first order' answers wider sheets, as far as that theory holds"
-        )
+def _target(scene: Scene, method: str) -> Level:
+    """What must represent the scene: the target, or the plate where that is asked for by name."""
+    if scene.planar:
+        return THEORY
+    return PLATE if method == "second order" else CYCLE
 
 
 def _cheapest(scene: Scene, tolerance: Tolerance) -> Prediction:

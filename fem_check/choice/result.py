@@ -6,11 +6,14 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 from fem_check.answer.block import block
+from fem_check.answer.energy import with_model_errors
 from fem_check.answer.record import row
 from fem_check.choice.levels import TARGET
 from linear_theory.common.drawable import Drawable
+from linear_theory.common.estimate import Estimate
 from linear_theory.common.shown import Shown, number
 from linear_theory.common.tolerance import Tolerance
+from linear_theory.energy.growth import GrowthPower
 from linear_theory.friction.regime import Regime
 from linear_theory.scene.scene import Scene
 from linear_theory.speed.result import CrawlSpeed, speed_in_words
@@ -77,6 +80,32 @@ class Prediction(Drawable, Shown):
     def regime(self) -> Regime:
         """See `CrawlSpeed.regime`."""
         return self.speed.regime
+
+    @property
+    def power(self) -> Estimate:
+        """See `CrawlSpeed.power`; this and what is made of it with the known model errors, as printed.
+
+        >>> from fem_check import predict
+        >>> from linear_theory import Sheet, SineWave
+        >>> found = predict(Sheet(), SineWave(), alpha=0.25, rtol=1e-2)
+        >>> print(f"{found.cost_of_transport.value:.2f} mu, efficiency {found.efficiency.value:.2f}")
+        2.64 mu, efficiency 0.38
+        """
+        return with_model_errors(self.speed).power
+
+    @property
+    def cost_of_transport(self) -> Estimate:
+        """See `CrawlSpeed.cost_of_transport`."""
+        return with_model_errors(self.speed).cost_of_transport
+
+    @property
+    def efficiency(self) -> Estimate:
+        """See `CrawlSpeed.efficiency`."""
+        return with_model_errors(self.speed).efficiency
+
+    def growth_power(self, friction_strain: float) -> GrowthPower:
+        """See `CrawlSpeed.growth_power`. Raises ValueError as that does."""
+        return self.speed.growth_power(friction_strain)
 
     def to_row(self) -> dict[str, Any]:
         """A row of a table of many answers: numbers and texts by name, those of the scene with dots.

@@ -9,7 +9,7 @@ from fem_check.choice.answers import CROSSES, answer_of, by_cycle, noise
 from fem_check.choice.prediction import predict
 from fem_check.choice.result import Prediction
 from fem_check.choice.settings import RTOL, RunSettings
-from fem_check.choice.ways import THEORIES, way_of
+from fem_check.choice.ways import METHODS, way_of
 from fem_check.shell.statics.meter import Meter, metered
 from fem_check.shell.stepping.further.progress import FIRST
 from fem_check.shell.stepping.further.progress import Progress as Steps
@@ -37,9 +37,10 @@ def solve(
 
     level: "auto", or one by name: "predict" for a rectangle that stretches in its plane (or "strip",
     "first order", "second order", levels of it), "cycle" for a cycle of static shapes, "stepped" for
-    steps in time. rtol: of the speed. periods: of steps in time, after the growth has risen; steps:
-    to a period, instead of the tolerance. progress: True prints on stderr, a function is called with a
-    `Progress`.
+    steps in time. A sheet that bends is taken by "auto" to a cycle of its shapes; "predict" tries the
+    plate on its ground first, "second order" asks for it. rtol: of the speed. periods: of steps in
+    time, after the growth has risen; steps: to a period, instead of the tolerance. progress: True
+    prints on stderr, a function is called with a `Progress`.
 
     Raises ValueError for a scene that no level, or not the one asked for, represents, and what
     `predict`, `cycle_speed` and `simulate` raise, which return more: shapes, and the motion in time.
@@ -83,8 +84,7 @@ def solved(
         tolerance = tolerance or Tolerance(RTOL).of_speed(scene.alpha, scene.unit)
         if way == "cycle":
             return Solved(by_cycle(scene, tolerance, progress), None, cost)
-        method = way if way in THEORIES else "auto"
-        found = predict(scene, rtol=tolerance.rtol, method=method, progress=progress)
+        found = predict(scene, rtol=tolerance.rtol, method=METHODS[way], progress=progress)
     return Solved(found, None, cost)
 
 

@@ -3,9 +3,12 @@
 predict   a rectangle that stretches in its plane: the cheapest level that meets the tolerance
 cycle     any outline, bending, flat ground: a cycle of static shapes and the friction balance
 stepped   all effects, step by step in time
+
+Asked for by name "predict" answers a sheet that bends, too, by the plate or a cycle of its shapes.
 """
 
 from fem_check.choice.levels import LEVELS
+from fem_check.choice.reach import check_width
 from fem_check.shell.abilities import CYCLE, STEPPED
 from linear_theory.common import validation
 from linear_theory.scene.level import PLATE, THEORY, Level
@@ -19,6 +22,32 @@ THEORIES = tuple(level for level in LEVELS if level not in WAYS)
 
 ANSWERS = ("auto", *WAYS, *THEORIES)
 
+METHODS = {"predict": "auto", **{level: level for level in THEORIES}}
+"""Levels that `predict` answers, and its argument `method` for them."""
+
+ON_GROUND: dict[str, Level] = {"predict": CYCLE, "second order": PLATE}
+"""What they represent of a sheet that bends, where that is more than of a flat one."""
+
+
+def level_of(scene: Scene, way: str) -> Level:
+    """What a level by name, of ANSWERS, can represent of scenes like this one.
+
+    A sheet that bends is answered by "second order" as a plate on its ground, and by "predict" as by a
+    cycle of its shapes, from which the plate is at a known distance at best.
+
+    >>> from fem_check import Bending, Gravity, Ground, Material, Membrane
+    >>> from fem_check.choice.ways import level_of
+    >>> from linear_theory import Scene, Sheet, SineWave
+    >>> material = Material(0.03, 0.5)
+    >>> effects = [Membrane(material), Bending(material), Gravity(2.5e-4), Ground(0.5)]
+    >>> scene = Scene(Sheet(), SineWave(), 0.01, -0.1, effects)
+    >>> print(*(level_of(scene, way).call for way in ("predict", "second order")))
+    cycle_speed(scene) crawl_speed(scene, order=2)
+    """
+    if not scene.planar and way in ON_GROUND:
+        return ON_GROUND[way]
+    return WAYS.get(way, THEORY)
+
 
 def way_of(scene: Scene, asked: str = "auto") -> str:
     """The cheapest of WAYS that represents the scene, or the level that is asked for, of ANSWERS.
@@ -31,16 +60,36 @@ def way_of(scene: Scene, asked: str = "auto") -> str:
     predict
     """
     validation.choice("level", asked, ANSWERS)
+    way = _cheapest(scene) if asked == "auto" else asked
     if asked != "auto":
-        on_plate = asked == "second order" and not scene.planar
-        (PLATE if on_plate else WAYS.get(asked, THEORY)).require(scene)
-        return asked
+        _require(scene, asked)
+    if way in METHODS:
+        check_width(scene, METHODS[way])
+    return way
+
+
+def _cheapest(scene: Scene) -> str:
+    """Of WAYS."""
     steps = not STEPPED.objections(scene)
     for name, level in WAYS.items():
         if not level.objections(scene) and (not steps or level is STEPPED or _repeats(scene)):
             return name
     objections = (f"{name}: {'; '.join(level.objections(scene))}" for name, level in WAYS.items())
     raise ValueError(f"effects: no level represents this scene ({', '.join(objections)})")
+
+
+def _require(scene: Scene, asked: str) -> None:
+    """Raise ValueError if the level cannot represent the scene, naming others that can."""
+    objections = level_of(scene, asked).objections(scene)
+    if not objections:
+        return
+    able = [repr(way) for way in ANSWERS[1:] if not level_of(scene, way).objections(scene)]
+    others = f"must be {_listed(able)}" if able else "no other level can"
+    raise ValueError(f"level = {asked!r}: cannot represent {'; '.join(objections)}; {others}")
+
+
+def _listed(words: list[str]) -> str:
+    return " or ".join(filter(None, (", ".join(words[:-1]), words[-1])))
 
 
 def _repeats(scene: Scene) -> bool:

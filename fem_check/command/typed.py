@@ -1,5 +1,10 @@
 """Options as they are typed: their names and their quantities, for messages in the user's words."""
 
+import re
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any
+
 from fem_check.files.quantities import UNIT_OF_ANGLE, Quantity, direction, read
 
 
@@ -34,3 +39,30 @@ def share(name: str, text: str) -> float:
 def option(name: str) -> str:
     """As it is typed."""
     return f"--{name.replace('_', '-')}"
+
+
+NAMED = re.compile(r"(\w+)(?: = [^:]*| contains [^:]*|): ")
+"""The argument, with its value, at the start of a message of the library."""
+
+
+@contextmanager
+def as_typed(options: Any) -> Iterator[None]:
+    """Within it a ValueError that names an argument of the library names the option that was typed.
+
+    >>> from fem_check.command.options import Options
+    >>> from fem_check.command.typed import as_typed
+    >>> with as_typed(Options(forward=-1.0)):
+    ...     raise ValueError("forward = -1: must be > 0")
+    Traceback (most recent call last):
+    ...
+    ValueError: --forward -1: must be > 0
+    """
+    try:
+        yield
+    except ValueError as problem:
+        said = NAMED.match(str(problem))
+        value = getattr(options, said[1], None) if said else None
+        if said is None or value is None or value == getattr(type(options)(), said[1]):
+            raise
+        shown = f"{value:g}" if isinstance(value, float) else repr(value)
+        raise ValueError(f"{option(said[1])} {shown}: {str(problem)[said.end() :]}") from None

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Callable, Iterable, Iterator
-from typing import Annotated, Any, get_args
+from typing import Annotated, Any, Literal, get_args
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, PlainValidator, WithJsonSchema
 
@@ -33,6 +33,9 @@ def tables_in(annotation: Any) -> Iterator[type[Table]]:
     for part in get_args(annotation):
         yield from tables_in(part)
 
+
+Level = Literal["auto", "predict", "cycle", "stepped", "strip", "first order", "second order"]
+"""By which a scene is answered: `choice.ways.ANSWERS`."""
 
 SMALLEST = 1e-100
 """Length or time of a scene, and the largest over 1: squares of others are no numbers any more."""

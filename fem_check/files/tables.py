@@ -17,6 +17,7 @@ from fem_check.files.fields import (
     Damping,
     Density,
     Length,
+    Level,
     Natural,
     Poisson,
     Positive,
@@ -239,8 +240,9 @@ class DeadLoadTable(Table):
 class RunTable(Table):
     """How the scene is to be answered."""
 
-    level: Literal["auto", "predict", "cycle", "stepped"] = "auto"
-    """"auto" takes the cheapest that can represent the scene."""
+    level: Level = "auto"
+    """"auto" takes the cheapest that can represent the scene; "predict" may take any theory or a cycle
+    of shapes that meets the tolerance, of a sheet that bends, too, "second order" that theory alone."""
     rtol: PositiveShare | None = None
     """Relative error of the speed, e.g. "1 %", which it is unless given."""
     periods: Natural = 2

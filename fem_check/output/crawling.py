@@ -95,6 +95,17 @@ class Crawling:
         slip = velocity + np.stack([v_x - omega * y, v_y + omega * x])
         return -load * self._deformation.law.force(slip)
 
+    @property
+    def presses(self) -> bool:
+        """See Moving."""
+        return self.components == 3
+
+    def pressure(self, points: Array, phase: float) -> Array:
+        """See Moving."""
+        t, law = phase * self.period, self._deformation.law
+        load = self._deformation.contact(points, t).load
+        return load if law.map is None else load / law.map.values(points[0], points[1], t)
+
     def ground(self, x: Array, y: Array) -> Array:
         """Level ground, the only one in the theories and the cycle of shapes."""
         return np.zeros_like(y)

@@ -65,7 +65,7 @@ def line_of(moving: Moving, quantity: Quantity, periods: int) -> Line:
 
 
 def draw_kymograph(ax: Axes, moving: Moving, units: Units, quantity: Quantity, periods: int) -> None:
-    """The values in diverging colours with 0 in the middle, and a colour bar."""
+    """The values in diverging colours, and a colour bar."""
     line, factor = line_of(moving, quantity, periods), units.length_factor
     labels: dict[Quantity, tuple[str, Any, float]] = {
         Quantity.WAVE: ("wave $c$", GROWTH_MAP, 1.0),
@@ -74,21 +74,31 @@ def draw_kymograph(ax: Axes, moving: Moving, units: Units, quantity: Quantity, p
     }
     label, colours, scale = labels[quantity]
     values = scale * line.values
-    most = float(np.nanmax(np.abs(values))) or 1.0
+    low, high = _limits(values)
     image = ax.imshow(
         values,
         origin="lower",
         aspect="auto",
         extent=_edges(line.y * factor, line.times * units.time_factor),
         cmap=colours,
-        vmin=-most,
-        vmax=most,
+        vmin=low,
+        vmax=high,
         interpolation="nearest",
     )
     first, last = line.times[[0, -1]] * units.time_factor
     ax.set(xlabel=f"$y$ ({units.length})", ylabel=f"time $t$ ({units.time})", ylim=(first, last))
     ax.set_title(f"{label.split(' (')[0]} along the middle of the sheet", loc="left")
     add_scale(ax, image, label)
+
+
+def _limits(values: Array) -> tuple[float, float]:
+    """Ends of the colours: 0 in the middle, but of values far from it, as of heights of a sheet that
+    has sunk into its ground, their own."""
+    low, high = float(np.nanmin(values)), float(np.nanmax(values))
+    if low * high > 0 and high - low < min(abs(low), abs(high)):
+        return low, high
+    most = max(abs(low), abs(high)) or 1.0
+    return -most, most
 
 
 def _edges(y: Array, times: Array) -> tuple[float, float, float, float]:

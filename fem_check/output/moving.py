@@ -102,6 +102,14 @@ class Moving(Protocol):
     def friction(self, points: Array, phase: float) -> Array:
         """Friction force per undeformed area, divided by mu times the weight, (2, n)."""
 
+    @property
+    def presses(self) -> bool:
+        """Whether `pressure` is known: of a sheet in space with something below it."""
+
+    def pressure(self, points: Array, phase: float) -> Array:
+        """Normal load per undeformed area over the weight per area, (n,); 0 where the sheet is off the
+        ground."""
+
     def ground(self, x: Array, y: Array) -> Array:
         """Height of the ground at places (n,)."""
 

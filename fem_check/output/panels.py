@@ -42,6 +42,16 @@ FRICTION_MAP = colormaps["RdBu_r"]
 """Colours of friction: red pushes the sheet towards +y, blue towards -y."""
 
 
+SUNK = 1.5
+"""Depth below level ground, over the range of heights, from which on the sheet is shown without it."""
+
+MARGIN = 0.1
+"""Of that range, above and below."""
+
+PRESSURE_MAP = colormaps["Blues"]
+"""Colours of pressure: the darker, the more."""
+
+
 def draw_sheet(ax: Axes, moving: Moving, units: Units, phase: float) -> None:
     """The sheet from above, coloured by its `Tint`, with friction as arrows."""
     points, triangles = moving.covering()
@@ -68,12 +78,25 @@ def draw_friction(ax: Axes, moving: Moving, units: Units, phase: float) -> None:
     add_scale(ax, image, r"friction $f_y$ ($\mu\,w$)")
 
 
-def _draw_around(ax: Axes, moving: Moving, units: Units, phase: float) -> bool:
+def draw_pressure(ax: Axes, moving: Moving, units: Units, phase: float) -> None:
+    """The sheet from above, coloured by the load with which it presses on the ground."""
+    points, triangles = refined(*refined(*moving.covering()))
+    frame, pressure = moving.at(points, phase), moving.pressure(points, phase)
+    limits = float(pressure.min()), float(pressure.max())
+    place = frame.place * units.length_factor
+    image, _ = add_sheet(ax, place, pressure, triangles, limits, PRESSURE_MAP)
+    _draw_around(ax, moving, units, phase, arrows=False)
+    lifted = " (0: lifted off)" if limits[0] <= 0 else ""
+    ax.set_title(f"{_time(frame, units)}; {_ways(moving)}", loc="left")
+    add_scale(ax, image, f"pressure ($w$){lifted}")
+
+
+def _draw_around(ax: Axes, moving: Moving, units: Units, phase: float, arrows: bool = True) -> bool:
     """Undeformed outline, friction arrows, axes; whether there are arrows."""
     points, triangles = moving.covering()
     frame, factor = moving.at(points, phase), units.length_factor
     ax.add_collection(outline(frame.still * factor, triangles, linestyle=":", color="0.5"))
-    arrows = _draw_friction(ax, moving, phase, points, triangles, factor)
+    arrows = arrows and _draw_friction(ax, moving, phase, points, triangles, factor)
     label_ground(ax, units)
     ax.set_aspect("equal", anchor="W")
     shown = np.concatenate([frame.still[:2], frame.place[:2]], axis=1) * factor
@@ -103,16 +126,32 @@ def draw_side(ax: Axes, moving: Moving, units: Units, phase: float) -> None:
     draw_ground(ax, moving, low, high, units.length_factor)
     ax.autoscale_view()
     ax.set(xlabel=f"$y$ ({units.length})", ylabel=f"$z$ ({units.length})")
-    ax.set_title("side view, height not to scale; ground at $x$ = 0", loc="left")
+    ground = "ground at $x$ = 0"
+    bottom, top = frame.place[2].min() * units.length_factor, frame.place[2].max() * units.length_factor
+    if _level(moving, frame) and -top > SUNK * (top - bottom) > 0:
+        margin = MARGIN * (top - bottom)
+        ax.set_ylim(bottom - margin, top + margin)
+        ground = "ground at $z$ = 0"
+    ax.set_title(f"side view, height not to scale; {ground}", loc="left")
+
+
+def _level(moving: Moving, frame: Frame) -> bool:
+    """Whether the ground below the sheet is at z = 0."""
+    return not moving.ground(frame.place[0], frame.place[1]).any()
 
 
 def add_sheet(
-    ax: Axes, place: Array, values: Array, triangles: Integers, most: float, cmap: Any = GROWTH_MAP
+    ax: Axes,
+    place: Array,
+    values: Array,
+    triangles: Integers,
+    most: float | tuple[float, float],
+    cmap: Any = GROWTH_MAP,
 ) -> tuple[Any, Artist]:
-    """Draw values as colours on a scale of +-most, for a colour bar, and the outline."""
+    """Draw values as colours on a scale of +-most, or of two ends, and the outline."""
     grid = Triangulation(*on_page(place[:2]), triangles)
-    most = most or 1.0
-    image = ax.tripcolor(grid, values, shading="gouraud", cmap=cmap, vmin=-most, vmax=most, zorder=2)
+    low, high = most if isinstance(most, tuple) else (-(most or 1.0), most or 1.0)
+    image = ax.tripcolor(grid, values, shading="gouraud", cmap=cmap, vmin=low, vmax=high, zorder=2)
     return image, ax.add_collection(outline(place, triangles, color="0.15"))
 
 

@@ -51,8 +51,9 @@ def write_paraview(result: Any, path: str | Path, refine: int = 2) -> None:
 
     At the points: displacement (3), length, in the frame of the ground, for Warp By Vector; wave, c;
     growth, alpha c, which rises from 0 during the ramp of a trajectory; friction (3), per undeformed
-    area and mu times the weight, if there is any; in small-strain theory stress_xx, stress_yy,
-    stress_xy in the axes of the sheet, units of Young's modulus.
+    area and mu times the weight, if there is any; pressure of a sheet in space on its ground, over the
+    weight per area; in small-strain theory stress_xx, stress_yy, stress_xy in the axes of the sheet,
+    units of Young's modulus.
 
     Raises ValueError for a result without a shape, a refine out of range and another suffix, OSError
     for a path that cannot be written to, and ModuleNotFoundError, with what to install, without meshio.
@@ -98,9 +99,11 @@ def _of_trajectory(run: Trajectory, refine: int) -> tuple[Grid, Iterator[Moment]
                 "wave": wave,
                 "growth": run.amplitude(t) * run.scene.alpha * wave,
             }
+            phase = (t - run.start) / moving.period
             if moving.speed.regime != "none":
-                phase = (t - run.start) / moving.period
                 values["friction"] = _in_space(moving.friction(points, phase))
+            if moving.presses:
+                values["pressure"] = moving.pressure(points, phase)
             yield Moment(float(t), values)
 
     return Grid(points, np.asarray(mesh.t.T)), moments()
@@ -121,6 +124,9 @@ def _of_frames(moving: Moving) -> tuple[Grid, Iterator[Moment]]:
             if moving.speed.regime != "none":
                 force, heading = friction_at(moving, points, frame.time)
                 values["friction"] = _in_space(turned(force, frame.heading - heading))
+            if moving.presses:
+                phase = (frame.time - moving.at(points, 0.0).time) / moving.period
+                values["pressure"] = moving.pressure(points, phase)
             if isinstance(moving, Crawling):
                 values |= moving.stress(points, frame.time)
             yield Moment(frame.time, values)

@@ -14,7 +14,7 @@ from fem_check.output.curves import draw_path, draw_speed
 from fem_check.output.kymographs import Quantity, draw_kymograph
 from fem_check.output.look import CM_PER_INCH, COLUMN_CM, styled
 from fem_check.output.moving import Moving
-from fem_check.output.panels import draw_friction, draw_sheet, draw_side
+from fem_check.output.panels import draw_friction, draw_pressure, draw_sheet, draw_side
 from fem_check.output.simulated import Simulated
 from fem_check.output.works import draw_power
 from fem_check.shell.stepping.trajectory import Trajectory
@@ -76,6 +76,12 @@ PANELS = {
         4.0,
         _rubs,
         "a scene without friction, a body on a line, and a copied speed have no friction field",
+    ),
+    "pressure": Panel(
+        lambda ax, m, u, phase, n: draw_pressure(ax, m, u, phase),
+        4.0,
+        lambda moving: moving.presses,
+        "the sheet lies in the plane, or nothing is known to press on the ground",
     ),
     "side": Panel(lambda ax, m, u, phase, n: draw_side(ax, m, u, phase), 2.9, _in_space, FLAT),
     "kymograph": _line(Quantity.WAVE, _has_shape, NO_SHAPE),

@@ -99,6 +99,15 @@ class Simulated:
         force = turned(law.force(turned(slip, -angle)), angle)
         return np.asarray(-self._load(region, t) * force)
 
+    @property
+    def presses(self) -> bool:
+        """See Moving."""
+        return self.components == 3 and any(e.pressed_by(3) for e in self._model.effects)
+
+    def pressure(self, points: Array, phase: float) -> Array:
+        """See Moving."""
+        return self._pressure(self._region(points), self._time(phase))[0]
+
     def ground(self, x: Array, y: Array) -> Array:
         """See Moving."""
         found: Ground | None = self._model.find(Ground)
@@ -112,18 +121,24 @@ class Simulated:
         return SimulatedFrames(self, points, times)
 
     def _load(self, region: Region, t: float) -> Array:
-        """Pressure on the ground over the weight per area."""
+        """Pressure on the ground over the weight per area, times the map of friction."""
+        found, place = self._pressure(region, t)
+        friction = self._scene.contact.friction
+        if friction.map is None:
+            return found
+        on_body = friction.map.fixed_to is FixedTo.BODY
+        return np.asarray(
+            found * friction.map.values(*(region.reference[0, :2] if on_body else place), t)
+        )
+
+    def _pressure(self, region: Region, t: float) -> tuple[Array, Array]:
+        """Pressure on the ground over the weight per area, and the positions (2, n) in the plane."""
         bearer = next(e for e in self._model.effects if e.pressed_by(self.components))
         u, rest = self._trajectory.shape(t, None), self._rest(region, t)
         area = PointState(region, u, (1, 2)).area
         state = PointState(region, u, (0,), rest, Step(area=area))
         found = bearer.normal_load(state) / self._model.find(Gravity).weight
-        friction = self._scene.contact.friction
-        if friction.map is None:
-            return np.asarray(found)
-        on_body = friction.map.fixed_to is FixedTo.BODY
-        place = region.reference[0, :2] if on_body else state.position[:2]
-        return np.asarray(found * friction.map.values(*place, t))
+        return np.asarray(found), state.position[:2]
 
     def _rest(self, region: Region, t: float) -> RestState:
         return self._model.rest(t, self._trajectory.amplitude(t), region)

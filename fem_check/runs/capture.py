@@ -62,8 +62,18 @@ def recorded(result: Any, scene: Scene, speed: CrawlSpeed | None = None) -> Reco
         tails=tails,
         arrows=_arrows(moving, tails, times, heading),
         energies=moving.energies,
+        load=_load(moving, points, times),
         **_floor(moving, place),
     )
+
+
+def _load(moving: Moving, points: Array, times: Array) -> Array | None:
+    """Normal load over the weight per area, where there is one below a sheet in space."""
+    if not moving.presses:
+        return None
+    repeats = moving.most_periods is None
+    phases = times / moving.period if repeats else np.arange(times.size) / PHASES
+    return np.stack([moving.pressure(points, float(phase)) for phase in phases])
 
 
 def _arrows(moving: Moving, tails: Array, times: Array, heading: Array) -> Array:

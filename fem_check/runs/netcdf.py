@@ -38,13 +38,17 @@ COLUMNS = (
     ("triangle", "triangles", "points at the corners of triangles", NUMBER, ("cell", "corner")),
     ("arrow_place", "tails", "points with known friction", LENGTH, ("plane", "arrow")),
     ("sheet_friction", "arrows", "friction over mu weight", NUMBER, ("frame", "plane", "arrow")),
+    ("sheet_load", "load", "normal load over weight per area", NUMBER, ("frame", "point")),
     ("floor_x", "floor_x", "places on the ground, across", LENGTH, ("floor_x",)),
     ("floor_y", "floor_y", "places on the ground, along", LENGTH, ("floor_y",)),
     ("floor", "floor", "height of the ground", LENGTH, ("floor_x", "floor_y")),
 )
 """Names in the file and in a Recording, long names, units and dimensions."""
 
-FLOATS = {"sheet_place", "sheet_wave", "sheet_growth", "sheet_friction"}
+OPTIONAL = {"sheet_load"}
+"""Left out where a motion, or a version, does not have them."""
+
+FLOATS = {"sheet_load", "sheet_place", "sheet_wave", "sheet_growth", "sheet_friction"}
 """Large arrays, kept in single precision: a millionth of the sheet is enough to draw."""
 
 
@@ -65,6 +69,8 @@ def write(recording: Recording, result: Any, path: Path, units: Units | None = N
     dataset = result.to_xarray()
     for name, attribute, words, unit, dims in COLUMNS:
         values = getattr(recording, attribute)
+        if values is None and name in OPTIONAL:
+            continue
         values = values.astype(np.float32) if name in FLOATS else values
         dataset[name] = (dims, values, Column(name, values, words, unit).attributes)
     for variable in dataset.variables.values():
@@ -118,7 +124,8 @@ def read(path: Path) -> Recording:
 
 def _recording(dataset: Any) -> Recording:
     known = dataset.attrs
-    arrays = {attribute: np.array(dataset[name].values) for name, attribute, *_ in COLUMNS}
+    there = [column for column in COLUMNS if column[0] in dataset or column[0] not in OPTIONAL]
+    arrays = {attribute: np.array(dataset[name].values) for name, attribute, *_ in there}
     arrays = {n: v.astype(np.int64 if n == "triangles" else np.float64) for n, v in arrays.items()}
     course = _course(dataset)
     speed = CrawlSpeed(

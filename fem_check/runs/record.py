@@ -54,7 +54,8 @@ def errors_of(found: Solved) -> list[dict[str, Any]]:
         rows = [("numerical: mesh, times, friction balance", speed.error - speed.wave_error)]
         if speed.wave_error:
             rows.append((error_words(found.answer.scene.wave), speed.wave_error))
-        rows.append(("model: distance to the nonlinear flat sheet", speed.model_error))
+        target = "the nonlinear flat sheet" if found.answer.scene.planar else "a cycle of its shapes"
+        rows.append((f"model: distance to {target}", speed.model_error))
     else:
         of = found.motion.errors
         rows = [("steps in time", of.step), ("difference of the last two periods", of.spread)]

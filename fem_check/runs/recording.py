@@ -40,8 +40,8 @@ class Recording(Drawable, Shown):
     with arrows; friction (n, 2, a): force on them over mu times the weight, per undeformed area.
     floor_x (i,), floor_y (j,), floor (i, j): places around the sheet and the height of the ground.
     periods: recorded; repeats: whether they go on without end. words: about the shape. energies: of a
-    motion in time, where the work of growth went. Lengths and
-    times in units of the scene.
+    motion in time, where the work of growth went. load (n, p): of a sheet in space, normal load over
+    the weight per area; None of others. Lengths and times in units of the scene.
 
     >>> from fem_check.runs import recorded
     >>> from linear_theory import Scene, Sheet, SineWave, crawl_speed
@@ -74,6 +74,7 @@ class Recording(Drawable, Shown):
     floor_y: Array = field(repr=False)
     floor: Array = field(repr=False)
     energies: Energies | None = field(default=None, repr=False)
+    load: Array | None = field(default=None, repr=False)
 
     has_shape = True
 
@@ -118,6 +119,17 @@ class Recording(Drawable, Shown):
         nearest = cKDTree(self.tails.T).query(points.T)[1]
         row = self._lap(self._counted(phase))[1] * PHASES
         return np.asarray(_between(self.arrows, row)[:, nearest])
+
+    @property
+    def presses(self) -> bool:
+        """See Moving."""
+        return self.load is not None
+
+    def pressure(self, points: Array, phase: float) -> Array:
+        """See Moving."""
+        assert self.load is not None
+        row = self._lap(self._counted(phase))[1] * PHASES
+        return self._weights(points)(_between(self.load, row))
 
     @property
     def level(self) -> bool:

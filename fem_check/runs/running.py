@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from fem_check.answer.units import Units
+from fem_check.choice.asked import check_contact_for
 from fem_check.choice.settings import RunSettings
 from fem_check.choice.solving import solved
 from fem_check.choice.ways import way_of
@@ -83,6 +84,7 @@ def run(
     scene = validation.instance("scene", scene, Scene)
     folder, settings = Path(folder), settings or RunSettings()
     way = way_of(scene, settings.level)
+    check_contact_for(scene, way)
     netcdf.require_netcdf()
     with locked(folder), _interruptible(again):
         known = _has_result(folder, scene, settings, resume)

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 from fem_check.answer.units import Units
 from fem_check.choice.asked import way_for
 from fem_check.choice.settings import RunSettings
-from fem_check.choice.ways import ANSWERS, THEORIES
+from fem_check.choice.ways import ANSWERS
 from fem_check.files.mistakes import Place
 from fem_check.sweeps.points.axes import Axis, axes_of
 from fem_check.sweeps.points.designs import Design
@@ -221,9 +221,8 @@ def plan_of(
             shown = validation.shown(design)
             raise ValueError(f"design = {shown}: must be a Grid, Paired, Random or LatinHypercube")
         validation.choice("level", settings.level, ANSWERS)
-        level = settings.level if settings.level in THEORIES else None
-        told = settings if level is None else replace(settings, level="auto")
-        return Varied(Variation.of(scene, told), axes_of(over), design, level, seconds)
+        validation.choice("level", settings.level, ANSWERS)
+        return Varied(Variation.of(scene, settings), axes_of(over), design, None, seconds)
     if over is not None:
         raise ValueError("over: must be left out where the scenes are given one by one")
     if isinstance(scene, str | bytes | Path) or not isinstance(scene, Sequence) or not scene:

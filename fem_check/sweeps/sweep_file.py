@@ -17,7 +17,7 @@ from typing import Annotated, Any, Literal, NamedTuple
 
 from pydantic import Field, ValidationError
 
-from fem_check.files.fields import Natural, Table, Time
+from fem_check.files.fields import Level, Natural, Table, Time
 from fem_check.files.mistakes import Mistakes, nearest
 from fem_check.files.reading import data_of, text_of
 from fem_check.sweeps.plan import LIMIT, Varied
@@ -59,9 +59,7 @@ class SweepTable(Table):
     """Scenes of a random design or a Latin hypercube."""
     seed: Annotated[int, Field(ge=0)] | None = None
     """Of the random numbers; 0 unless given."""
-    level: (
-        Literal["auto", "predict", "cycle", "stepped", "strip", "first order", "second order"] | None
-    ) = None
+    level: Level | None = None
     """Instead of that of the scene."""
     time: Time | None = None
     """After which a scene is given up, e.g. "10 min", which it is unless given; plain in seconds."""

@@ -33,6 +33,7 @@ class Drawable:
         - "speed": V(t) over a period with its mean and error band,
         - "sheet": the deformed sheet coloured by its growth alpha c, with friction forces as arrows,
         - "friction": the sheet coloured by the friction along y, per mu times the weight per area,
+        - "pressure": a sheet in space coloured by its normal load over the weight per area,
         - "side": a sheet in space and its ground, seen from the edge,
         - "kymograph", "displacement", "height": along the middle of the sheet, y across and time
           upwards, the wave c, the displacement along y in the frame of the body (as in fig. 2 of the

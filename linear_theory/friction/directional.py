@@ -133,7 +133,7 @@ class Directional(FrictionLaw):
     @property
     def details(self) -> str:
         """See FrictionLaw."""
-        turned = f", heading {self.heading:.3g} rad" if self.heading else ""
+        turned = f", heading {math.degrees(self.heading):.4g} deg" if self.heading else ""
         along = f"{self.forward:g} forward, {self.backward:g} backward"
         return f"{along}, {self.sideways:g} sideways{turned}, fixed to the {self.fixed_to}"
 

@@ -31,8 +31,9 @@ from linear_theory.motion.motion import CellGrid
 from linear_theory.scene.level import PLATE, THEORY
 from linear_theory.scene.scene import Scene
 from linear_theory.sheet.rectangle import Sheet
-from linear_theory.speed.drawn import BentDeformation, LinearDeformation
+from linear_theory.speed.drawn import LinearDeformation
 from linear_theory.speed.model_error import LEVELS, model_error
+from linear_theory.speed.plate.drawn import BentDeformation
 from linear_theory.speed.plate.error import plate_error
 from linear_theory.speed.power_error import with_power_error
 from linear_theory.speed.reach import judged, too_large_growth, warn_if_beyond

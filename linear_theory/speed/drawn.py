@@ -12,11 +12,9 @@ from numpy.typing import NDArray
 
 from linear_theory.common.shown import Shown
 from linear_theory.deformation.field import LinearField
-from linear_theory.deformation.plate import PlateField
-from linear_theory.energy.stored import Storing, bent_rate, stored_rate
+from linear_theory.energy.stored import Storing, stored_rate
 from linear_theory.friction.contact import Contact
 from linear_theory.friction.law import FrictionLaw
-from linear_theory.friction.load import Load
 from linear_theory.wave.protocol import Drive
 
 Array = NDArray[np.float64]
@@ -125,13 +123,20 @@ class LinearDeformation(Shown):
 
     def contact(self, points: Array, t: float) -> Touch:
         """See Deformation."""
-        field, (x, y) = self.field, points
-        dilation = field.strain(x, y, t)[:2].sum(0)
-        rate = self._load.rate(dilation, self.growth(points, np.array([t]))[0])
-        weight = 1 + self.alpha * rate
+        weight = self._pressure(points, t)
         if self.law.map is not None:
-            weight = weight * self.law.map.values(x, y, t)
-        return Touch(self.alpha * field.velocity(x, y, t), weight)
+            weight = weight * self.law.map.values(points[0], points[1], t)
+        return Touch(self._velocity(points, t), weight)
+
+    def _pressure(self, points: Array, t: float) -> Array:
+        """Normal load, without the map of friction."""
+        dilation = self.field.strain(points[0], points[1], t)[:2].sum(0)
+        rate = self._load.rate(dilation, self.growth(points, np.array([t]))[0])
+        return np.asarray(1 + self.alpha * rate)
+
+    def _velocity(self, points: Array, t: float) -> Array:
+        """Of what touches the ground."""
+        return self.alpha * self.field.velocity(points[0], points[1], t)
 
     def stress(self, points: Array, t: float) -> Array:
         """See Deformation."""
@@ -141,42 +146,3 @@ class LinearDeformation(Shown):
         """See Deformation. Of order alpha^2."""
         rate = self.alpha**2 * stored_rate(self.field, times)
         return Storing(rate, STORING * self.field.error * float(np.mean(abs(rate))))
-
-
-class BentDeformation(LinearDeformation):
-    """`LinearDeformation`, seen from above, of a sheet that stores energy by bending, too.
-
-    find_plate: returns the deflection w per unit curvature coupling; called on first use.
-    """
-
-    def __init__(
-        self,
-        find: Callable[[], LinearField],
-        find_plate: Callable[[], PlateField],
-        couplings: tuple[float, float],
-        contact: Contact,
-    ) -> None:
-        super().__init__(find, couplings[0], contact)
-        self._find_plate, self._beta = find_plate, couplings[1]
-
-    @cached_property
-    def plate(self) -> PlateField:
-        """w per unit curvature coupling."""
-        return self._find_plate()
-
-    def storing(self, times: Array) -> Storing:
-        """See Deformation. Of second order in alpha and beta; growth and bending do not mix there.
-
-        Raises ValueError where growth changes the weight as a whole, which does work against it that
-        the ratio of friction to stiffness does not tell.
-        """
-        if self._load is not Load.MATERIAL and self.drive.series is None:
-            raise ValueError(
-                f"load = {str(self._load)!r}: must be 'material' for the power of growth of a sheet "
-                "that bends, or the wave a TravellingWave, which does not change the weight; "
-                "simulate(scene).power has it for any"
-            )
-        plane, rate = super().storing(times), self._beta**2 * bent_rate(self.plate, times)
-        return Storing(
-            plane.rate + rate, plane.error + 2 * self.plate.error * float(np.mean(abs(rate)))
-        )

@@ -12,7 +12,7 @@ Sign convention: n > 0 runs towards +y. The printed amplitudes of the seed paper
 a_r = delta_1r cos wt, b_s = delta_1s sin wt) belong to cos(2 pi y/L - wt), not to this sine.
 """
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any, NamedTuple
@@ -171,11 +171,11 @@ class TravellingWave(Value):
 
     def value(self, x: ArrayLike, y: ArrayLike, t: ArrayLike, length: float = 1.0) -> Array:
         """c at points of a sheet of that `length`; x, y, t broadcast (c does not depend on x)."""
-        return self.profile(self._phase(x, y, t, length))
+        return self._on_points(self.profile, x, y, t, length)
 
     def rate(self, x: ArrayLike, y: ArrayLike, t: ArrayLike, length: float = 1.0) -> Array:
         """dc/dt at points of a sheet of that `length`; x, y, t broadcast."""
-        return -2 * np.pi / self.period * self.profile_slope(self._phase(x, y, t, length))
+        return -2 * np.pi / self.period * self._on_points(self.profile_slope, x, y, t, length)
 
     def factors(self, t: ArrayLike) -> TimeFactors:
         """even, odd in c = mean + sum_j even[j] cos(2 pi r_j y/L) + odd[j] sin(...), r = `orders`."""
@@ -193,10 +193,20 @@ class TravellingWave(Value):
         odd = rate * (p * np.cos(angle) - q * np.sin(angle))
         return TimeFactors(even, np.sign(self.count) * odd)
 
-    def _phase(self, x: ArrayLike, y: ArrayLike, t: ArrayLike, length: float) -> Array:
+    def _on_points(
+        self,
+        function: Callable[[Array], Array],
+        x: ArrayLike,
+        y: ArrayLike,
+        t: ArrayLike,
+        length: float,
+    ) -> Array:
+        """A function of the phase at points; once for all x, on which no phase depends."""
         named = ("x", x), ("y", y), ("t", t)
-        _, y, t = np.broadcast_arrays(*(validation.real_array(name, v) for name, v in named))
-        return np.asarray(2 * np.pi * (self.count * y / length - t / self.period))
+        x, y, t = (validation.real_array(name, value) for name, value in named)
+        shape = np.broadcast_shapes(x.shape, y.shape, t.shape)
+        found = function(2 * np.pi * (self.count * y / length - t / self.period))
+        return found if found.shape == shape else np.broadcast_to(found, shape).copy()
 
     @cached_property
     def _present(self) -> tuple[NDArray[np.int64], Array, Array]:

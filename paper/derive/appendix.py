@@ -13,6 +13,7 @@ from pathlib import Path
 
 from figures.common import output
 from figures.common.command import parser
+from paper.derive import limits as proofs_limits
 from paper.derive import line as proofs_line
 from paper.derive import plate as proofs_plate
 from paper.derive import sheet as proofs_sheet
@@ -42,6 +43,7 @@ STEPS = (
     proofs_plate.mixed_order,
     proofs_plate.lower_face,
     proofs_plate.power,
+    proofs_limits.limits,
 )
 
 

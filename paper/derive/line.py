@@ -6,8 +6,8 @@ import sympy as sp
 
 from paper.derive.proof import ProofError, Step, prove, proved
 from paper.derive.typst_math import typst
-from tests import test_derivations_line as on_line
-from tests.test_derivations_line import ALPHA, COUNT, PERIOD, PHI, THETA
+from tests.line import test_derivations_line as on_line
+from tests.line.test_derivations_line import ALPHA, COUNT, PERIOD, PHI, THETA
 
 
 def velocity() -> Step:

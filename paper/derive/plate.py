@@ -3,9 +3,9 @@
 import sympy as sp
 
 from paper.derive.proof import Step, prove, proved
-from tests import test_derivations_plate as on_plate
-from tests.test_derivations_line import ALPHA, THETA
-from tests.test_derivations_plate import BACKWARD, BETA, FORWARD, C, H, R, V, W, X, Y
+from tests.line.test_derivations_line import ALPHA, THETA
+from tests.plate import test_derivations_plate as on_plate
+from tests.plate.test_derivations_plate import BACKWARD, BETA, FORWARD, C, H, R, V, W, X, Y
 
 
 def ground_and_plate() -> Step:

@@ -3,7 +3,7 @@
     python -m paper.numbers.shell [--out FILE]
 
 Writes paper/generated/shell.csv: half a minute of computing. Problems and references are those of the
-tests (`tests/shell_cases.py`, `tests/test_shell_tables.py`), where their sources stand.
+tests (`tests/shell/shell_cases.py`, `tests/shell/test_shell_tables.py`), where their sources stand.
 """
 
 from collections.abc import Callable, Iterator, Sequence
@@ -12,8 +12,8 @@ from pathlib import Path
 
 from figures.common.output import tracked
 from figures.common.records import Table
-from tests import shell_cases, test_shell_tables
-from tests.shell_cases import Path as LoadPath
+from tests.shell import shell_cases, test_shell_tables
+from tests.shell.shell_cases import Path as LoadPath
 
 DIGITS = 6
 """Significant digits written: one more than the best reference has."""

@@ -20,7 +20,7 @@ from linear_theory.common.quadrature import gauss_legendre
 from linear_theory.deformation.field import LinearField
 from linear_theory.friction.load import WEIGHTS as LOADS
 from paper.numbers.number import SHEET, SHOWN_ALPHA, SMALL_ALPHA, WAVE, Number, Numbers
-from tests.shell_scenes import planar
+from tests.shell.shell_scenes import planar
 
 Array = NDArray[np.float64]
 

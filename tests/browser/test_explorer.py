@@ -14,7 +14,7 @@ from fem_check import predict
 from fem_check.answer.block import LEVEL_WORDS
 from linear_theory import Sheet, SineWave, crawl_speed, pulse_wave
 from tests.browser.webdriver import browser, until
-from tests.processes import interruptible
+from tests.runs.processes import interruptible
 
 MARGIN = 1.0
 """Seconds from a move to the picture that are allowed on a busy machine; usual are 0.1."""

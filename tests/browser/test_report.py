@@ -11,7 +11,7 @@ from fem_check.files import read
 from fem_check.runs import run
 from fem_check.runs.report import shown_speed
 from tests.browser.webdriver import browser
-from tests.run_cases import PLANE, STEPPED
+from tests.runs.run_cases import PLANE, STEPPED
 
 DRIVE = """return (async () => {
   const result = {};

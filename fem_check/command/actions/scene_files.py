@@ -20,11 +20,14 @@ SWEEP = "sweep"
 """Beside the scenes of the gallery, a sweep file to start from."""
 
 WAYS = {
-    "predict": "predict: the cheapest theory or cycle of shapes that is known to meet the tolerance",
-    "cycle": "cycle: static shapes through one period, then the balance of friction on them",
-    "stepped": "stepped: in time, with friction that acts back on the shape",
+    "predict": "the cheapest theory or cycle of shapes that is known to meet the tolerance",
+    "cycle": "static shapes through one period, then the balance of friction on them",
+    "stepped": "in time, with friction that acts back on the shape",
+    "strip": "the closed-form balance of a narrow strip",
+    "first order": "small-strain theory",
+    "second order": "theory to second order in growth and curvature",
 }
-"""How a scene is answered, in words."""
+"""How a scene is answered, in words, by each level but "auto"."""
 
 
 def new(name: str | None, path: Path | None) -> int:
@@ -115,7 +118,7 @@ def _said(found: "SceneFile", way: str) -> dict[str, str]:
     return {
         "units": units,
         **dict(rows),
-        "answer": f"{WAYS[way]}; {accuracy}{periods}",
+        "answer": f"{way}: {WAYS[way]}; {accuracy}{periods}",
         "cost": f"{most}about {_rounded(seconds)} on one core, to a factor of 5",
         "next": f"sheetcrawl speed {found.path}",
     }

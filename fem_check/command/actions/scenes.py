@@ -3,7 +3,7 @@
 from dataclasses import fields, replace
 from pathlib import Path
 
-from fem_check.choice.asked import way_for
+from fem_check.choice.asked import check_contact_for, way_for
 from fem_check.choice.result import Prediction
 from fem_check.choice.solving import solved
 from fem_check.command.options import Options
@@ -20,7 +20,7 @@ BESIDE = ("rtol", "json", "csv", "plot", "movie", "why")
 
 SUFFIX = ".toml"
 
-ASKED = {"level": "run", "until": "wave"}
+ASKED = {"level": "run", "until": "wave", "curvature_coupling": "growth", "width": "sheet"}
 """Keys that a scene may be refused for only once all of it is known, and their tables."""
 
 
@@ -57,7 +57,9 @@ def answerable(path: Path) -> tuple[SceneFile, str]:
         text = text_of(path)
         found = parsed(text, path)
         try:
-            return found, way_for(found.scene, found.run)
+            way = way_for(found.scene, found.run)
+            check_contact_for(found.scene, way)
+            return found, way
         except ValueError as problem:
             mistakes = Mistakes()
             words = " ".join(str(problem).split())

@@ -18,6 +18,7 @@ from fem_check.command.options import Options
 from fem_check.command.quantities import Asked, asked
 from fem_check.command.status import MET, MISSED
 from fem_check.command.text import printable
+from fem_check.command.typed import as_typed
 from fem_check.command.waiting import Waiting
 from linear_theory.common.errors import SheetcrawlError
 from linear_theory.common.progress import Report
@@ -37,8 +38,9 @@ def speed(options: Options, path: Path | None = None) -> int:
         raise ValueError("--json: must not be combined with --csv")
     check_files(options)
     if path is None:
-        question = asked(options)
-        units, solve = question.units, partial(_predicted, question, options.method)
+        with as_typed(options):
+            question = asked(options)
+        units, solve = question.units, partial(_predicted, question, options)
     else:
         file = asked_by_file(path, options)
         units, solve = file.units, partial(answered, file)
@@ -57,9 +59,10 @@ def speed(options: Options, path: Path | None = None) -> int:
     return MET if found.converged else MISSED
 
 
-def _predicted(question: Asked, method: str, report: Report) -> Prediction:
-    rtol, atol = question.rtol, question.atol
-    return predict(question.scene, rtol=rtol, atol=atol, method=method, progress=report)
+def _predicted(question: Asked, options: Options, report: Report) -> Prediction:
+    rtol, atol, method = question.rtol, question.atol, options.method
+    with as_typed(options):
+        return predict(question.scene, rtol=rtol, atol=atol, method=method, progress=report)
 
 
 def _told(found: Prediction, units: Units | None, options: Options) -> str:

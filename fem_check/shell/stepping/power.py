@@ -176,9 +176,9 @@ def energy_of(motion: "Trajectory") -> Energy | None:
     Work of growth that is still stored at the end of the period (elastic, of the ground, by the height
     of the sheet above it, kinetic) does not count: once the motion repeats there is none. What lifts
     the sheet along a slope does. Damping of the contact counts as friction. The error is the residual
-    of the balance, the error of velocities from the steps, and the change from the period before, if
-    there is one; infinite where a further run failed, without which it is not known which way the
-    sheet takes.
+    of the balance, the error of velocities from the steps, what further runs tell (see `SpeedErrors`),
+    and the change from the period before, if there is one; infinite where a further run failed, without
+    which it is not known which way the sheet takes.
     """
     load, contact = friction_load(motion.model), motion.scene.contact
     if math.isnan(load):
@@ -190,9 +190,9 @@ def energy_of(motion: "Trajectory") -> Energy | None:
     error = float(friction[last] @ _doubt(motion, last))
     if before:
         error += abs(float(works[last].sum() - works[before[0]].sum()))
-    error = math.inf if motion.errors.failed else error
     period = motion.scene.period
-    power = Estimate(float(works[last].sum()) / period, error / period)
+    error = math.inf if motion.errors.failed else error / period + motion.further.power
+    power = Estimate(float(works[last].sum()) / period, error)
     spent, mean = friction[last] / steps[last], mean_map_of(motion.scene)
     return Energy(
         power,

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from fem_check.shell.stepping.further import second_runs
+from fem_check.shell.stepping.further.errors import Doubt, Further
 from fem_check.shell.stepping.further.progress import Listener, Progress, Whole, printed
 from fem_check.shell.stepping.run import Run, Target
 from fem_check.shell.stepping.schemes import Scheme
@@ -74,7 +75,7 @@ def simulate(
     >>> print(f"V = {motion.speed.mean:.3f} L/T, friction is {motion.regime}")
     V = 0.015 L/T, friction is dry
     """
-    run, target = None, None
+    run, target, further = None, None, False
     hint = "make one by Scene(sheet, wave, alpha, effects=...)"
     scene = validation.instance("scene", scene, Scene, hint)
     if not (progress is None or isinstance(progress, bool) or callable(progress)):
@@ -92,14 +93,15 @@ def simulate(
             resumed = run.resume(target)
         whole = _whole(progress, mesh_error, scene.drive.has_state)
         run.finish(target, None if whole is None else _watching(run, whole))
-        difference = np.nan if coarse is None else second_runs.mesh_error(run, coarse, whole)
-        feedback = second_runs.feedback_errors(run, whole)
+        further = True
+        mesh = Doubt() if coarse is None else second_runs.mesh_error(run, coarse, whole)
+        feedback, growth = second_runs.feedback_errors(run, whole)
         jumps = second_runs.snap_error(run, whole)
         contact = second_runs.contact_error(run, whole)
     except KeyboardInterrupt:
         # Not a subclass, for which Python would not exit with the status of an interrupted process;
         # from None, since the traceback into a step does not help the user.
-        raise KeyboardInterrupt(_interrupted(run, target)) from None
+        raise KeyboardInterrupt(_interrupted(run, target, further)) from None
     finally:
         if progress is True and run is not None:
             print(file=sys.stderr)
@@ -107,11 +109,7 @@ def simulate(
         run.trajectory(),
         seconds=run.seconds,
         resumed_at=resumed,
-        mesh_error=difference,
-        snap_error=jumps,
-        feedback_error=feedback.speed,
-        growth_error=feedback.growth,
-        contact_error=contact,
+        further=Further(mesh, jumps, feedback, contact, growth),
     )
     warn_if_viscous(scene.contact.friction, found.slip_ratio)
     return found
@@ -148,17 +146,27 @@ def _target(path: Path, scene: Scene, settings: Settings, every: int) -> Target:
     return Target(path, run_fingerprint(path, scene, settings), every)
 
 
-def _interrupted(run: Run | None, target: Target | None) -> str:
-    """Message on what is kept of an interrupted run, after writing its snapshot."""
+def _interrupted(run: Run | None, target: Target | None, further: bool) -> str:
+    """Message on what is kept of an interrupted run, after writing its snapshot.
+
+    further: whether the run itself had ended, and one that tells a part of its error was interrupted.
+    """
     if run is None:
         return "simulate was interrupted before its first step"
     run.rewind()
     now, end = run.history.time, float(run.marks[-1])
     text = f"simulate was interrupted at t = {now:g} of {end:g}, after {run.steps} steps"
+    if further:
+        text = f"simulate was interrupted in a further run for the error, after all {run.steps} steps"
     if target is None:
         return f"{text}, which are lost; with snapshot='run.npz' the same call would resume the run"
     try:
         run.save(target)
     except OSError as error:
         return f"{text}; {error}; it is unchanged"
+    if further:
+        return (
+            f"{text}, which are kept in {target.path}, but nothing of the further run; the same call "
+            "starts it again"
+        )
     return f"{text}, all kept in {target.path}; the same call resumes from there"

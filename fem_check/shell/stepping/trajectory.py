@@ -15,7 +15,7 @@ from fem_check.shell.model import ShellModel
 from fem_check.shell.stepping import columns
 from fem_check.shell.stepping.between import between, interpolation_error, motion_around
 from fem_check.shell.stepping.further.branching import DECISIVE, may_branch
-from fem_check.shell.stepping.further.errors import SpeedErrors
+from fem_check.shell.stepping.further.errors import NO_FURTHER, Further, SpeedErrors
 from fem_check.shell.stepping.power import Works, energy_of
 from fem_check.shell.stepping.sliding import COMPARED
 from fem_check.shell.stepping.step_control import LANDED
@@ -65,10 +65,8 @@ class Trajectory(Drawable, Tabular):
     ramp of growth. table: columns of `record.COLUMNS`. stored_times (n,), states (n, size): kept
     states. probes (steps + 1, points, components): positions of a few points at all `times`. rejected:
     repeated steps. resumed_at: time of the snapshot from which the run resumed, NaN if none.
-    mesh_error, snap_error, feedback_error, contact_error: see `SpeedErrors`. corrects: whether the
-    estimated step error is removed from the speed. growth_error: estimated error of c where the strain
-    acts back on it (`model.growth` is then c as it was in this motion), else NaN. seconds: computing
-    time, that before the snapshot included.
+    further: what further runs tell, see `SpeedErrors`. corrects: whether the estimated step error is
+    removed from the speed. seconds: computing time, that before the snapshot included.
 
     >>> from fem_check import Friction, Gravity, Material, Membrane, Scene, simulate
     >>> from linear_theory import Sheet, SineWave
@@ -89,12 +87,8 @@ class Trajectory(Drawable, Tabular):
     seconds: float
     resumed_at: float = np.nan
     rtol: float | None = None
-    mesh_error: float = np.nan
-    snap_error: float = np.nan
     corrects: bool = False
-    feedback_error: float = np.nan
-    growth_error: float = np.nan
-    contact_error: float = np.nan
+    further: Further = NO_FURTHER
 
     @property
     def scene(self) -> Scene:
@@ -156,6 +150,14 @@ class Trajectory(Drawable, Tabular):
         """Whether the sheet touches itself within the last period."""
         late = self.stored_times >= self.times[self.last_period.start - 1]
         return bool(self.model.couplings) and bool(self.touching[late].any())
+
+    @property
+    def growth_error(self) -> float:
+        """Estimated error of c where the strain acts back on it, else NaN.
+
+        `model.growth` is then c as it was in this motion.
+        """
+        return self.further.growth
 
     @property
     def iterations(self) -> int:
@@ -332,18 +334,18 @@ class Trajectory(Drawable, Tabular):
     @property
     def errors(self) -> SpeedErrors:
         """Estimated errors of the mean speed of the last period."""
-        speeds = self.period_speeds
+        speeds, further = self.period_speeds, self.further
         spread = abs(speeds[-1] - speeds[-2]) if speeds.size > 1 else np.nan
         dry = self.slip_ratio <= DRY
         slip = abs(self._mean("slip_y")) / (1 - COMPARED) if dry else np.nan
         return SpeedErrors(
             self._step_error("y"),
             float(spread),
-            self.mesh_error,
+            further.mesh.speed,
             slip,
-            self.snap_error,
-            self.feedback_error,
-            self.contact_error,
+            further.snaps.speed,
+            further.feedback.speed,
+            further.contact.speed,
         )
 
     @cached_property

@@ -43,6 +43,9 @@ MOST_UNKNOWNS = 2500
 POINTS = 41
 """Points per direction at which the largest deflection is sought."""
 
+REFINED = 2
+"""How often its phase is sought more finely for a wave that is no Fourier series."""
+
 
 @one_blas_thread
 def plate_field(sheet: Sheet, wave: Wave, ground: Foundation, rtol: float = 1e-4) -> "PlateField":
@@ -103,13 +106,18 @@ class PlateField(Shown):
     error: float = math.nan
 
     def __init__(
-        self, drive: Drive, ground: Foundation, degree: Pair, cases: LoadCases | None = None
+        self,
+        drive: Drive,
+        ground: Foundation,
+        degree: Pair,
+        cases: LoadCases | None = None,
+        solver: PlateSolver | None = None,
     ) -> None:
         start = time.perf_counter()
         self.sheet, self.drive, self.foundation, self.degree = drive.sheet, drive, ground, degree
         self.cases = cases or load_cases(drive)
         counts = tuple(d + d // 4 + 12 for d in degree)
-        self._solver = PlateSolver(self.sheet, ground, degree)
+        self._solver = solver or PlateSolver(self.sheet, ground, degree)
         self.polynomials = self._solver.solve(
             gauss_moments(self.sheet, (counts[0], counts[1]), self.cases.growths)
         )
@@ -140,7 +148,7 @@ class PlateField(Shown):
         cases = self.cases.at(t)
         if cases is self.cases:
             return self
-        found = PlateField(self.drive, self.foundation, self.degree, cases)
+        found = PlateField(self.drive, self.foundation, self.degree, cases, self._solver)
         found.error = self.error
         return found
 
@@ -159,15 +167,26 @@ class PlateField(Shown):
     def lift_off(self, sign: float = 1.0) -> float:
         """The beta of that sign at which the pressure vanishes at some point and time, 1/length.
 
-        Infinite where it never does. Sought on a grid of points, with edges, and of phases.
+        Infinite where it never does. Sought on a grid of points, with edges, and of phases, which is
+        refined about the worst one.
         """
-        times = self._phases()
+        sign, times = math.copysign(1.0, sign), self._phases()
+        step = float(times[1] - times[0])
+        heights = self._highest(sign, times)
+        largest = float(heights.max())
+        for _ in range(0 if isinstance(self.cases, Harmonics) else REFINED):
+            step /= 4
+            times = (times[heights.argmax()] + step * np.arange(-3, 4)) % self.drive.period
+            heights = self._highest(sign, times)
+            largest = max(largest, float(heights.max()))
+        return math.copysign(1 / (self.pressing * largest) if largest > 0 else math.inf, sign)
+
+    def _highest(self, sign: float, times: Array) -> Array:
+        """The largest of w or -w on the sheet at each time, (times,)."""
         x, y = (s * np.linspace(-0.5, 0.5, POINTS) for s in (self.sheet.width, self.sheet.length))
         field = self.at(times)
         w = np.tensordot(field.cases.amplitudes(times).T, field.deflections(x[:, None], y), 1)
-        largest = float((math.copysign(1.0, sign) * w).max(initial=0.0))
-        limit = math.inf if largest <= 0 else 1 / (self.pressing * largest)
-        return math.copysign(limit, sign)
+        return np.asarray((sign * w).max((1, 2)))
 
     def distance(self, other: "PlateField") -> float:
         """Relative L2 distance to a field of lower degrees, at the worst phase."""

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linear_theory.deformation.plate.field import PlateField
-from linear_theory.deformation.second.source import GaussGrid
+from linear_theory.deformation.second.source import GaussGrid, at_each_time
 
 Array = NDArray[np.float64]
 
@@ -37,8 +37,8 @@ class QuadraticSource(ABC):
         return np.asarray((after - before) / (2 * step))
 
     def _works(self, grid: GaussGrid, fields: Array, amplitudes: Array, growths: Array) -> Array:
-        pairs = zip(amplitudes.T, growths, strict=True)
-        return np.stack([self._work(grid, np.tensordot(a, fields, 1), c) for a, c in pairs])
+        pairs = zip(at_each_time(amplitudes, fields), growths, strict=True)
+        return np.stack([self._work(grid, values, c) for values, c in pairs])
 
     @abstractmethod
     def _on_grid(self) -> tuple[GaussGrid, Array]:

@@ -8,7 +8,7 @@ As P is quadratic, a central difference with any step h gives its rate exactly:
     dP/dt = [P(z + h dz/dt) - P(z - h dz/dt)]/(2 h).
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -24,6 +24,9 @@ Array = NDArray[np.float64]
 
 EXTRA_POINTS = 6
 """Gauss points beyond those for polynomials, since c^2 and c s_1 are sines in y."""
+
+TIMES_AT_ONCE = 16
+"""Times whose fields are found in one product; few enough for the cache."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,8 +52,8 @@ class Source:
         growths = grid.growth(self.drive.value, times)
         slopes = grid.values(self.gradients)
         stresses = [
-            self._stress(np.tensordot(a, slopes, 1), c)
-            for a, c in zip(amplitudes.T, growths, strict=True)
+            self._stress(slope, c)
+            for slope, c in zip(at_each_time(amplitudes, slopes), growths, strict=True)
         ]
         return grid.moments(np.stack(stresses))
 
@@ -64,8 +67,12 @@ class Source:
         ahead, behind = (
             np.stack(
                 [
-                    self._stress(np.tensordot(a + sign * step * b, slopes, 1), c + sign * d)
-                    for a, b, c, d in zip(amplitudes.T, rates.T, growths, changes, strict=True)
+                    self._stress(slope, c)
+                    for slope, c in zip(
+                        at_each_time(amplitudes + sign * step * rates, slopes),
+                        growths + sign * changes,
+                        strict=True,
+                    )
                 ]
             )
             for sign in (1, -1)
@@ -112,6 +119,17 @@ class GaussGrid:
         """Integrals of values at the points times p_i(x) p_j(y)."""
         across, along = self._across * self._weight_x[:, None], self._along * self._weight_y[:, None]
         return np.asarray(across.T @ values @ along)
+
+
+def at_each_time(amplitudes: Array, fields: Array) -> Iterator[Array]:
+    """Fields of load cases (cases, ...) with amplitudes (cases, T), time by time.
+
+    One product for several times reads the fields once for all of them.
+    """
+    flat = fields.reshape(len(fields), -1)
+    for start in range(0, amplitudes.shape[1], TIMES_AT_ONCE):
+        for values in amplitudes[:, start : start + TIMES_AT_ONCE].T @ flat:
+            yield values.reshape(fields.shape[1:])
 
 
 def _matrix(tensor: Array) -> Array:

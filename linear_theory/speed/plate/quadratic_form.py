@@ -57,5 +57,6 @@ def check_contact(beta: float, lift_off: tuple[float, float], name: str = "curva
     if not low < beta < high:
         raise ValueError(
             f"{name} = {beta:g}: must be in ({low:.4g}, {high:.4g}), beyond which the sheet lifts off "
-            "the ground at some point and time (the pressure rho g + beta p vanishes)"
+            "the ground at some point and time (the pressure rho g + beta p vanishes); cycles of "
+            "shapes and steps in time go further"
         )

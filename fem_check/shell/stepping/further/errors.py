@@ -18,6 +18,40 @@ FURTHER = {
 task in words."""
 
 
+class _Doubt(NamedTuple):
+    speed: float = math.nan
+    power: float = math.nan
+
+
+class Doubt(Shown, _Doubt):
+    """Errors that a further run tells: of the mean speed, and of the power over mu times the weight
+    (`Energy`); length per time, NaN where it tells nothing, infinite where it failed."""
+
+
+FAILED, NO_DOUBT = Doubt(math.inf, math.inf), Doubt()
+
+
+class _Further(NamedTuple):
+    mesh: Doubt = NO_DOUBT
+    snaps: Doubt = NO_DOUBT
+    feedback: Doubt = NO_DOUBT
+    contact: Doubt = NO_DOUBT
+    growth: float = math.nan
+
+
+class Further(Shown, _Further):
+    """What the further runs tell, by the names of `FURTHER`; growth: error of c, by feedback."""
+
+    @property
+    def power(self) -> float:
+        """Error of the power by all of them."""
+        return float(np.nansum([getattr(self, name).power for name in FURTHER]))
+
+
+NO_FURTHER = Further()
+"""Of a motion without further runs."""
+
+
 class _Errors(NamedTuple):
     step: float
     spread: float

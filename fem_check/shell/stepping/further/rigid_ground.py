@@ -4,7 +4,6 @@ A sheet of weight q per area sinks into ground of stiffness k by (q/k)^(1/2), 0.
 differs from that on rigid ground, to first order in that depth where it is small.
 """
 
-import math
 import sys
 import time
 from collections.abc import Mapping, Sequence
@@ -17,12 +16,14 @@ from numpy.typing import NDArray
 
 from fem_check.shell.effects.ground import Ground
 from fem_check.shell.statics.equilibrium import ConvergenceError
+from fem_check.shell.stepping.further.errors import FAILED, Doubt
 from fem_check.shell.stepping.further.progress import Listener, Progress, printed
 from fem_check.shell.stepping.further.second_runs import coarser, mesh_change
 from fem_check.shell.stepping.simulation import simulate
 from fem_check.shell.stepping.trajectory import Trajectory
 from linear_theory.common import validation
 from linear_theory.common.shown import Shown
+from linear_theory.energy.energy import Energy
 from linear_theory.scene.scene import Scene
 from linear_theory.speed.result import CrawlSpeed, Estimate, speed_in_words
 
@@ -140,7 +141,19 @@ class RigidGround(Shown):
             converged=error <= self.rtol * abs(mean) and not crosses,
             model=f"{words} ({self.stopped})" if self.stopped else words,
             seconds=self.seconds,
+            energy=self._energy,
         )
+
+    @property
+    def _energy(self) -> Energy | None:
+        """That of the last motion, with the power in the limit; None for scenes without friction or
+        weight."""
+        last = self.motions[-1].speed.energy
+        if last is None:
+            return None
+        powers = [m.speed.energy.power.value for m in self.motions if m.speed.energy is not None]
+        limit = Limit(np.array(powers))
+        return replace(last, power=Estimate(limit.value, last.power.error + limit.error))
 
     def _title(self) -> str:
         found = self.speed
@@ -196,16 +209,18 @@ def rigid_ground(
             print(file=sys.stderr)
     if mesh_error:
         rough = coarse[len(motions) - 1]
-        motions[-1] = replace(motions[-1], mesh_error=_mesh_error(motions[-1], rough, periods, rtol))
+        last = motions[-1]
+        further = last.further._replace(mesh=_mesh_error(last, rough, periods, rtol))
+        motions[-1] = replace(last, further=further)
     return RigidGround(tuple(motions), rtol, time.perf_counter() - begin, stopped)
 
 
-def _mesh_error(found: Trajectory, coarse: Scene, periods: int, rtol: float) -> float:
+def _mesh_error(found: Trajectory, coarse: Scene, periods: int, rtol: float) -> Doubt:
     """That of a motion, infinite where the one of the coarser scene fails."""
     try:
         return mesh_change(found, simulate(coarse, periods, rtol))
     except (ConvergenceError, ValueError):
-        return math.inf
+        return FAILED
 
 
 def _stiffened(

@@ -1,14 +1,14 @@
-"""Errors of the mean speed from further runs: on a coarser mesh, and with other steps."""
+"""Errors of speed and power from further runs: on a coarser mesh, and with other steps."""
 
 import math
 from collections.abc import Callable
-from typing import NamedTuple
 
 from fem_check.mesh.elements import default_cells
 from fem_check.shell.effects.contact.self_contact import SelfContact
 from fem_check.shell.statics.equilibrium import ConvergenceError
-from fem_check.shell.stepping.further.errors import FURTHER
+from fem_check.shell.stepping.further.errors import FAILED, FURTHER, Doubt
 from fem_check.shell.stepping.further.progress import Whole
+from fem_check.shell.stepping.power import energy_of
 from fem_check.shell.stepping.run import Run
 from fem_check.shell.stepping.step_control import fewest_steps
 from fem_check.shell.stepping.trajectory import Trajectory
@@ -58,44 +58,55 @@ def _finished(part: str, whole: Whole | None, begin: Callable[[], Run]) -> Run |
     return run
 
 
-def mesh_error(run: Run, coarse: Scene, whole: Whole | None) -> float:
-    """Mesh error of the mean speed of a finished run, from the same run of the `coarser` scene.
+def mesh_error(run: Run, coarse: Scene, whole: Whole | None) -> Doubt:
+    """Mesh error of a finished run, from the same run of the `coarser` scene."""
+    return _told(run, _finished("mesh", whole, lambda: Run(coarse, run.settings)), MESH_MARGIN)
 
-    Infinite if that run fails.
+
+def mesh_change(found: Trajectory, coarse: Trajectory) -> Doubt:
+    """Mesh error of a motion, from that on the coarser mesh."""
+    return _apart(coarse, found, MESH_MARGIN)
+
+
+def snap_error(run: Run, whole: Whole | None) -> Doubt:
+    """Error of a sheet that may take another way, from a run with other steps.
+
+    NaN if no other way was open in the last period.
     """
-    rough = _finished("mesh", whole, lambda: Run(coarse, run.settings))
-    return math.inf if rough is None else mesh_change(run.trajectory(), rough.trajectory())
+    if not run.trajectory().branches:
+        return Doubt()
+    return _told(run, _finished("snaps", whole, lambda: _with_other_steps(run)), SNAP_MARGIN)
 
 
-def mesh_change(found: Trajectory, coarse: Trajectory) -> float:
-    """Mesh error of the mean speed of a motion, from that on the coarser mesh."""
-    return float(MESH_MARGIN * abs(coarse.mean_speed - found.mean_speed))
+def contact_error(run: Run, whole: Whole | None) -> Doubt:
+    """Error of a sheet that touches itself, from a run with a narrower gap.
 
-
-def snap_error(run: Run, whole: Whole | None) -> float:
-    """Error of the mean speed of a sheet that may take another way, from a run with other steps.
-
-    NaN if no other way was open in the last period, infinite if that run fails.
+    NaN if it did not touch itself in the last period.
     """
-    found = run.trajectory()
-    if not found.branches:
-        return math.nan
-    other = _finished("snaps", whole, lambda: _with_other_steps(run))
-    return math.inf if other is None else SNAP_MARGIN * _apart(other, found)
-
-
-def contact_error(run: Run, whole: Whole | None) -> float:
-    """Error of the mean speed of a sheet that touches itself, from a run with a narrower gap.
-
-    NaN if it did not touch itself in the last period, infinite if that run fails.
-    """
-    found, contact = run.trajectory(), run.scene.find(SelfContact)
-    if contact is None or not found.presses:
-        return math.nan
+    contact = run.scene.find(SelfContact)
+    if contact is None or not run.trajectory().presses:
+        return Doubt()
     narrower = SelfContact(contact.material, NARROWER * contact.gap, contact.stiffness)
     effects = tuple(narrower if effect is contact else effect for effect in run.scene.effects)
     tight = _finished("contact", whole, lambda: Run(run.scene.but(effects=effects), run.settings))
-    return math.inf if tight is None else GAP_MARGIN * _apart(tight, found)
+    return _told(run, tight, GAP_MARGIN)
+
+
+def feedback_errors(run: Run, whole: Whole | None) -> tuple[Doubt, float]:
+    """Errors by the feedback on the wave: that of the wave itself, and of the steps that both make.
+
+    From a run with longer steps and larger elements of the wave; of the speed the largest difference
+    over the periods, since one may be small by chance. To them the error of c. NaN without feedback.
+    """
+    if not run.scene.drive.has_state:
+        return Doubt(), math.nan
+    rough = _finished("feedback", whole, lambda: _with_other_steps(run, coarse=True))
+    if rough is None:
+        return FAILED, math.inf
+    other, found = rough.trajectory(), run.trajectory()
+    speed = FEEDBACK_MARGIN * abs(other.period_speeds - found.period_speeds).max()
+    growth = FEEDBACK_MARGIN * abs(run.feedback.apart(rough.feedback)).max()
+    return _apart(other, found, FEEDBACK_MARGIN)._replace(speed=float(speed)), float(growth)
 
 
 def _with_other_steps(run: Run, coarse: bool = False) -> Run:
@@ -103,33 +114,21 @@ def _with_other_steps(run: Run, coarse: bool = False) -> Run:
     return Run(run.scene, settings, coarse)
 
 
-def _apart(other: Run, found: Trajectory) -> float:
-    return float(abs(other.trajectory().mean_speed - found.mean_speed))
+def _told(run: Run, other: Run | None, margin: float) -> Doubt:
+    """What another run tells of a finished one; infinite if that failed."""
+    return FAILED if other is None else _apart(other.trajectory(), run.trajectory(), margin)
 
 
-class FeedbackErrors(NamedTuple):
-    """Of the speeds, length per time, and of c."""
+def _apart(other: Trajectory, found: Trajectory, margin: float) -> Doubt:
+    powers = [_power(motion) for motion in (other, found)]
+    speed, power = abs(other.mean_speed - found.mean_speed), abs(powers[0] - powers[1])
+    return Doubt(float(margin * speed), float(margin * power))
 
-    speed: float = math.nan
-    growth: float = math.nan
 
-
-def feedback_errors(run: Run, whole: Whole | None) -> FeedbackErrors:
-    """Errors by the feedback on the wave: that of the wave itself, and of the steps that both make.
-
-    From a run with longer steps and larger elements of the wave: the largest differences over the
-    periods, since one may be small by chance. NaN without feedback, infinite if that run fails.
-    """
-    if not run.scene.drive.has_state:
-        return FeedbackErrors()
-    rough = _finished("feedback", whole, lambda: _with_other_steps(run, coarse=True))
-    if rough is None:
-        return FeedbackErrors(math.inf, math.inf)
-    speeds = rough.trajectory().period_speeds - run.trajectory().period_speeds
-    found = (
-        FEEDBACK_MARGIN * abs(apart).max() for apart in (speeds, run.feedback.apart(rough.feedback))
-    )
-    return FeedbackErrors(*map(float, found))
+def _power(motion: Trajectory) -> float:
+    """Over mu times the weight; NaN for a scene that lacks friction or weight."""
+    energy = energy_of(motion)
+    return math.nan if energy is None else energy.power.value
 
 
 def coarser(scene: Scene) -> Scene:

@@ -1,0 +1,42 @@
+"""The first of the random questions of every family, four threads at once, and symmetries of units."""
+
+from concurrent.futures import ThreadPoolExecutor
+
+import numpy as np
+import pytest
+
+from linear_theory import Sheet, SineWave, crawl_speed
+from tests.robust.random_trials import FAMILIES, outcome
+
+SEED = 1
+COUNTS = {"speed": 16, "line": 30, "prediction": 4, "command": 40}
+"""So that all take some 30 s; the whole of what was tried is in the head of `random_trials`."""
+
+
+@pytest.mark.parametrize(
+    ("family", "number"), [(family, i) for family, count in COUNTS.items() for i in range(count)]
+)
+def test_no_error_is_understated(family: str, number: int) -> None:
+    found = outcome(family, SEED, number)
+    assert found.ratio <= 1, found.words
+
+
+@pytest.mark.parametrize("family", FAMILIES)
+def test_trials_are_questions_that_can_fail(family: str) -> None:
+    """Most are answered, and the errors compared are not 0."""
+    if family == "command":
+        return
+    found = [outcome(family, SEED, number) for number in range(3)]
+    assert sum(one.true > 0 for one in found) > len(found) / 2
+
+
+def test_four_threads_at_once_find_what_one_finds() -> None:
+    alphas = np.linspace(0.05, 0.2, 8)
+
+    def ask(alpha: float) -> tuple[float, float]:
+        found = crawl_speed(Sheet(), SineWave(), alpha, rtol=1e-2)
+        return found.mean, found.error
+
+    alone = [ask(alpha) for alpha in alphas]
+    with ThreadPoolExecutor(4) as pool:
+        assert list(pool.map(ask, alphas)) == alone
