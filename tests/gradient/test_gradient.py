@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from figures.measure.gradient import Frozen, difference, names_of, scene_of, share
+from figures.measure.gradient.scenes import Frozen, difference, names_of, scene_of, share
 from linear_theory import (
     Contact,
     Coulomb,

@@ -273,7 +273,3 @@ def main(arguments: Sequence[str] | None = None) -> None:
     """Compute and write the table."""
     options = TABLE.options(__doc__, arguments, scenes=(100, "random scenes"))
     TABLE.write(compute(options.scenes), options.out)
-
-
-if __name__ == "__main__":
-    main()
