@@ -106,6 +106,7 @@ tables: $(STAMP)
 	$(RUN) -m figures.measure.regimes
 	$(RUN) -m figures.measure.directional
 	$(RUN) -m figures.measure.optimise.line
+	$(RUN) -m figures.measure.gradient
 	$(RUN) -m figures.measure.energy.gaits
 	$(RUN) -m figures.measure.energy.errors
 	$(RUN) -m figures.measure.saddle

@@ -18,6 +18,7 @@ from linear_theory.friction.laws import Coulomb, Tanh, Viscous
 from linear_theory.friction.load import Load
 from linear_theory.friction.maps import GivenMap, Mapped, Patches
 from linear_theory.friction.wrapped import OnLowerFace
+from linear_theory.gradient import CostGradient, SpeedGradient, cost_gradient, speed_gradient
 from linear_theory.growth.bilayer import bilayer
 from linear_theory.growth.growth import Growth
 from linear_theory.growth.laws import Exp, GrowthLaw, Linear, Metric
@@ -41,6 +42,7 @@ from linear_theory.speed.path import rigid_path
 from linear_theory.speed.result import CrawlSpeed, Estimate
 from linear_theory.speed.second_order import SecondOrder, second_order
 from linear_theory.speed.si import Scale, speed_si
+from linear_theory.wave.fractional import FractionalWave
 from linear_theory.wave.given import FieldWave
 from linear_theory.wave.measured import SampledWave
 from linear_theory.wave.pulse import pulse_wave
@@ -53,12 +55,14 @@ __all__ = [
     "AirySeries",
     "BeyondReachWarning",
     "Contact",
+    "CostGradient",
     "Coulomb",
     "CrawlSpeed",
     "Directional",
     "Estimate",
     "Exp",
     "FieldWave",
+    "FractionalWave",
     "FrictionLaw",
     "GivenMap",
     "Growth",
@@ -79,6 +83,7 @@ __all__ = [
     "Sheet",
     "SheetcrawlError",
     "SineWave",
+    "SpeedGradient",
     "Tanh",
     "Tolerance",
     "TravellingWave",
@@ -86,6 +91,7 @@ __all__ = [
     "ViscousRegimeWarning",
     "airy_series",
     "bilayer",
+    "cost_gradient",
     "crawl_speed",
     "field_speed",
     "friction_field",
@@ -102,5 +108,6 @@ __all__ = [
     "rigid_path",
     "ritz_field",
     "second_order",
+    "speed_gradient",
     "speed_si",
 ]

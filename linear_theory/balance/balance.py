@@ -328,19 +328,25 @@ class Balance:
         values = self._values[:, times]
         channels, count, cells, n, _ = values.shape
         owners = np.repeat(np.arange(count), cells)
-        sample = np.array([0, n // 2, n - 1])
+        flat = values.reshape(channels, count * cells, n, n)
+        cells_now = self._refined(flat, owners, motion, halvings)
+        sums = cells_now.integrals(integrand(cells_now.values, cells_now.owners))
+        unknowns = len(self._modes)
+        return sums[:unknowns].T, sums[unknowns:].T.reshape(count, unknowns, unknowns)
+
+    def _refined(self, values: Array, owners: Integers, motion: Velocities, halvings: int) -> Graded:
+        """Cells (channels, cells, n, n) halved towards points at rest and cut along creases."""
+        order = values.shape[-1]
+        sample = np.array([0, order // 2, order - 1])
 
         def roughness(values: Array, owners: Integers) -> tuple[NDArray[np.bool_], Integers]:
             velocities = motion(values[:, :, sample[:, None], sample], owners)
             return self._roughness(np.stack(velocities))
 
-        flat = values.reshape(channels, count * cells, n, n)
-        cells_now = graded(flat, owners, roughness, halvings)
+        cells_now = graded(values, owners, roughness, halvings)
         for crease in self._creases(motion):
             cells_now = cut(cells_now, crease, _AREA, min(halvings // 4, _MOST_ASIDE))
-        sums = cells_now.integrals(integrand(cells_now.values, cells_now.owners))
-        unknowns = len(self._modes)
-        return sums[:unknowns].T, sums[unknowns:].T.reshape(count, unknowns, unknowns)
+        return cells_now
 
     def _creases(self, motion: Velocities) -> list[Callable[[Array, Integers], Array]]:
         """Functions that vanish where the tangent of the law jumps, for each of the velocities."""

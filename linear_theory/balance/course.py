@@ -110,6 +110,8 @@ class Course:
     def on(self, grid: TimeGrid) -> "Course":
         """The motion on a grid with more times."""
         added = ~np.isin(grid.times, self.grid.times)
+        if not added.any():
+            return self
         more = self.crawl.balance(grid.times[added], Known(self.grid.times, self.motion))
         return replace(self, grid=grid, motion=self.motion.joined(more, added))
 

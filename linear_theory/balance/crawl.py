@@ -2,8 +2,9 @@
 
 import math
 from dataclasses import dataclass, replace
+from dataclasses import field as dataclass_field
 from functools import cached_property
-from typing import NamedTuple
+from typing import NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,6 +20,7 @@ from linear_theory.motion.rigid import RigidNorm
 from linear_theory.wave.protocol import Drive
 
 Array = NDArray[np.float64]
+Kind = TypeVar("Kind", bound=Balance)
 
 MOST_TIMES = 4096
 MOST_WORK = 8_000_000
@@ -98,12 +100,16 @@ def joint_resolution(rtol: float, smooth: bool = False) -> Resolution:
 
 @dataclass(frozen=True)
 class Crawl:
-    """A crawling sheet (field, growth coupling, contact) and the resolution of its balance."""
+    """A crawling sheet (field, growth coupling, contact) and the resolution of its balance.
+
+    waves: along the sheet, that the cells resolve even if its own wave has longer ones only.
+    """
 
     field: LinearField
     alpha: float
     contact: Contact
     resolution: Resolution
+    waves: int = dataclass_field(default=0, kw_only=True)
 
     @classmethod
     def to(cls, rtol: float, field: LinearField, alpha: float, contact: Contact) -> "Crawl":
@@ -162,7 +168,12 @@ class Crawl:
     @cached_property
     def work(self) -> int:
         """Work per time: points of the balance plus unknowns of the deformation solved for."""
-        return int(self._motion(np.zeros(1)).area.size) + self.field.numbers
+        return self.points + self.field.numbers
+
+    @cached_property
+    def points(self) -> int:
+        """Points of the balance."""
+        return int(self._motion(np.zeros(1)).area.size)
 
     def affords(self, times: Array) -> bool:
         """Whether the balance at these times is within the work limit."""
@@ -239,19 +250,28 @@ class Crawl:
             return steepest
         return steepest * float(law.map.values(*self._motion(np.zeros(1)).position, 0.0).max())
 
-    def _motion(self, times: Array) -> Motion:
-        field, r = self.field, self.resolution
+    @property
+    def grid(self) -> CellGrid:
+        """Cells of the balance."""
         across, along = self.drive.short_waves
-        grid = CellGrid.graded(field.sheet, along, r.density, self.mirrored, across)
-        if self.contact.friction.map is not None:
-            grid = grid.cut_at(*self.contact.friction.map.creases)
-        return field.motion(times, grid, r.order)
+        along = max(along, self.waves)
+        density = self.resolution.density
+        grid = CellGrid.graded(self.field.sheet, along, density, self.mirrored, across)
+        friction = self.contact.friction.map
+        return grid if friction is None else grid.cut_at(*friction.creases)
+
+    def _motion(self, times: Array) -> Motion:
+        return self.field.motion(times, self.grid, self.resolution.order)
 
     def _rate(self, times: Array, motion: Motion) -> Array:
         """e of the load 1 + alpha e, (times, cells, n, n)."""
         return self.contact.load.rate(motion.dilation, motion.growth)
 
     def _balance(self, times: Array) -> Balance:
+        return self.balance_of(Balance, times)
+
+    def balance_of(self, kind: type[Kind], times: Array) -> Kind:
+        """The balance at given times, as an object of that class."""
         motion, r = self._motion(times), self.resolution
         rate = self._rate(times, motion)
         check_load(motion, rate, self.alpha)
@@ -260,4 +280,4 @@ class Crawl:
             share = law.map.values(*motion.position, np.reshape(times, (-1, 1, 1, 1)))
             motion = replace(motion, area=motion.area * share)
         resolution = r.halvings, r.tolerance
-        return Balance(motion, rate, self.alpha, law, *resolution, rest=rest, joint=self.joint)
+        return kind(motion, rate, self.alpha, law, *resolution, rest=rest, joint=self.joint)

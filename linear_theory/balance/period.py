@@ -73,8 +73,39 @@ class Period(NamedTuple):
         return float(self.means[0, 1])
 
 
-def average(crawl: Crawl, tolerance: Tolerance) -> Period:
-    """Rigid motion over a period, with as many times and as fine cells as the tolerance requires.
+class Resolved(NamedTuple):
+    """The motion over a period, resolved in time, with the errors of its cells."""
+
+    course: Course
+    cells: CellErrors
+
+    def period(self) -> Period:
+        """The means of the motion and their errors."""
+        course, cells = self.course, self.cells
+        crawl, grid, motion = course.crawl, course.grid, course.motion
+        means, errors = course.means()
+        powers, power_errors = course.works()
+        field_error = crawl.norm.each(crawl.field_error(motion))
+        times, orders = _whole_period(
+            crawl, grid.times, np.stack([motion.leading.T, motion.remainder.T])
+        )
+        rates = _whole_period(crawl, grid.times, motion.works[:, :2].T)[1]
+        return Period(
+            times=times,
+            orders=orders,
+            rigid=crawl.alpha * (orders[0] + crawl.alpha * orders[1]),
+            rigid_mean=course.mean,
+            rigid_error=course.error() + cells.counted + field_error + 1e-13 * abs(course.mean),
+            means=means,
+            mean_errors=errors + cells.orders,
+            fastest=abs(crawl.alpha) * motion.fastest,
+            sticks=bool(motion.rest.max() > _STICKING),
+            works=Works(rates, powers, power_errors + cells.works + crawl.work_errors(motion)),
+        )
+
+
+def resolved(crawl: Crawl, tolerance: Tolerance) -> Resolved:
+    """The motion over a period, with as many times and as fine cells as the tolerance requires.
 
     Refinement stops at the work limit; the error then stays above the tolerance. Raises ValueError for
     a wave that does not repeat after its period, or whose rate is not its derivative.
@@ -82,25 +113,12 @@ def average(crawl: Crawl, tolerance: Tolerance) -> Period:
     crawl.drive.check()
     grid = _first_grid(crawl)
     crawl, motion, cells = _with_fine_cells(crawl, grid.times, tolerance)
-    course = _with_enough_times(Course(crawl, grid, motion), tolerance)
-    grid, motion = course.grid, course.motion
-    means, errors = course.means()
-    powers, power_errors = course.works()
-    field_error = crawl.norm.each(crawl.field_error(motion))
-    times, orders = _whole_period(crawl, grid.times, np.stack([motion.leading.T, motion.remainder.T]))
-    rates = _whole_period(crawl, grid.times, motion.works[:, :2].T)[1]
-    return Period(
-        times=times,
-        orders=orders,
-        rigid=crawl.alpha * (orders[0] + crawl.alpha * orders[1]),
-        rigid_mean=course.mean,
-        rigid_error=course.error() + cells.counted + field_error + 1e-13 * abs(course.mean),
-        means=means,
-        mean_errors=errors + cells.orders,
-        fastest=abs(crawl.alpha) * motion.fastest,
-        sticks=bool(motion.rest.max() > _STICKING),
-        works=Works(rates, powers, power_errors + cells.works + crawl.work_errors(motion)),
-    )
+    return Resolved(_with_enough_times(Course(crawl, grid, motion), tolerance), cells)
+
+
+def average(crawl: Crawl, tolerance: Tolerance) -> Period:
+    """Rigid motion over a period and its means, see `resolved`."""
+    return resolved(crawl, tolerance).period()
 
 
 def _with_enough_times(course: Course, tolerance: Tolerance) -> Course:

@@ -164,10 +164,18 @@ class LinearField(Shown, ABC):
             area=area,
             velocity=np.moveaxis(np.tensordot(field._amplitude_rates(t).T, displacements, 1), 1, 0),
             dilation=np.tensordot(field._amplitudes(t).T, dilations, 1),
-            growth=self.drive.value(position[0], position[1], growth_time),
+            growth=self._growth_at(position, growth_time),
             mirrored=self.mirrored and grid.half,
             centre=self.centre,
         )
+
+    def _growth_at(self, position: Array, times: Array) -> Array:
+        """c at the points of cells, (2, cells, n, n), of which one x each will do for waves along y."""
+        if self.drive.depends_on_x:
+            return self.drive.value(position[0], position[1], times)
+        x, y = position[:, :, :1]
+        some = self.drive.value(x, y, times)
+        return np.broadcast_to(some, (*some.shape[:2], *position.shape[2:]))
 
     def _on_cells(self, grid: CellGrid, order: int) -> tuple[Array, Array, Array, Array]:
         """Points, areas, displacements and dilations of the basis; cached for batches of times."""

@@ -23,13 +23,14 @@ from linear_theory.friction.wrapped import OnLowerFace
 from linear_theory.growth.growth import Growth
 from linear_theory.growth.laws import GROWTH_LAWS
 from linear_theory.sheet.rectangle import Sheet
+from linear_theory.wave.fractional import FractionalWave
 from linear_theory.wave.measured import SampledWave
 from linear_theory.wave.travelling import SineWave, TravellingWave
 
 KINDS: dict[str, type] = {
     kind.__name__: kind
     for kind in (
-        *(Sheet, SineWave, TravellingWave, SampledWave, Growth, Contact),
+        *(Sheet, SineWave, TravellingWave, FractionalWave, SampledWave, Growth, Contact),
         *(type(law) for law in GROWTH_LAWS.values()),
         *FRICTION_LAWS.values(),
         *(Directional, Mapped, OnLowerFace, Patches),

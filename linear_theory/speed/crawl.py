@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linear_theory.balance.crawl import Crawl
-from linear_theory.balance.period import average
+from linear_theory.balance.period import Resolved, resolved
 from linear_theory.common import validation
 from linear_theory.common.estimate import Estimate
 from linear_theory.common.progress import Report, watched
@@ -127,7 +127,11 @@ def theory_speed(
     validation.choice("method", method, METHODS if order == 1 else ("auto", "ritz"))
     method = method if order == 1 else "ritz"
     solve = partial(second_order_speed, scene) if order == 2 else partial(_first, scene, method)
-    found = with_wave_error(scene, tolerance, solve)
+    return completed(with_wave_error(scene, tolerance, solve), scene, order, method)
+
+
+def completed(found: CrawlSpeed, scene: Scene, order: int, method: str) -> CrawlSpeed:
+    """The speed of a scene with its distance to the nonlinear sheet and the shape to draw."""
     # Computed again for drawing, so that a speed does not keep a solution and its tables in memory.
     deformation = drawn_deformation(scene, method)
     distance = model_error(LEVELS[order], scene) if scene.planar else plate_error(scene)
@@ -198,30 +202,39 @@ def _field_speed(
     """`field_speed`, without its warnings."""
     start, law = time.perf_counter(), contact.friction
     tolerance = tolerance.of_speed(alpha, field.sheet.length / field.drive.period)
-    model = model_words(f"small strain ({type(field).__name__})", None, contact)
-    deformation = LinearDeformation(lambda: field, alpha, contact)
     if alpha == 0:
-        still = CrawlSpeed.steady(0.0, model, law.slip_ratio(0.0), field.seconds)
+        still = CrawlSpeed.steady(0.0, _words(field, contact), law.slip_ratio(0.0), field.seconds)
+        deformation = LinearDeformation(lambda: field, alpha, contact)
         return replace(still, deformation=deformation, energy=Energy.at_rest(law))
-    crawl = Crawl.to(tolerance.rtol, field, alpha, contact)
-    period = average(crawl, tolerance)
+    found = speed_of(resolved(Crawl.to(tolerance.rtol, field, alpha, contact), tolerance), tolerance)
+    return replace(found, seconds=field.seconds + time.perf_counter() - start)
+
+
+def speed_of(found: Resolved, tolerance: Tolerance) -> CrawlSpeed:
+    """The speed from a motion over a period; its seconds are those of the deformation."""
+    crawl, period = found.course.crawl, found.period()
+    field, alpha, law = crawl.field, crawl.alpha, crawl.contact.friction
     turning = RigidSpeed(period.rigid, period.rigid_mean, period.rigid_error)
-    found = CrawlSpeed(
+    speed = CrawlSpeed(
         estimate=Estimate(period.mean, period.error),
         model_error=math.nan,
         converged=crawl.norm.meets(turning.mean, turning.error, tolerance),
         times=period.times,
         velocity=period.rigid[1],
-        seconds=field.seconds + time.perf_counter() - start,
-        model=model,
+        seconds=field.seconds,
+        model=_words(field, crawl.contact),
         slip_ratio=law.slip_ratio(period.fastest),
         first_order=period.first_order,
         sticks=period.sticks,
         turning=None if crawl.mirrored else turning,
         energy=Energy(*period.works.at(alpha), law, _mean_map(field, law)),
-        deformation=deformation,
+        deformation=LinearDeformation(lambda: field, alpha, crawl.contact),
     )
-    return judged(found, beyond_reach(field, alpha))
+    return judged(speed, beyond_reach(field, alpha))
+
+
+def _words(field: LinearField, contact: Contact) -> str:
+    return model_words(f"small strain ({type(field).__name__})", None, contact)
 
 
 def _mean_map(field: LinearField, law: FrictionLaw) -> Estimate:

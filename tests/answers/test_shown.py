@@ -167,6 +167,11 @@ def fed_back():
     return equation.on(SHEET, 40.0, 0.1)
 
 
+def scene_of_gradient():
+    """Dry friction of a sine."""
+    return linear_theory.Scene(SHEET, SINE, alpha=0.25)
+
+
 MADE = {
     "AiryAmplitudes": lambda: field("AirySeries").amplitudes([0.1, 0.3]),
     "AirySeries": lambda: field("AirySeries"),
@@ -177,6 +182,7 @@ MADE = {
     )[0],
     "BodyFrame": lambda: BodyFrame.of(shapes()),
     "Contact": linear_theory.Contact,
+    "CostGradient": lambda: linear_theory.cost_gradient(scene_of_gradient(), "alpha", rtol=1e-2),
     "Coulomb": linear_theory.Coulomb,
     "Couplings": lambda: fem_check.bilayer(0.2, 0.03),
     "CrawlSpeed": lambda: linear_theory.crawl_speed(SHEET, SINE, alpha=0.25, rtol=1e-2),
@@ -205,8 +211,14 @@ MADE = {
     "FieldDrive": lambda: linear_theory.FieldWave(lopsided, period=1.0).on(SHEET),
     "FeedbackDrive": lambda: fed_back().on(SHEET),
     "FollowedDrive": lambda: fed_back().on(SHEET).followed(),
+    "SpeedGradient": lambda: linear_theory.speed_gradient(scene_of_gradient(), "alpha", rtol=1e-2),
+    "SpeedGradient of many": lambda: linear_theory.speed_gradient(
+        scene_of_gradient(), [f"wave.sine.{k}" for k in range(9)], rtol=1e-2
+    ),
     "StrainFeedback": lambda: fem_check.StrainFeedback(0.1),
     "FitzHughNagumo": lambda: fem_check.excitable_preset("pulse train"),
+    "FractionalDrive": lambda: linear_theory.FractionalWave(SINE, 1.5).on(SHEET),
+    "FractionalWave": lambda: linear_theory.FractionalWave(SINE, 1.5),
     "FitUncertainty": lambda: measured().uncertainty,
     "Flat": Flat,
     "Friction": lambda: fem_check.Friction(0.7, 0.01),

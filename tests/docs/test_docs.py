@@ -28,6 +28,7 @@ CONSTANTS = {"LAPLACE_LIMIT", "__version__"}
 RESULTS = {  # what the user does not make, and the function that makes it in the example
     "AirySeries": "airy_series",
     "BeyondReachWarning": "crawl_speed",
+    "CostGradient": "cost_gradient",
     "CrawlSpeed": "crawl_speed",
     "Estimate": "crawl_speed",
     "NotConvergedError": "ritz_field",
@@ -35,6 +36,7 @@ RESULTS = {  # what the user does not make, and the function that makes it in th
     "Prediction": "predict",
     "RitzField": "ritz_field",
     "SecondOrder": "second_order",
+    "SpeedGradient": "speed_gradient",
     "SheetcrawlError": "NotConvergedError",
     "Trajectory": "simulate",
     "ViscousRegimeWarning": "line_balance",

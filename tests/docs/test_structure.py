@@ -20,7 +20,7 @@ ROOT = Path(__file__).parents[2]
 LAYERS = (
     *(f"linear_theory.{part}" for part in ("common", "identity", "sheet", "wave", "growth")),
     *(f"linear_theory.{part}" for part in ("friction", "motion", "deformation", "energy", "scene")),
-    *(f"linear_theory.{part}" for part in ("balance", "speed", "line", "optimisation")),
+    *(f"linear_theory.{part}" for part in ("balance", "speed", "gradient", "line", "optimisation")),
     "linear_theory",
     *(f"fem_check.{part}" for part in ("version", "scene", "mesh", "plane_stress", "excitable")),
     *(f"fem_check.shell.{part}" for part in ("material", "kinematics", "effects", "statics")),

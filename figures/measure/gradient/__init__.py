@@ -1,0 +1,1 @@
+"""The gradient of the speed against central differences, and what it costs."""

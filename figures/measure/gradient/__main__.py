@@ -1,0 +1,6 @@
+"""The command: python -m figures.measure.gradient."""
+
+from figures.measure.gradient.scenes import main
+
+if __name__ == "__main__":
+    main()

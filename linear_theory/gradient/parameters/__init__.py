@@ -1,0 +1,1 @@
+"""The parameters of a scene with respect to which there are derivatives."""

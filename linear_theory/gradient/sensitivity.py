@@ -1,0 +1,300 @@
+"""The derivatives of the rigid motion at given times, by the wave at every point and by the scene.
+
+    dJ(t) = sum over x, y of value(x, y, t) dc + rate(x, y, t) dc/dt + ...,
+
+at Gauss points x, y of the sheet, with their weights: the adjoint of the friction balance (`adjoint`)
+gives weights of velocity and load, that of the elastic problem (`elastic`) the growth that makes them.
+"""
+
+import math
+from collections.abc import Sequence
+from functools import lru_cache
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linear_theory.balance.crawl import BATCH, Crawl
+from linear_theory.common.progress import track
+from linear_theory.common.quadrature import gauss_legendre
+from linear_theory.deformation.ritz import RitzField, legendre
+from linear_theory.friction.load import Load
+from linear_theory.friction.maps import FrictionMap
+from linear_theory.gradient import elastic
+from linear_theory.gradient.adjoint import AdjointBalance, LawChange, Weights
+from linear_theory.gradient.quantity import Quantity
+from linear_theory.motion.motion import CellGrid
+from linear_theory.sheet.rectangle import Sheet
+
+Array = NDArray[np.float64]
+
+
+class MapChange(NamedTuple):
+    """The derivative of a map of friction by one of its numbers, by a central difference.
+
+    mirrored: whether to take the part alone that is mirror symmetric in x.
+    """
+
+    ahead: FrictionMap
+    behind: FrictionMap
+    apart: float
+    mirrored: bool = False
+
+    def share(self, own: FrictionMap, x: Array, y: Array, times: Array) -> Array:
+        """What the map changes by over its value, per unit of the number, (times, *x.shape) or less."""
+        t = times.reshape(-1, *(1,) * np.ndim(x))
+        ahead, behind, here = (one.values(x, y, t) for one in (self.ahead, self.behind, own))
+        found = (ahead - behind) / (self.apart * here)
+        if self.mirrored:
+            found = (found + self._replace(mirrored=False).share(own, -x, y, times)) / 2
+        return np.asarray(found)
+
+
+class Wanted(NamedTuple):
+    """Which derivatives are asked for.
+
+    sheet: by its width and Poisson ratio; across: by growth that depends on x; waves: along the sheet,
+    of the shortest harmonic; laws, maps: by those of their numbers.
+    """
+
+    quantities: Sequence[Quantity]
+    sheet: bool = False
+    across: bool = False
+    waves: float = 0.0
+    laws: Sequence[LawChange] = ()
+    maps: Sequence[MapChange] = ()
+
+
+class Sensitivity(NamedTuple):
+    """Derivatives of quantities (k,) at times (T,).
+
+    x (X,), y (Y,): Gauss points, units of length; value, rate (k, T, X, Y): by c and dc/dt there, with
+    the weights of the quadrature; X = 1 for growth that does not depend on x. alpha, slip, width: by
+    alpha in the load, by the logarithms of all velocities in the law and of the width; poisson;
+    laws, maps (n, k, T): by their numbers; the others (k, T). flat (T,): see `adjoint.Weights`.
+    """
+
+    x: Array
+    y: Array
+    value: Array
+    rate: Array
+    alpha: Array
+    slip: Array
+    width: Array
+    poisson: Array
+    laws: Array
+    maps: Array
+    flat: NDArray[np.bool_]
+
+
+class Linearised(NamedTuple):
+    """Motions about which to take derivatives.
+
+    q: (times, 3), per unit alpha; alpha: that of their load 1 + alpha e; near: whether they are only
+    near the balance, so that a Newton step is due.
+    """
+
+    q: Array
+    alpha: float
+    near: bool = False
+
+
+def sensitivities(
+    crawl: Crawl, times: Array, motions: Sequence[Linearised], wanted: Wanted
+) -> list[Sensitivity]:
+    """Derivatives at each of the motions, at times (T,)."""
+    size = max(BATCH // crawl.points, 1)
+    batches = [slice(i, i + size) for i in range(0, times.size, size)]
+    parts = [
+        _batch(crawl, times[some], _some(motions, some), wanted)
+        for some in track("adjoint of the friction balance", batches)
+    ]
+    found = [_joined(part) for part in zip(*parts, strict=True)]
+    return [
+        _sensitivity(crawl, times, one, motion.alpha, wanted)
+        for one, motion in zip(found, motions, strict=True)
+    ]
+
+
+def _some(motions: Sequence[Linearised], some: slice) -> list[Linearised]:
+    return [motion._replace(q=motion.q[some]) for motion in motions]
+
+
+class _Parts(NamedTuple):
+    """Of one motion, with times (T,) on the last axis but of moments, where they are on the second.
+
+    velocity (k, T, 2, i, j), load (k, T, i, j): moments of weights against p_i p_j; maps (n, k, T).
+    """
+
+    velocity: Array
+    load: Array
+    alpha: Array
+    slip: Array
+    arms: Array
+    laws: Array
+    maps: Array
+    flat: NDArray[np.bool_]
+
+
+def _batch(crawl: Crawl, times: Array, motions: Sequence[Linearised], wanted: Wanted) -> list[_Parts]:
+    """Of every motion, at a few times."""
+    balance = crawl.balance_of(AdjointBalance, times)
+    field = crawl.field
+    assert isinstance(field, RitzField)
+    across, along = field.degree
+    counts = _points(field) if crawl.contact.load is Load.GROWN else (across + 1, along + 1)
+    found = []
+    for q, alpha, near in motions:
+        q = balance.polished(q, alpha) if near else q
+        at = balance.weights(q, alpha, wanted.quantities, wanted.laws, bool(wanted.maps))
+        velocity = _moments(crawl, at.velocity, (across + 1, along + 1)).swapaxes(1, 2)
+        load = _moments(crawl, at.load, counts)
+        maps = _by_maps(crawl, times, at, wanted.maps)
+        found.append(_Parts(velocity, load, at.alpha, at.slip, at.arms, at.laws, maps, at.flat))
+    return found
+
+
+def _joined(parts: Sequence[_Parts]) -> _Parts:
+    """Of all times."""
+    if len(parts) == 1:
+        return parts[0]
+    axes = {"velocity": 1, "load": 1}
+    return _Parts(
+        *(
+            np.concatenate([getattr(part, name) for part in parts], axes.get(name, -1))
+            for name in _Parts._fields
+        )
+    )
+
+
+def _by_maps(crawl: Crawl, times: Array, found: Weights, maps: Sequence[MapChange]) -> Array:
+    own, area = crawl.contact.friction.map, found.area
+    if area is None:
+        return np.zeros((0, *found.alpha.shape))
+    x, y = crawl.field._on_cells(crawl.grid, crawl.resolution.order)[0]
+    return np.stack([(area * one.share(own, x, y, times)).sum((-3, -2, -1)) for one in maps])
+
+
+def _sensitivity(
+    crawl: Crawl, times: Array, parts: _Parts, alpha: float, wanted: Wanted
+) -> Sensitivity:
+    elastic_part = _Elastic.of(crawl, parts)
+    x, y, (value, rate) = elastic_part.at_points(wanted.across, wanted.waves)
+    none = np.zeros_like(parts.alpha)
+    width, poisson = elastic_part.by_sheet(times) if wanted.sheet else (none, none)
+    return Sensitivity(
+        x=x,
+        y=y,
+        value=value,
+        rate=rate,
+        alpha=parts.alpha if alpha else none,
+        slip=parts.slip,
+        width=width + parts.arms,
+        poisson=poisson,
+        laws=parts.laws,
+        maps=parts.maps,
+        flat=parts.flat,
+    )
+
+
+class _Elastic(NamedTuple):
+    """The adjoint of the elastic problem for weights at T times, cases (k T,).
+
+    moving, growing: z of the weights of velocity and of load, the latter None for a load that does not
+    depend on the strain; load: moments of the weights of load, (k T, i, j); shape: (k, T).
+    """
+
+    crawl: Crawl
+    field: RitzField
+    moving: Array
+    growing: Array | None
+    load: Array
+    shape: tuple[int, ...]
+
+    @classmethod
+    def of(cls, crawl: Crawl, parts: _Parts) -> "_Elastic":
+        """For moments of weights."""
+        field, mirrored = crawl.field, crawl.mirrored
+        assert isinstance(field, RitzField)
+        velocity = parts.velocity.reshape(-1, *parts.velocity.shape[2:])
+        load = parts.load.reshape(-1, *parts.load.shape[2:])
+        moving = elastic.adjoint(field.solver, elastic.displacement_load(velocity), mirrored)
+        growing = None
+        if crawl.contact.load is Load.CURRENT and load.any():
+            dilation = elastic.dilation_load(load, field.sheet)
+            growing = elastic.adjoint(field.solver, dilation, mirrored)
+        return cls(crawl, field, moving, growing, load, parts.alpha.shape)
+
+    def at_points(self, across: bool, waves: float) -> tuple[Array, Array, list[Array]]:
+        """Gauss points, and derivatives by c and dc/dt there, with the weights of the quadrature.
+
+        across, waves: see `Wanted`.
+        """
+        sheet = self.field.sheet
+        rate = elastic.density(sheet, self.moving)
+        if self.growing is not None:
+            value = elastic.density(sheet, self.growing)
+        else:
+            grown = self.crawl.contact.load is Load.GROWN
+            value = 2 * self.load if grown else np.zeros_like(rate)
+        if self.crawl.mirrored:
+            value[:, 1::2] = 0.0  # of the integrals over half a sheet
+        (x, weights_x), (y, weights_y) = (gauss_legendre(n) for n in _points(self.field, waves))
+        if not across:
+            x, weights_x = np.zeros(1), np.full(1, 2.0)
+            value, rate = value[:, :1], rate[:, :1]
+        found = []
+        for one in (value, rate):
+            by_x = weights_x[:, None] * legendre.orthonormal(one.shape[1], x)
+            by_y = weights_y[:, None] * legendre.orthonormal(one.shape[2], y)
+            found.append((by_x @ one @ by_y.T).reshape(*self.shape, x.size, y.size))
+        return x * sheet.width / 2, y * sheet.length / 2, found
+
+    def by_sheet(self, times: Array) -> tuple[Array, Array]:
+        """Derivatives by the logarithm of the width and by Poisson's ratio, (k, T) each."""
+        sheet = self.field.sheet
+        field = self.field._for_times(times)
+        width, poisson = np.zeros((2, *self.shape))
+        factors = field._amplitudes(times), field._amplitude_rates(times)
+        for z, factor in zip((self.growing, self.moving), factors, strict=True):
+            if z is None:
+                continue
+            c, u = (np.tensordot(factor.T, one, 1) for one in (field._growth, field._solution))
+            for i, own in enumerate(z.reshape(*self.shape, *z.shape[1:])):
+                width[i] += elastic.by_width(sheet, c, u, own)
+                poisson[i] += elastic.by_poisson(sheet, c, u, own)
+                if z is self.growing:
+                    load = self.load.reshape(*self.shape, *self.load.shape[1:])[i]
+                    width[i] += elastic.dilation_by_width(sheet, load, u)
+        return width, poisson
+
+
+def _points(field: RitzField, waves: float = 0.0) -> tuple[int, int]:
+    """Gauss points across and along for a change of growth, exact for degrees 3/2 of the field's.
+
+    waves: along, of a change that may be shorter than the field resolves: a wave needs pi degrees, and
+    some more, against polynomials of the field's degree.
+    """
+    across, along = field.degree
+    least = math.ceil((along + 1.2 * math.pi * waves) / 2) + 12
+    return across + across // 4 + 12, max(along + along // 4 + 12, least)
+
+
+def _moments(crawl: Crawl, weights: Array, counts: tuple[int, int]) -> Array:
+    """Sums of weights (..., cells, n, n) times p_i p_j at their points, (..., *counts)."""
+    grid, n = crawl.grid, crawl.resolution.order
+    across, along = _tables(crawl.field.sheet, grid, n, counts)
+    columns, rows = len(grid.x_edges) - 1, len(grid.y_edges) - 1
+    table = weights.reshape(*weights.shape[:-3], columns, rows, n, n).swapaxes(-3, -2)
+    table = table.reshape(*weights.shape[:-3], columns * n, rows * n)
+    return np.asarray(across.T @ table @ along)
+
+
+@lru_cache(maxsize=8)
+def _tables(sheet: Sheet, grid: CellGrid, order: int, counts: tuple[int, int]) -> tuple[Array, Array]:
+    """p_i(2 x/W) and p_j(2 y/L) at the points of all cells, (points, degrees)."""
+    rows = len(grid.y_edges) - 1
+    x, y, _ = grid.points(order)
+    places = x[::rows].ravel() * 2 / sheet.width, y[:rows].ravel() * 2 / sheet.length
+    across, along = (legendre.orthonormal(c, p) for c, p in zip(counts, places, strict=True))
+    return across, along
