@@ -63,9 +63,9 @@ class Kept:
             self._lock.__exit__(None, None, None)
 
     def _begin(self, path: Path) -> None:
-        text = path.read_text(encoding="utf-8") if path.exists() else ""
+        text = path.read_bytes().decode("utf-8", "replace") if path.exists() else ""
         whole = text[: text.rfind("\n") + 1]
-        lines = [self._parsed(line) for line in whole.splitlines()]
+        lines = [self._parsed(k, line) for k, line in enumerate(whole.splitlines())]
         if lines and lines[0] != {"question": self._question}:
             raise KeptError(
                 f"{path}: holds answers to another question; give another file, or remove it"
@@ -78,13 +78,17 @@ class Kept:
         if not whole:
             self._write({"question": self._question})
 
-    def _parsed(self, line: str) -> dict[str, Any]:
+    def _parsed(self, number: int, line: str) -> dict[str, Any]:
+        """A line, the question first; raises KeptError for one that this class did not write."""
         try:
             found = json.loads(line)
         except json.JSONDecodeError:
             found = None
-        if not isinstance(found, dict) or not ({"question", "key"} & found.keys()):
-            raise KeptError(f"{self.path}: is no file of answers of an optimisation")
+        if not isinstance(found, dict) or not (_is_answer(found) if number else "question" in found):
+            raise KeptError(
+                f"{self.path}, line {number + 1}: is no answer of an optimisation; remove the line, or "
+                "the file to begin anew"
+            )
         return found
 
     @property
@@ -129,3 +133,19 @@ class Kept:
         if self._file is not None:
             self._file.write(json.dumps(line) + "\n")
             self._file.flush()
+
+
+def _is_answer(line: Mapping[str, Any]) -> bool:
+    """Whether it has a key and a value with its error, maybe a gradient, or why there is none."""
+    if not isinstance(line.get("key"), str):
+        return False
+    if "unusable" in line:
+        return isinstance(line["unusable"], str)
+    lists = [line.get(name, []) for name in ("gradient", "doubt")]
+    numbers = [line.get("value"), line.get("error"), *(x for found in lists for x in _entries(found))]
+    whole = isinstance(line.get("kink", ""), str) and ("gradient" in line) == ("doubt" in line)
+    return whole and all(isinstance(x, int | float) for x in numbers)
+
+
+def _entries(found: Any) -> Any:
+    return found if isinstance(found, list) else [None]

@@ -193,5 +193,36 @@ def test_a_search_that_is_stopped_goes_on(tmp_path):
     with pytest.raises(KeptError, match="holds answers to another question"):
         optimise(scene, {"growth.alpha": (0.05, 0.3)}, **asked, file=file)
     file.write_text(json.dumps([1]) + "\n")
-    with pytest.raises(KeptError, match="is no file of answers"):
+    with pytest.raises(KeptError, match=r"a\.jsonl, line 1: is no answer of an optimisation"):
         optimise(scene, over, **asked, file=file)
+
+
+GOOD = {"key": "a", "value": 0.1, "error": 0.01, "gradient": [1.0], "doubt": [0.0], "kink": ""}
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        json.dumps({"question": 1}).encode(),
+        b'{"key": "a"}',
+        json.dumps({**GOOD, "value": "abc"}).encode(),
+        json.dumps({**GOOD, "value": None}).encode(),
+        json.dumps({**GOOD, "gradient": "x"}).encode(),
+        json.dumps({**GOOD, "key": 3}).encode(),
+        json.dumps({"key": "a", "unusable": 1}).encode(),
+        b"\xff\xfe",
+        b"",
+    ],
+)
+def test_a_damaged_answer_is_named_by_its_line(tmp_path, line):
+    path = tmp_path / "a.jsonl"
+    first = json.dumps({"question": {"of": 1}}).encode()
+    path.write_bytes(b"\n".join([first, json.dumps(GOOD).encode(), line, b""]))
+    with (
+        pytest.raises(KeptError, match=r"a\.jsonl, line 3: is no answer of an optimisation; remove"),
+        Kept(path, {"of": 1}),
+    ):
+        pass
+    path.write_bytes(b"\n".join([first, json.dumps(GOOD).encode(), b""]))
+    with Kept(path, {"of": 1}) as kept:
+        assert kept.count == 1

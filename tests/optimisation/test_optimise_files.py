@@ -56,6 +56,13 @@ def test_a_file_is_answered_kept_and_written(place, capsys):
     assert read("optimise.toml").unknowns.names[0] == "growth.alpha"
 
 
+def test_the_best_scene_is_not_written_over_the_question(place, capsys):
+    status, _, err = run(capsys, "optimise", "one.toml", "--out", "./one.toml")
+    assert status == 2
+    assert "is the optimisation file itself" in err
+    assert (place / "one.toml").read_text() == FILE
+
+
 @pytest.mark.parametrize(
     ("old", "new", "words"),
     [

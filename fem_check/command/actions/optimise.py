@@ -29,6 +29,8 @@ def optimise(path: Path, kept: Path | None, out: Path | None) -> int:
 
     if out is not None:
         writable(out, (".toml",))
+        if out.resolve() == path.resolve():
+            raise ValueError(f"--out {out}: is the optimisation file itself; give another name")
     asked = read(path)
     options = [word for name, v in (("--kept", kept), ("--out", out)) if v for word in (name, str(v))]
     again = shlex.join(["sheetcrawl", "optimise", str(path), *options])
