@@ -16,6 +16,9 @@
       LostScheduler             a scheduler of workers that is gone
       WrongWorkers              workers that cannot answer
       Fault                     a friction law that contradicts itself             ValueError
+      KeptError                 answers with which an optimisation cannot go on    ValueError
+      NothingFound              an optimisation none of whose starts has an answer
+      Unusable                  a point at which an objective has no value         ValueError
       NotWrittenError           an answer whose files cannot be written            OSError
 
     ViscousRegimeWarning        dry friction that acts as viscous                   UserWarning
@@ -26,7 +29,8 @@ CrossingsUnknown in `fem_check.shell.kinematics.crossing`,
 NotPeriodicError and UnresolvedError in `fem_check.shell.cycle`, SnapshotError in
 `fem_check.shell.stepping.snapshot`, SceneFileError in `fem_check.files.mistakes`, NotRestorable in
 `linear_theory.scene.data`, Refused, RefusedScenes, StoreError, LostScheduler and WrongWorkers in
-`fem_check.sweeps`, NotWrittenError in `fem_check.runs.errors`, Fault in
+`fem_check.sweeps`, NotWrittenError in `fem_check.runs.errors`, KeptError and NothingFound in
+`fem_check.optimisation`, Unusable in `linear_theory.optimisation.problem`, Fault in
 `linear_theory.friction.trial`, all others here. Bad arguments are a plain ValueError.
 """
 

@@ -170,12 +170,16 @@ class LinearField(Shown, ABC):
         )
 
     def _growth_at(self, position: Array, times: Array) -> Array:
-        """c at the points of cells, (2, cells, n, n), of which one x each will do for waves along y."""
-        if self.drive.depends_on_x:
-            return self.drive.value(position[0], position[1], times)
-        x, y = position[:, :, :1]
-        some = self.drive.value(x, y, times)
-        return np.broadcast_to(some, (*some.shape[:2], *position.shape[2:]))
+        """c at points of cells, (times, cells, n, n).
+
+        Where y does not change across cells, as in those of `CellGrid`, and the wave runs along y, one
+        x of each will do.
+        """
+        x, y = position
+        if self.drive.depends_on_x or np.any(y != y[:, :1]):
+            return self.drive.value(x, y, times)
+        some = self.drive.value(x[:, :1], y[:, :1], times)
+        return np.broadcast_to(some, (*some.shape[:2], *y.shape[1:]))
 
     def _on_cells(self, grid: CellGrid, order: int) -> tuple[Array, Array, Array, Array]:
         """Points, areas, displacements and dilations of the basis; cached for batches of times."""

@@ -12,8 +12,7 @@ from numpy.typing import NDArray
 from linear_theory.balance.crawl import Crawl
 from linear_theory.gradient.direction import Direction, GrowthChange, Harmonic
 from linear_theory.gradient.sensitivity import Sensitivity
-from linear_theory.wave.fractional import FractionalWave
-from linear_theory.wave.travelling import TravellingWave
+from linear_theory.wave.fractional import count_of
 
 Array = NDArray[np.float64]
 
@@ -62,9 +61,8 @@ class _Waves:
         if not ks:
             return
         wave, self._reversal = crawl.drive.wave, crawl.reversal_time
-        assert isinstance(wave, TravellingWave | FractionalWave)
         self._frequency = 2 * np.pi / wave.period
-        angle = np.multiply.outer(2 * np.pi * wave.count / crawl.field.sheet.length * at.y, ks)
+        angle = np.multiply.outer(2 * np.pi * count_of(wave) / crawl.field.sheet.length * at.y, ks)
         turn = np.multiply.outer(self._frequency * times, ks)
         cosine, sine = np.cos(turn), np.sin(turn)
         # of cos(k phi), sin(k phi) = (even or odd in y) times (cosine or sine in t)

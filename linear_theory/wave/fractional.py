@@ -12,6 +12,7 @@ from linear_theory.common import validation
 from linear_theory.common.shown import Value
 from linear_theory.sheet.rectangle import Sheet
 from linear_theory.wave.places import Places
+from linear_theory.wave.protocol import Wave
 from linear_theory.wave.sampled import SampledDrive
 from linear_theory.wave.spectrum import Spectrum
 from linear_theory.wave.travelling import TravellingWave
@@ -97,3 +98,28 @@ class FractionalDrive(SampledDrive):
         """Spectrum of dc/dt in time: root mean squares of the harmonics, 1/time."""
         own = self.wave.profile
         return Spectrum(np.hypot(own.cosine, own.sine) / np.sqrt(2), 0.0).of_rates(self.period)
+
+
+def profile_of(wave: Wave) -> TravellingWave | None:
+    """The profile of a travelling wave, of which a whole or any number is on the sheet; None for other
+    waves.
+
+    >>> from linear_theory import FractionalWave, SineWave
+    >>> print(profile_of(FractionalWave(SineWave(), 1.5)) == SineWave() == profile_of(SineWave()))
+    True
+    """
+    if isinstance(wave, FractionalWave):
+        return wave.profile
+    return wave if isinstance(wave, TravellingWave) else None
+
+
+def count_of(wave: Wave) -> float:
+    """How many waves are on the sheet. Raises ValueError for a wave that does not travel."""
+    if not isinstance(wave, FractionalWave | TravellingWave):
+        raise ValueError(f"wave = {validation.shown(wave)}: must be a TravellingWave or FractionalWave")
+    return float(wave.count)
+
+
+def with_profile(wave: Wave, profile: TravellingWave) -> Wave:
+    """The travelling wave with another profile, as many on the sheet as before if it is fractional."""
+    return FractionalWave(profile, wave.count) if isinstance(wave, FractionalWave) else profile

@@ -12,7 +12,7 @@ from linear_theory.common import validation
 from linear_theory.gradient.direction import Direction, GrowthChange, Harmonic
 from linear_theory.gradient.parameters.parameter import Parameter, lacks
 from linear_theory.scene.scene import Scene
-from linear_theory.wave.fractional import FractionalWave
+from linear_theory.wave.fractional import FractionalWave, count_of, profile_of, with_profile
 from linear_theory.wave.travelling import TravellingWave
 
 Array = NDArray[np.float64]
@@ -23,19 +23,14 @@ class OfWave(Parameter):
 
     def wave(self, scene: Scene) -> TravellingWave:
         """That of the scene, or the profile of a fractional one. Raises ValueError for another one."""
-        wave = scene.wave
-        if isinstance(wave, FractionalWave):
-            return wave.profile
-        if not isinstance(wave, TravellingWave):
-            raise lacks(self.name, "a TravellingWave", wave)
-        return wave
+        profile = profile_of(scene.wave)
+        if profile is None:
+            raise lacks(self.name, "a TravellingWave", scene.wave)
+        return profile
 
     def with_wave(self, scene: Scene, wave: TravellingWave) -> Scene:
         """The scene with that wave, or profile of a fractional one."""
-        own = scene.wave
-        if isinstance(own, FractionalWave):
-            return scene.but(wave=FractionalWave(wave, own.count))
-        return scene.but(wave=wave)
+        return scene.but(wave=with_profile(scene.wave, wave))
 
 
 @dataclass(frozen=True)
@@ -229,8 +224,7 @@ class Count(OfWave):
     def value(self, scene: Scene) -> float:
         """See Parameter."""
         self.wave(scene)
-        assert isinstance(scene.wave, TravellingWave | FractionalWave)
-        return float(scene.wave.count)
+        return count_of(scene.wave)
 
     def changed(self, scene: Scene, value: float) -> Scene:
         """See Parameter."""
