@@ -40,7 +40,8 @@ def parsed(text: str) -> Any:
     if len(text) > LONGEST:
         raise ValueError(f"has {len(text)} characters, must have {LONGEST} at most")
     try:
-        tree = ast.parse(text.strip(), mode="eval")
+        # Python below 3.11.4 has another error for a null byte
+        tree = ast.parse(text.strip().replace("\0", "?"), mode="eval")
         found = _made(tree.body)
     except (SyntaxError, RecursionError, MemoryError):
         raise ValueError(f"is not a formula, must be made of {KNOWN}") from None
