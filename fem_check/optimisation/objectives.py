@@ -98,6 +98,8 @@ class Given(Objective):
             raise ValueError(
                 f"objective: returned {validation.shown(found)}: must be a finite number or an Estimate"
             )
+        if isinstance(found, Estimate) and error < 0:
+            raise ValueError(f"objective: returned {validation.shown(found)}: error must be >= 0")
         if math.isnan(error):
             error = abs(value) * speed.error / max(abs(speed.mean), speed.error, 1e-300)
         return Estimate(float(value), float(error))

@@ -111,7 +111,7 @@ def search(
 ) -> Optimum:
     """`optimise` of unknowns; again: what is said to go on with after an interruption."""
     begin, report = time.perf_counter(), reporting(progress)
-    points = _starts(unknowns, starts, seed)
+    points = _starts(unknowns, starts, validation.integer("seed", seed, 0))
     path = None if file is None else Path(file)
     settings = _with_level(unknowns.scene, settings)
     asked = {

@@ -250,3 +250,10 @@ def test_parameters_change_scenes():
 def test_a_frozen_grid_is_that_of_its_scene():
     scene = scene_of("viscous", np.random.default_rng(1))
     assert Frozen(scene).speed(scene) == pytest.approx(crawl_speed(scene).mean, rel=1e-2, abs=1e-4)
+
+
+def test_places_in_lists_are_plain_digits():
+    with pytest.raises(ValueError, match="is no parameter with a gradient"):
+        speed_gradient(
+            Scene(Sheet(), SineWave(), alpha=0.1), "wave.cosine.\N{ARABIC-INDIC DIGIT THREE}"
+        )

@@ -18,6 +18,7 @@ from fem_check.optimisation.unknowns import Unknowns
 from fem_check.optimisation.values import Question
 from figures.measure.optimise.one_arc import best_of_one_arc
 from linear_theory import Sheet, SineWave, TravellingWave, line_balance
+from linear_theory.common.estimate import Estimate
 from linear_theory.line.best.dry import dry_bound, size_of
 from linear_theory.optimisation.certificate import certificate
 from linear_theory.optimisation.search import Ascent
@@ -226,3 +227,12 @@ def test_a_damaged_answer_is_named_by_its_line(tmp_path, line):
     path.write_bytes(b"\n".join([first, json.dumps(GOOD).encode(), b""]))
     with Kept(path, {"of": 1}) as kept:
         assert kept.count == 1
+
+
+def test_errors_below_0_and_seeds_below_0_are_refused():
+    scene = Scene(Sheet(width=0.1), SineWave(), alpha=0.1)
+    asked = {"level": "strip", "starts": 1, "check": False}
+    with pytest.raises(ValueError, match=r"objective: returned .*: error must be >= 0"):
+        optimise(scene, {"growth.alpha": (0.05, 0.4)}, lambda s: Estimate(s.mean, -1.0), **asked)
+    with pytest.raises(ValueError, match=r"seed = -1: must be .*>= 0"):
+        optimise(scene, {"growth.alpha": (0.05, 0.4)}, seed=-1, **asked)

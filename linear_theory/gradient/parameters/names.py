@@ -76,11 +76,16 @@ def parameter(name: Any) -> Parameter:
         if name in SINGLE:
             return SINGLE[name]
         table, _, last = name.rpartition(".")
-        if last.isdecimal() and table in HARMONICS:
+        if _is_place(last) and table in HARMONICS:
             return HARMONICS[table](int(last) + 1)
-        if last.isdecimal() and table == PATCHES:
+        if _is_place(last) and table == PATCHES:
             return PatchFriction(int(last))
     known = [*SINGLE, *(f"{table}.0" for table in (*HARMONICS, PATCHES))]
     close = difflib.get_close_matches(str(name), known, n=1)
     hint = f", the nearest is {close[0]!r}" if close else f"; known are {', '.join(known)}"
     raise ValueError(f"over = {shown(name)}: is no parameter with a gradient{hint}")
+
+
+def _is_place(word: str) -> bool:
+    """Whether it is a place in a list, 0, 1, ..., in digits that scene files know."""
+    return word.isascii() and word.isdecimal()
