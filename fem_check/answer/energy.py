@@ -27,6 +27,11 @@ def energy(found: "Prediction") -> str:
         return "cost of transport infinite: growth does work, and no distance is resolved"
     if cost.error > ROUGH * cost.value:
         return f"cost of transport about {plain(cost.value, 1)} mu, which this level knows but roughly"
+    if math.isnan(found.speed.model_error) and not found.not_in_error:
+        return (
+            f"cost of transport about {plain(cost.value, 1)} mu by this level, whose distance to the "
+            "nonlinear sheet is not known"
+        )
     shown = f"cost of transport {measured(*cost).with_unit('mu')}{_known(found, cost)}"
     lacking = speed.energy.undragged
     percent = measured(100 * efficiency.value, 100 * efficiency.error).with_unit("%")

@@ -22,6 +22,7 @@ from fem_check import (
     cycle_speed,
     predict,
     simulate,
+    solve,
 )
 from fem_check.answer.energy import energy, with_model_errors
 from fem_check.answer.record import record
@@ -540,3 +541,10 @@ def test_the_mesh_is_in_the_error_of_stepped_power():
     assert abs(found.mean_speed - finer.mean_speed) <= mesh.speed
     without = replace(found, further=NO_FURTHER).speed.power
     assert found.speed.power.error == pytest.approx(without.error + mesh.power)
+
+
+def test_a_cost_whose_model_error_is_unknown_has_no_digits_to_trust():
+    """At alpha = 0.8 a strip does not know its distance to the sheet: of V, hence of the cost."""
+    found = solve(Scene(Sheet(width=0.5), SineWave(), alpha=0.8), "strip")
+    assert np.isnan(found.speed.model_error)
+    assert energy(found).startswith("cost of transport about 0.9 mu by this level")
