@@ -1,6 +1,6 @@
 """The command: python -m figures.measure.gradient."""
 
-from figures.measure.gradient.scenes import main
+from figures.measure.gradient.table import main
 
 if __name__ == "__main__":
     main()
