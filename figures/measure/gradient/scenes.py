@@ -36,7 +36,7 @@ def scene_of(name: str, random: np.random.Generator, harmonics: int | None = Non
     wave = TravellingWave(
         cosine / size, sine / size, int(random.choice([-1, 1, 2])), 1.0, random.uniform(-0.2, 0.2)
     )
-    sheet = Sheet(width=float(random.uniform(0.2, 1.0)), poisson=float(random.uniform(-0.3, 0.5)))
+    sheet = Sheet(width=float(random.uniform(0.2, 1.0)), poisson=float(random.uniform(-0.3, 0.49)))
     alpha = float(random.choice([-1, 1]) * random.uniform(0.05, 0.25))
     load = str(random.choice(["current", "grown", "material"]))
     if name == "viscous" and load == "material":

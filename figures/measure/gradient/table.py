@@ -148,7 +148,7 @@ def cost(name: str, random: np.random.Generator, plain: bool = False) -> Row:
     scene = scene_of(name, random, MANY)
     over = [one for one in names_of(scene) if not one.startswith("friction")]
     if plain:
-        scene = scene.but(wave=TravellingWave([0.0], [1.0]))
+        scene = scene.but(wave=TravellingWave(np.zeros(1), np.ones(1)))
     return _row(name, scene, len(over), np.nan, Worst("", *(np.nan,) * 4), timed(scene, over)[1])
 
 
