@@ -5,6 +5,11 @@ time: its mean is taken by the rule for that of V, with the same estimate of its
 added where that is too large. What finer cells and higher degrees of the deformation change at three
 times is the error of the rest.
 
+Harmonics that the wave does not have may be shorter than the cells of its balance. Where friction is
+smooth, the weights of its adjoint are as long as the wave itself, and polynomials in each cell of these
+(`sensitivity.Wanted.exact`); where finer cells say otherwise, the cells are made as short as the
+harmonics.
+
 V of a wave with c(t + T/2) = -c(t) is of second order in alpha, as the leading q_0 has no mean,
 exactly; nor has its derivative along a direction that keeps this symmetry: it is left out there.
 """
@@ -48,6 +53,12 @@ MOST_REFINEMENTS = 2
 PER_HARMONIC = 2.5
 """Times per period of the highest harmonic of the directions at first, enough for its error to show."""
 
+AGREE = 0.03
+"""Of the tolerance: what finer cells may change, if those of the wave are to be enough."""
+
+MORE_POINTS = 4
+"""Per cell and direction, if cells are longer than the harmonics."""
+
 COARSE = 3e-2
 """Tolerance by which the deformation resolves harmonics that the wave does not have."""
 
@@ -77,22 +88,34 @@ class Derivatives:
 
     def means(self) -> Means:
         """Over the period."""
-        crawl = self._crawl
-        times, motion, values, flat = self._resolved()
+        course = self.course
+        some = np.unique((np.array(CHECKED) * course.grid.times.size).astype(int))
+        checks = course.grid.times[some], _some(course.motion, some)
+        crawl, finer = self._sufficient(checks)
+        times, values, flat = self._resolved(crawl)
         means, errors = TimeGrid(times).means(values.reshape(-1, times.size))
-        some = np.unique((np.array(CHECKED) * times.size).astype(int))
-        finer, _ = self._at(_finer(crawl), times[some], _some(motion, some))
-        change = abs(finer - values[..., some]).max(-1)
+        change = abs(finer - values[..., np.searchsorted(times, checks[0])]).max(-1)
         shape = values.shape[:2]
         return Means(means.reshape(shape), errors.reshape(shape) + SAFETY * change, flat)
 
-    def _resolved(self) -> tuple[Array, RigidMotion, Array, bool]:
-        """Times, motion and derivatives there, (k, directions, T), with times added as needed."""
-        crawl, course = self._crawl, self.course
-        highest = max((one.highest for one in self.directions), default=0)
-        if highest:
-            finer = course.grid.with_steps(crawl.drive.period / (PER_HARMONIC * highest))
-            course = course.on(finer)
+    def _sufficient(self, checks: tuple[Array, RigidMotion]) -> tuple[Crawl, Array]:
+        """With the cells of the wave if they are enough, else with those of all harmonics.
+
+        Second: derivatives at the checks with finer ones.
+        """
+        if self._shorter and self.course.crawl.contact.friction.width > 0:
+            values, finer = (self._at(one, *checks)[0] for one in (self._long, _finer(self._long)))
+            change = abs(finer - values).max(-1).ravel()
+            if np.all(change <= AGREE * self.rtol * self._sizes(finer)):
+                return self._long, finer
+        return self._short, self._at(_finer(self._short), *checks)[0]
+
+    def _resolved(self, crawl: Crawl) -> tuple[Array, Array, bool]:
+        """Times, and derivatives there, (k, directions, T), with times added as needed."""
+        course = self.course
+        if self._highest:
+            step = crawl.drive.period / (PER_HARMONIC * self._highest)
+            course = course.on(course.grid.with_steps(step))
         values, flat = self._at(crawl, course.grid.times, course.motion)
         for _ in range(MOST_REFINEMENTS):
             grid, added = self._refined(course.grid, values)
@@ -105,7 +128,7 @@ class Derivatives:
             whole = np.empty((*values.shape[:2], added.size))
             whole[..., ~added], whole[..., added] = values, others
             values, flat = whole, flat or also
-        return course.grid.times, course.motion, values, flat
+        return course.grid.times, values, flat
 
     def _refined(self, grid: TimeGrid, values: Array) -> tuple[TimeGrid, NDArray[np.bool_]]:
         """With more times where the error of a mean is too large."""
@@ -125,11 +148,15 @@ class Derivatives:
 
     def _at(self, crawl: Crawl, times: Array, motion: RigidMotion) -> tuple[Array, bool]:
         """Derivatives at times (T,), (k, directions, T), and whether friction resists all motions."""
-        near = crawl is not self.course.crawl
+        own = self.course.crawl
+        near = crawl is not own
         whole = Linearised(motion.leading + crawl.alpha * motion.remainder, crawl.alpha, near)
         first = Linearised(motion.leading, 0.0, near)
         aside = bool(self._without_leading.any())
-        at, *others = sensitivities(crawl, times, [whole, first] if aside else [whole], self._wanted)
+        wanted = self._wanted
+        if self._shorter and not crawl.waves:
+            wanted = wanted._replace(exact=own.field.degree[1])
+        at, *others = sensitivities(crawl, times, [whole, first] if aside else [whole], wanted)
         found = along(at, times, self.directions, crawl)
         for other in others:
             part = along(other, times, self.directions, crawl)
@@ -137,30 +164,50 @@ class Derivatives:
         return found, bool(at.flat.any())
 
     @cached_property
-    def _crawl(self) -> Crawl:
-        """That of the course, resolving the harmonics of the directions, too."""
-        crawl = self.course.crawl
-        series, field = crawl.drive.series, crawl.field
-        highest = max((one.highest for one in self.directions), default=0)
-        if series is None or highest <= series.harmonics[-1]:
+    def _long(self) -> Crawl:
+        """That of the course, whose deformation resolves the harmonics of the directions, too.
+
+        Its cells stay as long as the own wave asks for, with more points.
+        """
+        crawl, field = self.course.crawl, self.course.crawl.field
+        if not self._shorter:
             return crawl
         assert isinstance(field, RitzField)
-        waves = highest * abs(series.count)
-        least = ritz_error.first_degrees(field.sheet, waves, COARSE)
+        least = ritz_error.first_degrees(field.sheet, self._wanted.waves, COARSE)
         across, along = (max(pair) for pair in zip(least, field.degree, strict=True))
         if (across, along) != field.degree:
             field = RitzField(field.drive, RitzSolver(field.sheet, (across, along)))
-        return replace(crawl, field=field, waves=math.ceil(waves / 2))
+        sharper = replace(crawl.resolution, order=crawl.resolution.order + MORE_POINTS)
+        return replace(crawl, field=field, resolution=sharper)
+
+    @cached_property
+    def _short(self) -> Crawl:
+        """With cells that resolve them, too."""
+        if not self._shorter:
+            return self.course.crawl
+        waves = math.ceil(self._wanted.waves / 2)
+        return replace(self._long, resolution=self.course.crawl.resolution, waves=waves)
+
+    @cached_property
+    def _shorter(self) -> bool:
+        """Whether directions have harmonics that the wave has not."""
+        series = self.course.crawl.drive.series
+        return series is not None and self._highest > series.harmonics[-1]
+
+    @cached_property
+    def _highest(self) -> int:
+        """The highest harmonic of the directions."""
+        return max((one.highest for one in self.directions), default=0)
 
     @cached_property
     def _wanted(self) -> Wanted:
-        crawl, directions = self._crawl, self.directions
+        crawl, directions = self.course.crawl, self.directions
         alpha, mirrored = crawl.alpha, crawl.mirrored
         return Wanted(
             self.quantities,
             sheet=any(d.width or d.poisson for d in directions),
             across=any(d.growth is not None and d.growth.across for d in directions),
-            waves=max(d.highest for d in directions) * abs(getattr(crawl.drive.wave, "count", 1)),
+            waves=self._highest * abs(getattr(crawl.drive.wave, "count", 1)),
             laws=law_changes(directions, alpha, mirrored),
             maps=[MapChange(*d.map, mirrored) for d in directions if d.map is not None],
         )
@@ -168,7 +215,7 @@ class Derivatives:
     @cached_property
     def _without_leading(self) -> NDArray[np.bool_]:
         """Of which motions, and along which directions, q_0 keeps no mean, (k, directions)."""
-        crawl = self._crawl
+        crawl = self.course.crawl
         second = crawl.starts_at_second_order
         kept = np.array([second and d.keeps_sign(crawl.drive) for d in self.directions], bool)
         return np.array([kept & (one.work == 0) for one in self.quantities])

@@ -23,6 +23,7 @@ from linear_theory.friction.maps import FrictionMap
 from linear_theory.gradient import elastic
 from linear_theory.gradient.adjoint import AdjointBalance, LawChange, Weights
 from linear_theory.gradient.quantity import Quantity
+from linear_theory.motion.cells import gauss
 from linear_theory.motion.motion import CellGrid
 from linear_theory.sheet.rectangle import Sheet
 
@@ -54,7 +55,9 @@ class Wanted(NamedTuple):
     """Which derivatives are asked for.
 
     sheet: by its width and Poisson ratio; across: by growth that depends on x; waves: along the sheet,
-    of the shortest harmonic; laws, maps: by those of their numbers.
+    of the shortest harmonic; laws, maps: by those of their numbers. exact: degree of polynomials along
+    the sheet up to which points of the cells resolve them, None for all; moments of higher ones are
+    those of the polynomials that interpolate the weights in each cell.
     """
 
     quantities: Sequence[Quantity]
@@ -63,6 +66,7 @@ class Wanted(NamedTuple):
     waves: float = 0.0
     laws: Sequence[LawChange] = ()
     maps: Sequence[MapChange] = ()
+    exact: int | None = None
 
 
 class Sensitivity(NamedTuple):
@@ -147,8 +151,8 @@ def _batch(crawl: Crawl, times: Array, motions: Sequence[Linearised], wanted: Wa
     for q, alpha, near in motions:
         q = balance.polished(q, alpha) if near else q
         at = balance.weights(q, alpha, wanted.quantities, wanted.laws, bool(wanted.maps))
-        velocity = _moments(crawl, at.velocity, (across + 1, along + 1)).swapaxes(1, 2)
-        load = _moments(crawl, at.load, counts)
+        velocity = _moments(crawl, at.velocity, (across + 1, along + 1), wanted.exact).swapaxes(1, 2)
+        load = _moments(crawl, at.load, counts, wanted.exact)
         maps = _by_maps(crawl, times, at, wanted.maps)
         found.append(_Parts(velocity, load, at.alpha, at.slip, at.arms, at.laws, maps, at.flat))
     return found
@@ -280,10 +284,13 @@ def _points(field: RitzField, waves: float = 0.0) -> tuple[int, int]:
     return across + across // 4 + 12, max(along + along // 4 + 12, least)
 
 
-def _moments(crawl: Crawl, weights: Array, counts: tuple[int, int]) -> Array:
-    """Sums of weights (..., cells, n, n) times p_i p_j at their points, (..., *counts)."""
+def _moments(crawl: Crawl, weights: Array, counts: tuple[int, int], exact: int | None) -> Array:
+    """Sums of weights (..., cells, n, n) times p_i p_j at their points, (..., *counts).
+
+    exact: see `Wanted`.
+    """
     grid, n = crawl.grid, crawl.resolution.order
-    across, along = _tables(crawl.field.sheet, grid, n, counts)
+    across, along = _tables(crawl.field.sheet, grid, n, counts, exact)
     columns, rows = len(grid.x_edges) - 1, len(grid.y_edges) - 1
     table = weights.reshape(*weights.shape[:-3], columns, rows, n, n).swapaxes(-3, -2)
     table = table.reshape(*weights.shape[:-3], columns * n, rows * n)
@@ -291,10 +298,26 @@ def _moments(crawl: Crawl, weights: Array, counts: tuple[int, int]) -> Array:
 
 
 @lru_cache(maxsize=8)
-def _tables(sheet: Sheet, grid: CellGrid, order: int, counts: tuple[int, int]) -> tuple[Array, Array]:
+def _tables(
+    sheet: Sheet, grid: CellGrid, order: int, counts: tuple[int, int], exact: int | None
+) -> tuple[Array, Array]:
     """p_i(2 x/W) and p_j(2 y/L) at the points of all cells, (points, degrees)."""
     rows = len(grid.y_edges) - 1
     x, y, _ = grid.points(order)
     places = x[::rows].ravel() * 2 / sheet.width, y[:rows].ravel() * 2 / sheet.length
     across, along = (legendre.orthonormal(c, p) for c, p in zip(counts, places, strict=True))
+    if exact is not None and exact + 1 < counts[1]:
+        along[:, exact + 1 :] = _projected(sheet, grid, order, counts[1])[:, exact + 1 :]
     return across, along
+
+
+def _projected(sheet: Sheet, grid: CellGrid, order: int, count: int) -> Array:
+    """Of p_j, the polynomials of the degree of a cell that have the same moments there, (points, j)."""
+    rule = gauss(order)
+    places, weights = gauss_legendre((count + order) // 2 + 1)
+    shapes = np.polynomial.legendre.legvander(places, order - 1) @ rule.inverse
+    to_points = (shapes * weights[:, None]).T / rule.weights[:, None]
+    edges = np.array(grid.y_edges) * 2 / sheet.length
+    middle, half = (edges[1:] + edges[:-1]) / 2, np.diff(edges) / 2
+    table = legendre.orthonormal(count, middle[:, None] + half[:, None] * places)
+    return np.asarray((to_points @ table).reshape(-1, count))
