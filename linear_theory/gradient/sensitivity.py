@@ -146,7 +146,9 @@ def _batch(crawl: Crawl, times: Array, motions: Sequence[Linearised], wanted: Wa
     field = crawl.field
     assert isinstance(field, RitzField)
     across, along = field.degree
-    counts = _points(field) if crawl.contact.load is Load.GROWN else (across + 1, along + 1)
+    counts = (
+        _points(field, wanted.waves) if crawl.contact.load is Load.GROWN else (across + 1, along + 1)
+    )
     found = []
     for q, alpha, near in motions:
         q = balance.polished(q, alpha) if near else q
@@ -273,15 +275,17 @@ class _Elastic(NamedTuple):
         return width, poisson
 
 
-def _points(field: RitzField, waves: float = 0.0) -> tuple[int, int]:
+def _points(field: RitzField, waves: float) -> tuple[int, int]:
     """Gauss points across and along for a change of growth, exact for degrees 3/2 of the field's.
 
     waves: along, of a change that may be shorter than the field resolves: a wave needs pi degrees, and
-    some more, against polynomials of the field's degree.
+    some more, both against polynomials of the field's degree and as a load of its own.
     """
     across, along = field.degree
-    least = math.ceil((along + 1.2 * math.pi * waves) / 2) + 12
-    return across + across // 4 + 12, max(along + along // 4 + 12, least)
+    return (
+        across + across // 4 + 12,
+        max(along + along // 4 + 12, math.ceil(1.2 * math.pi * waves) + 20),
+    )
 
 
 def _moments(crawl: Crawl, weights: Array, counts: tuple[int, int], exact: int | None) -> Array:
