@@ -155,6 +155,7 @@ class Derivatives:
         aside = bool(self._without_leading.any())
         wanted = self._wanted
         if self._shorter and not crawl.waves:
+            assert isinstance(own.field, RitzField)
             wanted = wanted._replace(exact=own.field.degree[1])
         at, *others = sensitivities(crawl, times, [whole, first] if aside else [whole], wanted)
         found = along(at, times, self.directions, crawl)
@@ -173,7 +174,7 @@ class Derivatives:
         if not self._shorter:
             return crawl
         assert isinstance(field, RitzField)
-        least = ritz_error.first_degrees(field.sheet, self._wanted.waves, COARSE)
+        least = ritz_error.first_degrees(field.sheet, math.ceil(self._wanted.waves), COARSE)
         across, along = (max(pair) for pair in zip(least, field.degree, strict=True))
         if (across, along) != field.degree:
             field = RitzField(field.drive, RitzSolver(field.sheet, (across, along)))

@@ -6,10 +6,8 @@ at Gauss points x, y of the sheet, with their weights: the adjoint of the fricti
 gives weights of velocity and load, that of the elastic problem (`elastic`) the growth that makes them.
 """
 
-import math
-from collections.abc import Sequence
-from functools import lru_cache
-from typing import NamedTuple
+from collections.abc import Mapping, Sequence
+from typing import NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,12 +20,14 @@ from linear_theory.friction.load import Load
 from linear_theory.friction.maps import FrictionMap
 from linear_theory.gradient import elastic
 from linear_theory.gradient.adjoint import AdjointBalance, LawChange, Weights
+from linear_theory.gradient.moments import gauss_counts, moments
 from linear_theory.gradient.quantity import Quantity
-from linear_theory.motion.cells import gauss
-from linear_theory.motion.motion import CellGrid
-from linear_theory.sheet.rectangle import Sheet
 
 Array = NDArray[np.float64]
+Kind = TypeVar("Kind", "_Parts", "Sensitivity")
+
+DEFORMATIONS = 200_000
+"""Coefficients of deformations that are solved for at once."""
 
 
 class MapChange(NamedTuple):
@@ -113,11 +113,16 @@ def sensitivities(
         _batch(crawl, times[some], _some(motions, some), wanted)
         for some in track("adjoint of the friction balance", batches)
     ]
-    found = [_joined(part) for part in zip(*parts, strict=True)]
-    return [
-        _sensitivity(crawl, times, one, motion.alpha, wanted)
-        for one, motion in zip(found, motions, strict=True)
-    ]
+    found = [_joined(part, _TIME_AXES) for part in zip(*parts, strict=True)]
+    assert isinstance(crawl.field, RitzField)
+    across, along = crawl.field.degree
+    size = max(DEFORMATIONS // (len(wanted.quantities) * across * along), 1)
+    pieces = [slice(i, i + size) for i in range(0, times.size, size)]
+    made: list[list[Sensitivity]] = [[] for _ in motions]
+    for some in track("adjoint of the deformation", pieces):
+        for own, one, motion in zip(made, found, motions, strict=True):
+            own.append(_sensitivity(crawl, times[some], one.at(some), motion.alpha, wanted))
+    return [_joined(own, _SENSITIVITY_AXES) for own in made]
 
 
 def _some(motions: Sequence[Linearised], some: slice) -> list[Linearised]:
@@ -139,6 +144,15 @@ class _Parts(NamedTuple):
     maps: Array
     flat: NDArray[np.bool_]
 
+    def at(self, some: slice) -> "_Parts":
+        """At some of the times."""
+        own = self._asdict().items()
+        return _Parts(*(v[:, some] if name in _TIME_AXES else v[..., some] for name, v in own))
+
+
+_TIME_AXES = {"velocity": 1, "load": 1}
+_SENSITIVITY_AXES = {"x": None, "y": None, "value": 1, "rate": 1}
+
 
 def _batch(crawl: Crawl, times: Array, motions: Sequence[Linearised], wanted: Wanted) -> list[_Parts]:
     """Of every motion, at a few times."""
@@ -147,30 +161,32 @@ def _batch(crawl: Crawl, times: Array, motions: Sequence[Linearised], wanted: Wa
     assert isinstance(field, RitzField)
     across, along = field.degree
     counts = (
-        _points(field, wanted.waves) if crawl.contact.load is Load.GROWN else (across + 1, along + 1)
+        gauss_counts(field, wanted.waves)
+        if crawl.contact.load is Load.GROWN
+        else (across + 1, along + 1)
     )
     found = []
     for q, alpha, near in motions:
         q = balance.polished(q, alpha) if near else q
         at = balance.weights(q, alpha, wanted.quantities, wanted.laws, bool(wanted.maps))
-        velocity = _moments(crawl, at.velocity, (across + 1, along + 1), wanted.exact).swapaxes(1, 2)
-        load = _moments(crawl, at.load, counts, wanted.exact)
+        velocity = moments(crawl, at.velocity, (across + 1, along + 1), wanted.exact).swapaxes(1, 2)
+        load = moments(crawl, at.load, counts, wanted.exact)
         maps = _by_maps(crawl, times, at, wanted.maps)
         found.append(_Parts(velocity, load, at.alpha, at.slip, at.arms, at.laws, maps, at.flat))
     return found
 
 
-def _joined(parts: Sequence[_Parts]) -> _Parts:
-    """Of all times."""
+def _joined(parts: Sequence[Kind], axes: Mapping[str, int | None]) -> Kind:
+    """Of all times, which are on the last axis but for those of `axes`; None for none."""
     if len(parts) == 1:
         return parts[0]
-    axes = {"velocity": 1, "load": 1}
-    return _Parts(
-        *(
-            np.concatenate([getattr(part, name) for part in parts], axes.get(name, -1))
-            for name in _Parts._fields
-        )
-    )
+    first = parts[0]
+    joined = {
+        name: np.concatenate([getattr(part, name) for part in parts], axis)
+        for name in first._fields
+        if (axis := axes.get(name, -1)) is not None
+    }
+    return first._replace(**joined)
 
 
 def _by_maps(crawl: Crawl, times: Array, found: Weights, maps: Sequence[MapChange]) -> Array:
@@ -185,7 +201,7 @@ def _sensitivity(
     crawl: Crawl, times: Array, parts: _Parts, alpha: float, wanted: Wanted
 ) -> Sensitivity:
     elastic_part = _Elastic.of(crawl, parts)
-    x, y, (value, rate) = elastic_part.at_points(wanted.across, wanted.waves)
+    x, y, (value, rate) = elastic_part.atgauss_counts(wanted.across, wanted.waves)
     none = np.zeros_like(parts.alpha)
     width, poisson = elastic_part.by_sheet(times) if wanted.sheet else (none, none)
     return Sensitivity(
@@ -231,7 +247,7 @@ class _Elastic(NamedTuple):
             growing = elastic.adjoint(field.solver, dilation, mirrored)
         return cls(crawl, field, moving, growing, load, parts.alpha.shape)
 
-    def at_points(self, across: bool, waves: float) -> tuple[Array, Array, list[Array]]:
+    def atgauss_counts(self, across: bool, waves: float) -> tuple[Array, Array, list[Array]]:
         """Gauss points, and derivatives by c and dc/dt there, with the weights of the quadrature.
 
         across, waves: see `Wanted`.
@@ -245,7 +261,7 @@ class _Elastic(NamedTuple):
             value = 2 * self.load if grown else np.zeros_like(rate)
         if self.crawl.mirrored:
             value[:, 1::2] = 0.0  # of the integrals over half a sheet
-        (x, weights_x), (y, weights_y) = (gauss_legendre(n) for n in _points(self.field, waves))
+        (x, weights_x), (y, weights_y) = (gauss_legendre(n) for n in gauss_counts(self.field, waves))
         if not across:
             x, weights_x = np.zeros(1), np.full(1, 2.0)
             value, rate = value[:, :1], rate[:, :1]
@@ -273,55 +289,3 @@ class _Elastic(NamedTuple):
                     load = self.load.reshape(*self.shape, *self.load.shape[1:])[i]
                     width[i] += elastic.dilation_by_width(sheet, load, u)
         return width, poisson
-
-
-def _points(field: RitzField, waves: float) -> tuple[int, int]:
-    """Gauss points across and along for a change of growth, exact for degrees 3/2 of the field's.
-
-    waves: along, of a change that may be shorter than the field resolves: a wave needs pi degrees, and
-    some more, both against polynomials of the field's degree and as a load of its own.
-    """
-    across, along = field.degree
-    return (
-        across + across // 4 + 12,
-        max(along + along // 4 + 12, math.ceil(1.2 * math.pi * waves) + 20),
-    )
-
-
-def _moments(crawl: Crawl, weights: Array, counts: tuple[int, int], exact: int | None) -> Array:
-    """Sums of weights (..., cells, n, n) times p_i p_j at their points, (..., *counts).
-
-    exact: see `Wanted`.
-    """
-    grid, n = crawl.grid, crawl.resolution.order
-    across, along = _tables(crawl.field.sheet, grid, n, counts, exact)
-    columns, rows = len(grid.x_edges) - 1, len(grid.y_edges) - 1
-    table = weights.reshape(*weights.shape[:-3], columns, rows, n, n).swapaxes(-3, -2)
-    table = table.reshape(*weights.shape[:-3], columns * n, rows * n)
-    return np.asarray(across.T @ table @ along)
-
-
-@lru_cache(maxsize=8)
-def _tables(
-    sheet: Sheet, grid: CellGrid, order: int, counts: tuple[int, int], exact: int | None
-) -> tuple[Array, Array]:
-    """p_i(2 x/W) and p_j(2 y/L) at the points of all cells, (points, degrees)."""
-    rows = len(grid.y_edges) - 1
-    x, y, _ = grid.points(order)
-    places = x[::rows].ravel() * 2 / sheet.width, y[:rows].ravel() * 2 / sheet.length
-    across, along = (legendre.orthonormal(c, p) for c, p in zip(counts, places, strict=True))
-    if exact is not None and exact + 1 < counts[1]:
-        along[:, exact + 1 :] = _projected(sheet, grid, order, counts[1])[:, exact + 1 :]
-    return across, along
-
-
-def _projected(sheet: Sheet, grid: CellGrid, order: int, count: int) -> Array:
-    """Of p_j, the polynomials of the degree of a cell that have the same moments there, (points, j)."""
-    rule = gauss(order)
-    places, weights = gauss_legendre((count + order) // 2 + 1)
-    shapes = np.polynomial.legendre.legvander(places, order - 1) @ rule.inverse
-    to_points = (shapes * weights[:, None]).T / rule.weights[:, None]
-    edges = np.array(grid.y_edges) * 2 / sheet.length
-    middle, half = (edges[1:] + edges[:-1]) / 2, np.diff(edges) / 2
-    table = legendre.orthonormal(count, middle[:, None] + half[:, None] * places)
-    return np.asarray((to_points @ table).reshape(-1, count))

@@ -40,11 +40,15 @@ from linear_theory.scene.scene import Scene
 from linear_theory.speed.crawl import ORDERS, completed, speed_of, theory_speed
 from linear_theory.speed.result import CrawlSpeed
 from linear_theory.speed.wave_error import with_wave_error
+from linear_theory.wave.fractional import count_of
 
 Array = NDArray[np.float64]
 
 METHOD = "ritz"
 """The deformation of which there is an adjoint."""
+
+MOST_WAVES = 150
+"""On the sheet, of a harmonic that the wave need not have: six seconds of computing."""
 
 FIELD_SHARE = 0.1
 """Fraction of rtol allotted to the deformation."""
@@ -65,9 +69,10 @@ def speed_gradient(
     names of fields as in scene files, entries of lists by their number from 0:
     "growth.alpha" (or "alpha"), "sheet.width" (at fixed length), "sheet.poisson"; of a `TravellingWave`
     "wave.cosine.0" (the amplitude of cos phi), "wave.sine.0", "wave.amplitude.0", "wave.phase.0", ...,
-    also of harmonics that the wave does not have yet, "wave.mean", "wave.period" and "wave.count" (as a
-    real number, see `FractionalWave`); of friction "friction.slip_speed", "friction.forward",
-    "friction.backward", "friction.sideways", "friction.heading", "friction.map.mu.0". Other waves have
+    also of harmonics that the wave does not have yet, of up to 150 waves on the sheet, "wave.mean",
+    "wave.period" and "wave.count" (as a real number, see `FractionalWave`); of friction
+    "friction.slip_speed", "friction.forward", "friction.backward", "friction.sideways",
+    "friction.heading", "friction.map.mu.0". Other waves have
     parameters by `WaveFamily`. order: of the theory, as for `crawl_speed`; 2 for motions that are
     mirror symmetric, at the cost of two deformations per parameter (see `gradient.second`). rtol: of
     the speed; the errors of the derivatives follow from it and are estimated each. progress: True
@@ -180,7 +185,25 @@ def _asked(scene: Any, over: Any) -> tuple[tuple[Parameter, ...], list[Direction
             "alpha = 0: must not be 0, where V = 0 whatever the wave; second_order gives V/alpha"
         )
     chosen = parameters(over)
-    return chosen, [one.direction(scene) for one in chosen]
+    directions = [one.direction(scene) for one in chosen]
+    _check_waves(scene, chosen, directions)
+    return chosen, directions
+
+
+def _check_waves(scene: Scene, chosen: Sequence[Parameter], directions: Sequence[Direction]) -> None:
+    """Raise ValueError for a harmonic that is too short."""
+    series = scene.drive.series
+    for one, direction in zip(chosen, directions, strict=True):
+        if not direction.highest:
+            continue
+        count = abs(count_of(scene.wave))
+        own = count * int(series.harmonics[-1]) if series is not None else 0.0
+        if (waves := direction.highest * count) > max(MOST_WAVES, own):
+            raise ValueError(
+                f"over = {one.name!r}: the harmonic has {waves:.0f} waves on the sheet, must have at "
+                f"most {MOST_WAVES}, or as many as the wave of the scene: degrees of the deformation and "
+                "times grow with their number, the work with its cube"
+            )
 
 
 class _Solved(NamedTuple):

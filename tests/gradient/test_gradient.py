@@ -212,7 +212,12 @@ def test_cost_of_transport(wave):
 @pytest.mark.parametrize(
     ("over", "words"),
     [
-        ("wave.cosin.0", "nearest is 'wave.cosine.0'"),
+        ("wave.cosin.1", "nearest is 'wave.cosine.1'"),
+        ("alfa", "nearest is 'growth.alpha'"),
+        ("widht", "nearest is 'sheet.width'"),
+        ("sheet.widht", "nearest is 'sheet.width'"),
+        ("temperature", "known are growth.alpha, .* friction.map.mu.0"),
+        ("wave.cosine.99999", "has 100000 waves on the sheet, must have at most 150"),
         ([], "at least one"),
         (["alpha", "growth.alpha"], "named twice"),
         ("friction.slip_speed", "must have friction with a slip speed"),

@@ -42,6 +42,8 @@ HARMONICS: dict[str, type[OfHarmonic]] = {
 
 PATCHES = "friction.map.mu"
 
+LISTS = (*HARMONICS, PATCHES)
+
 SHORT = {"alpha": "growth.alpha"}
 
 
@@ -80,10 +82,20 @@ def parameter(name: Any) -> Parameter:
             return HARMONICS[table](int(last) + 1)
         if _is_place(last) and table == PATCHES:
             return PatchFriction(int(last))
-    known = [*SINGLE, *(f"{table}.0" for table in (*HARMONICS, PATCHES))]
-    close = difflib.get_close_matches(str(name), known, n=1)
-    hint = f", the nearest is {close[0]!r}" if close else f"; known are {', '.join(known)}"
-    raise ValueError(f"over = {shown(name)}: is no parameter with a gradient{hint}")
+    raise ValueError(f"over = {shown(name)}: is no parameter with a gradient{_hint(str(name))}")
+
+
+def _hint(name: str) -> str:
+    """The nearest name, also of one without its table; else all."""
+    table, _, place = name.rpartition(".")
+    stem, place = (table, place) if _is_place(place) else (name, "0")
+    names = {**{one: one for one in SINGLE}, **{one: f"{one}.{place}" for one in LISTS}}
+    ends = {full.rpartition(".")[2]: meant for full, meant in names.items()}
+    known = {**ends, **names}
+    close = difflib.get_close_matches(stem, known, n=1)
+    if close:
+        return f", the nearest is {known[close[0]]!r}"
+    return f"; known are {', '.join([*SINGLE, *(f'{one}.0' for one in LISTS)])}"
 
 
 def _is_place(word: str) -> bool:
