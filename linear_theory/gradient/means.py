@@ -53,7 +53,7 @@ MOST_REFINEMENTS = 2
 PER_HARMONIC = 2.5
 """Times per period of the highest harmonic of the directions at first, enough for its error to show."""
 
-AGREE = 0.03
+AGREE = 0.1
 """Of the tolerance: what finer cells may change, if those of the wave are to be enough."""
 
 MORE_POINTS = 4
