@@ -201,7 +201,7 @@ def _check_waves(scene: Scene, chosen: Sequence[Parameter], directions: Sequence
         if (waves := direction.highest * count) > max(MOST_WAVES, own):
             raise ValueError(
                 f"over = {one.name!r}: the harmonic has {waves:.0f} waves on the sheet, must have at "
-                f"most {MOST_WAVES}, or as many as the wave of the scene: the work grows with their cube"
+                f"most {MOST_WAVES}, or as many as the wave of the scene: work grows with their cube"
             )
 
 

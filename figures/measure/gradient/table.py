@@ -88,8 +88,8 @@ TABLE = Table(
     "python -m figures.measure.gradient",
     f"V in L/T at rtol = {LOOSE:g}; difference: between the derivative by the adjoint and by central "
     "differences on a frozen grid, relative; share: largest error of a derivative over the stated one, "
-    "that of the parameter; ratio: processor time of the gradient over that of the speed; against: over "
-    "that of the speed of a wave with all harmonics",
+    "that of the parameter; ratio: processor time of the gradient over that of the speed; against: "
+    "over that of the speed of a wave with all harmonics",
     DIGITS,
 )
 
