@@ -29,7 +29,7 @@ from linear_theory.common.pairs import pairs_among, product
 from linear_theory.friction.law import FrictionLaw, Response
 from linear_theory.gradient.leaves import gathered, local_coordinates, point_weights
 from linear_theory.gradient.quantity import Quantity
-from linear_theory.motion.cells import Graded
+from linear_theory.motion.cells import Graded, gauss
 
 Array = NDArray[np.float64]
 
@@ -118,6 +118,13 @@ class AdjointBalance(Balance):
             laws=np.array(others).reshape(-1, count, shape[0]),
             flat=at.flat,
         )
+
+    def resting(self, q: Array, slower: float) -> Array:
+        """(times,): share of the sheet whose speed is below a share of the root mean square of v^."""
+        w, area = self._moved(self._values, self._unknowns(q)), self._values[_AREA]
+        weights = area * np.multiply.outer(*(gauss(w.shape[-1]).weights,) * 2)
+        slow = np.hypot(*w) < slower * self._scale
+        return np.asarray((weights * slow).sum((1, 2, 3)) / weights.sum((1, 2, 3)))
 
     def _leaves(self, q: Array) -> tuple[Graded, Array]:
         """Cells of the balance at a motion, owned by whole cells of all times, and where in them.

@@ -28,6 +28,7 @@ from linear_theory.common.progress import Report, watched
 from linear_theory.common.threads import one_blas_thread
 from linear_theory.common.tolerance import Tolerance
 from linear_theory.deformation.ritz import ritz_field
+from linear_theory.gradient.adjoint import AdjointBalance
 from linear_theory.gradient.direction import Direction
 from linear_theory.gradient.means import Derivatives, Means
 from linear_theory.gradient.parameters.names import parameters
@@ -49,6 +50,10 @@ METHOD = "ritz"
 
 MOST_WAVES = 150
 """On the sheet, of a harmonic that the wave need not have: six seconds of computing."""
+
+RESTS, RESTING, AT_REST = 9, 2.0, 0.05
+"""Times at which parts at rest are looked for, their largest speed over the error of the deformation, and
+the share of the sheet from which on they count: about a stagnation point, less is as slow as that."""
 
 FIELD_SHARE = 0.1
 """Fraction of rtol allotted to the deformation."""
@@ -241,8 +246,16 @@ class _Solved(NamedTuple):
     def kinks(self, means: Means) -> tuple[str, ...]:
         """Why derivatives are subgradients only."""
         dry = self.course.crawl.contact.friction.width == 0
-        still = dry and self.course.motion.fastest == 0
+        still = dry and (self.course.motion.fastest == 0 or self._rests())
         return kinks_of(self.speed.sticks or still, means.flat)
+
+    def _rests(self) -> bool:
+        """Whether part of the sheet does not move by more than the deformation is in error."""
+        crawl, motion, times = self.course.crawl, self.course.motion, self.course.grid.times
+        some = np.unique(np.linspace(0, times.size - 1, RESTS).astype(int))
+        q = motion.leading[some] + crawl.alpha * motion.remainder[some]
+        slower = RESTING * crawl.field.error
+        return bool(crawl.balance_of(AdjointBalance, times[some]).resting(q, slower).max() > AT_REST)
 
     def by_motion(
         self, means: Means, which: int, own: Estimate, sign: float = 1.0

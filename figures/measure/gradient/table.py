@@ -34,10 +34,10 @@ from linear_theory.gradient import SpeedGradient, speed_gradient
 
 SEED = 20261126
 
-LOOSE = 1e-3
-"""Relative tolerance of the speeds whose gradients are checked."""
+LOOSE = {"viscous": 1e-3, "tanh": 1e-3, "directional": 1e-3, "coulomb": 3e-3}
+"""Relative tolerances of the speeds whose gradients are checked."""
 
-TIGHT = {"viscous": 3e-5, "tanh": 3e-5, "directional": 1e-4, "coulomb": 1e-4}
+TIGHT = {"viscous": 3e-5, "tanh": 3e-5, "directional": 1e-4, "coulomb": 3e-4}
 """Of those that are the truth."""
 
 MANY = 18
@@ -54,7 +54,8 @@ class Row:
     """One scene.
 
     kind: "accuracy", "cost" of 40 parameters of a wave that has their harmonics, or "cost of a sine",
-    which has not; friction, load, harmonics, alpha, width, poisson: of the scene; count: of parameters.
+    which has not; friction, load, harmonics, alpha, width, poisson: of the scene; count: of parameters; rtol: of the
+    speed.
     difference: of the derivative along a random direction by the adjoint and by central differences, on
     a frozen grid, over the size of all its parts. parameter: the one whose derivative has the largest
     share of its stated error; gradient, error: its derivative and stated error; true_error; share.
@@ -71,6 +72,7 @@ class Row:
     width: float
     poisson: float
     count: int
+    rtol: float
     difference: float
     parameter: str
     gradient: float
@@ -86,7 +88,7 @@ TABLE = Table(
     DATA / "gradients.csv",
     Row,
     "python -m figures.measure.gradient",
-    f"V in L/T at rtol = {LOOSE:g}; difference: between the derivative by the adjoint and by central "
+    "V in L/T; difference: between the derivative by the adjoint and by central "
     "differences on a frozen grid, relative; share: largest error of a derivative over the stated one, "
     "that of the parameter; ratio: processor time of the gradient over that of the speed; against: "
     "over that of the speed of a wave with all harmonics",
@@ -137,13 +139,13 @@ def accuracy(name: str, random: np.random.Generator) -> Row:
     over = names_of(scene)
     smooth = scene.contact.friction.width > 0
     off = difference(scene, random) if smooth else np.nan
-    loose, ratio, _ = timed(scene, over)
+    loose, ratio, _ = timed(name, scene, over)
     return _row(name, scene, len(over), off, worst(scene, over, name, loose), ratio)
 
 
 def worst(scene: Scene, over: Sequence[str], name: str, loose: SpeedGradient | None = None) -> Worst:
     """Of a scene with friction of that kind, against a speed that is more accurate."""
-    loose = loose or speed_gradient(scene, over, rtol=LOOSE)
+    loose = loose or speed_gradient(scene, over, rtol=LOOSE[name])
     return Worst.of(loose, speed_gradient(scene, over, rtol=TIGHT[name]))
 
 
@@ -151,7 +153,7 @@ def cost(name: str, random: np.random.Generator) -> Row:
     """Of the derivatives by the mean, the harmonics, and numbers of the sheet."""
     scene = scene_of(name, random, MANY)
     over = _forty(scene)
-    ratio = timed(scene, over)[1]
+    ratio = timed(name, scene, over)[1]
     return _row(name, scene, len(over), np.nan, UNKNOWN, ratio, ratio)
 
 
@@ -159,9 +161,9 @@ def cost_of_a_sine(name: str, random: np.random.Generator) -> Row:
     """The same at a sine, which has one of these harmonics."""
     full = scene_of(name, random, MANY)
     over, scene = _forty(full), full.but(wave=TravellingWave(np.zeros(1), np.ones(1)))
-    loose, ratio, seconds = timed(scene, over)
+    loose, ratio, seconds = timed(name, scene, over)
     found = worst(scene, over, name, loose)
-    return _row(name, scene, len(over), np.nan, found, ratio, seconds / timed_speed(full))
+    return _row(name, scene, len(over), np.nan, found, ratio, seconds / timed_speed(name, full))
 
 
 def _forty(scene: Scene) -> list[str]:
@@ -172,18 +174,18 @@ MAKERS = {"accuracy": accuracy, "cost": cost, "cost of a sine": cost_of_a_sine}
 """Of the kinds of rows."""
 
 
-def timed(scene: Scene, over: Sequence[str]) -> tuple[SpeedGradient, float, float]:
+def timed(name: str, scene: Scene, over: Sequence[str]) -> tuple[SpeedGradient, float, float]:
     """A gradient, seconds of the processor for it over those for the speed, and these seconds."""
     start = time.process_time()
-    found = speed_gradient(scene, over, rtol=LOOSE)
-    both, speed = time.process_time() - start, timed_speed(scene)
+    found = speed_gradient(scene, over, rtol=LOOSE[name])
+    both, speed = time.process_time() - start, timed_speed(name, scene)
     return found, (both - speed) / speed, both - speed
 
 
-def timed_speed(scene: Scene) -> float:
+def timed_speed(name: str, scene: Scene) -> float:
     """Seconds of the processor for a speed."""
     start = time.process_time()
-    crawl_speed(scene, rtol=LOOSE, method="ritz")
+    crawl_speed(scene, rtol=LOOSE[name], method="ritz")
     return time.process_time() - start
 
 
@@ -208,6 +210,7 @@ def _row(
         width=scene.sheet.width,
         poisson=scene.sheet.poisson,
         count=count,
+        rtol=LOOSE[name],
         difference=off,
         **found._asdict(),
         ratio=ratio,
