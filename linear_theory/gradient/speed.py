@@ -52,8 +52,8 @@ MOST_WAVES = 150
 """On the sheet, of a harmonic that the wave need not have: six seconds of computing."""
 
 RESTS, RESTING, AT_REST = 9, 2.0, 0.05
-"""Times at which parts at rest are looked for, their largest speed over the error of the deformation, and
-the share of the sheet from which on they count: about a stagnation point, less is as slow as that."""
+"""Times at which parts at rest are looked for, their largest speed over the error of the deformation,
+and the share of the sheet from which on they count: less is as slow about a stagnation point."""
 
 FIELD_SHARE = 0.1
 """Fraction of rtol allotted to the deformation."""

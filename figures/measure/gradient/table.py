@@ -54,8 +54,8 @@ class Row:
     """One scene.
 
     kind: "accuracy", "cost" of 40 parameters of a wave that has their harmonics, or "cost of a sine",
-    which has not; friction, load, harmonics, alpha, width, poisson: of the scene; count: of parameters; rtol: of the
-    speed.
+    which has not; friction, load, harmonics, alpha, width, poisson: of the scene; count: of parameters;
+    rtol: of the speed.
     difference: of the derivative along a random direction by the adjoint and by central differences, on
     a frozen grid, over the size of all its parts. parameter: the one whose derivative has the largest
     share of its stated error; gradient, error: its derivative and stated error; true_error; share.
