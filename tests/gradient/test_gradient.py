@@ -157,11 +157,29 @@ def test_a_wave_that_turns_the_sheet():
         return FieldWave(lambda x, y, t: np.sin(2 * np.pi * (s * x + y - t)) * (1 + 0.3 * x), 1.0)
 
     scene = Scene(Sheet(poisson=0.3), oblique(0.2), alpha=0.2, contact=Contact("grown", Viscous()))
-    over = [WaveFamily("tilt", 0.2, oblique), "alpha", "sheet.poisson"]
+    over = [WaveFamily("tilt", 0.2, oblique), "alpha", "sheet.poisson", "sheet.width"]
     found = speed_gradient(scene, over, rtol=1e-3)
     want, errors = differences(scene, over, lambda speed: speed.estimate, 1e-3)
     assert np.all(abs(found.values - want) <= found.errors + 0.02 * errors)
     assert found.speed.turning is not None
+
+
+class OneWidth(FieldWave):
+    """A wave that is known on a sheet of width 1 alone, as one computed there."""
+
+    def on(self, sheet, places=None):
+        if sheet.width != 1.0:
+            raise ValueError(f"sheet.width = {sheet.width:g}: must be 1")
+        return super().on(sheet, places)
+
+
+def test_a_wave_of_one_sheet_has_no_derivative_by_its_width():
+    wave = OneWidth(lambda x, y, t: np.sin(2 * np.pi * (y + x - t)), 1.0)
+    scene = Scene(Sheet(width=1.0), wave, alpha=0.2)
+    with pytest.raises(
+        ValueError, match=r"over = 'sheet.width': the wave must be known on .* any width"
+    ):
+        speed_gradient(scene, "sheet.width")
 
 
 @pytest.mark.parametrize("load", ["current", "material"])

@@ -1,0 +1,45 @@
+"""The table of gradients at random scenes, and some of its rows again."""
+
+import numpy as np
+import pytest
+
+from figures.measure.gradient.scenes import LAWS
+from figures.measure.gradient.table import TABLE, Key, row_of, wanted
+
+ROWS = {Key(row.kind, row.number): row for row in TABLE.read()}
+ACCURACY = [row for row in ROWS.values() if row.kind == "accuracy"]
+
+
+def test_the_table_is_complete():
+    assert set(ROWS) == set(wanted(100))
+    assert {row.friction for row in ACCURACY} == set(LAWS)
+
+
+def test_the_adjoint_is_the_derivative_at_a_hundred_random_scenes():
+    """To 1e-6 for smooth laws; the tangent of friction with a direction jumps on a curve that moves."""
+    assert max(row.difference for row in ACCURACY if row.friction in ("viscous", "tanh")) < 1e-6
+    assert max(row.difference for row in ACCURACY if row.friction == "directional") < 1e-2
+
+
+def test_no_stated_error_is_too_small():
+    shares = [row.share for row in ROWS.values() if not np.isnan(row.share)]
+    assert len(shares) == 104  # with those of the sines
+    assert max(shares) <= 1
+
+
+def test_forty_parameters_cost_less_than_three_speeds_of_a_wave_that_has_them():
+    costs = [row for row in ROWS.values() if row.kind != "accuracy"]
+    assert {row.friction for row in costs} == set(LAWS)
+    assert min(row.count for row in costs) >= 40
+    assert max(row.against for row in costs) <= 3
+
+
+@pytest.mark.parametrize("number", [0, 1, 2])
+def test_a_row_is_what_the_table_says(number):
+    """Of viscous, tanh and directional friction."""
+    old, new = ROWS[Key("accuracy", number)], row_of(Key("accuracy", number))
+    for name in ("alpha", "width", "gradient", "error"):
+        assert getattr(new, name) == pytest.approx(getattr(old, name), rel=2e-3), name
+    assert new.parameter == old.parameter
+    assert new.difference < 1e-6
+    assert new.share <= 1
