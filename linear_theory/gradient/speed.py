@@ -28,12 +28,12 @@ from linear_theory.common.progress import Report, watched
 from linear_theory.common.threads import one_blas_thread
 from linear_theory.common.tolerance import Tolerance
 from linear_theory.deformation.ritz import ritz_field
-from linear_theory.gradient.adjoint import AdjointBalance
 from linear_theory.gradient.direction import Direction
 from linear_theory.gradient.means import Derivatives, Means
 from linear_theory.gradient.parameters.names import parameters
 from linear_theory.gradient.parameters.parameter import Parameter
 from linear_theory.gradient.quantity import ACROSS, ALONG, WORK, Quantity
+from linear_theory.gradient.resting import rests
 from linear_theory.gradient.result import CostGradient, SpeedGradient, kinks_of
 from linear_theory.gradient.second import order_gradients
 from linear_theory.scene.level import THEORY
@@ -50,10 +50,6 @@ METHOD = "ritz"
 
 MOST_WAVES = 150
 """On the sheet, of a harmonic that the wave need not have: six seconds of computing."""
-
-RESTS, RESTING, AT_REST = 9, 2.0, 0.05
-"""Times at which parts at rest are looked for, their largest speed over the error of the deformation,
-and the share of the sheet from which on they count: less is as slow about a stagnation point."""
 
 FIELD_SHARE = 0.1
 """Fraction of rtol allotted to the deformation."""
@@ -72,19 +68,20 @@ def speed_gradient(
 
     scene: planar, as for `crawl_speed`, of any wave, with alpha not 0. over: parameters, objects or
     names of fields as in scene files, entries of lists by their number from 0:
-    "growth.alpha" (or "alpha"), "sheet.width" (at fixed length), "sheet.poisson"; of a `TravellingWave`
-    "wave.cosine.0" (the amplitude of cos phi), "wave.sine.0", "wave.amplitude.0", "wave.phase.0", ...,
-    also of harmonics that the wave does not have yet, of up to 150 waves on the sheet, "wave.mean",
-    "wave.period" and "wave.count" (as a real number, see `FractionalWave`); of friction
-    "friction.slip_speed", "friction.forward", "friction.backward", "friction.sideways",
-    "friction.heading", "friction.map.mu.0". Other waves have
-    parameters by `WaveFamily`. order: of the theory, as for `crawl_speed`; 2 for motions that are
-    mirror symmetric, at the cost of two deformations per parameter (see `gradient.second`). rtol: of
-    the speed; the errors of the derivatives follow from it and are estimated each. progress: True
-    prints on stderr, a function is called with a `progress.Progress`.
+    "growth.alpha" (or "alpha"), "sheet.width" (at fixed length and c(x, y, t)), "sheet.poisson"; of a
+    `TravellingWave` "wave.cosine.0" (the amplitude of cos phi), "wave.sine.0", "wave.amplitude.0",
+    "wave.phase.0", ..., also of harmonics that the wave does not have yet, of up to 150 waves on the
+    sheet, "wave.mean", "wave.period" and "wave.count" (as a real number, see `FractionalWave`); of
+    friction "friction.slip_speed", "friction.forward", "friction.backward", "friction.sideways",
+    "friction.heading", "friction.map.mu.0". Other waves have parameters by `WaveFamily`. order: of the
+    theory, as for `crawl_speed`; 2 for motions that are mirror symmetric, at the cost of two
+    deformations per parameter (see `gradient.second`). rtol: of the speed; the errors of the
+    derivatives follow from it and are estimated each. progress: True prints on stderr, a function is
+    called with a `progress.Progress`.
 
-    Where V has a kink, as where part of the sheet is at rest under dry friction, the result is a
-    subgradient, and `kinks` says why. Errors do not count that of a measured wave.
+    Where V has a kink, as where part of the sheet is at rest under dry friction (to the accuracy of the
+    deformation), the result is a subgradient, and `kinks` says why. Errors do not count that of a
+    measured wave.
 
     Raises ValueError for parameters that are not known or that the scene does not have, and for scenes
     beyond the theory.
@@ -246,16 +243,8 @@ class _Solved(NamedTuple):
     def kinks(self, means: Means) -> tuple[str, ...]:
         """Why derivatives are subgradients only."""
         dry = self.course.crawl.contact.friction.width == 0
-        still = dry and (self.course.motion.fastest == 0 or self._rests())
+        still = dry and (self.course.motion.fastest == 0 or rests(self.course))
         return kinks_of(self.speed.sticks or still, means.flat)
-
-    def _rests(self) -> bool:
-        """Whether part of the sheet does not move by more than the deformation is in error."""
-        crawl, motion, times = self.course.crawl, self.course.motion, self.course.grid.times
-        some = np.unique(np.linspace(0, times.size - 1, RESTS).astype(int))
-        q = motion.leading[some] + crawl.alpha * motion.remainder[some]
-        slower = RESTING * crawl.field.error
-        return bool(crawl.balance_of(AdjointBalance, times[some]).resting(q, slower).max() > AT_REST)
 
     def by_motion(
         self, means: Means, which: int, own: Estimate, sign: float = 1.0
