@@ -3,8 +3,8 @@
     python -m figures.measure.gradient [--out FILE] [--scenes 100] [--workers 2]
 
 Writes figures/data/gradients.csv: three minutes of one core; a run goes on where the file ends, and
-each row is made from its number alone. Random scenes: a sheet, a travelling wave of 2 to 5 harmonics with a
-mean, a coupling of either sign, a load, and a law of friction. Of each:
+each row is made from its number alone. Random scenes: a sheet, a travelling wave of 2 to 5 harmonics
+with a mean, a coupling of either sign, a load, and a law of friction. Of each:
 
 * V on a frozen grid of times and cells, along a random direction in the space of all parameters: the
   derivative by the adjoint, and by central differences of fourth order (but for dry friction);
