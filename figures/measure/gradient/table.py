@@ -7,7 +7,7 @@ each row is made from its number alone. Random scenes: a sheet, a travelling wav
 with a mean, a coupling of either sign, a load, and a law of friction. Of each:
 
 * V on a frozen grid of times and cells, along a random direction in the space of all parameters: the
-  derivative by the adjoint, and by central differences of fourth order (but for dry friction);
+  derivative by the adjoint, and by central differences of fourth order;
 * the errors that `speed_gradient` states, against those it has: the derivatives of a speed that is 10
   to 30 times as accurate are the truth. The parameter whose error is the largest share of the stated
   one is written down.
@@ -137,8 +137,7 @@ def accuracy(name: str, random: np.random.Generator) -> Row:
     """Of both derivatives of a random scene, and of the stated errors."""
     scene = scene_of(name, random)
     over = names_of(scene)
-    smooth = scene.contact.friction.width > 0
-    off = difference(scene, random) if smooth else np.nan
+    off = difference(scene, random)
     loose, ratio, _ = timed(name, scene, over)
     return _row(name, scene, len(over), off, worst(scene, over, name, loose), ratio)
 
