@@ -68,11 +68,14 @@ def speed_gradient(
     "wave.cosine.0" (the amplitude of cos phi), "wave.sine.0", "wave.amplitude.0", "wave.phase.0", ...,
     also of harmonics that the wave does not have yet, "wave.mean", "wave.period" and "wave.count" (as a
     real number, see `FractionalWave`); of friction "friction.slip_speed", "friction.forward",
-    "friction.backward", "friction.sideways", "friction.heading", "friction.map.mu.0". Other waves have
-    parameters by `WaveFamily`. order: of the theory, as for `crawl_speed`; 2 for motions that are
-    mirror symmetric, at the cost of two deformations per parameter (see `gradient.second`). rtol: of
-    the speed; the errors of the derivatives follow from it and are estimated each. progress: True
-    prints on stderr, a function is called with a `progress.Progress`.
+    "friction.backward", "friction.sideways", "friction.heading", "friction.map.mu.0"; of a sheet that
+    bends "growth.curvature_coupling", "sheet.thickness" (at fixed weight per area), "gravity.weight"
+    and "ground.stiffness". Other waves have parameters by `WaveFamily`. order: of the theory, as for
+    `crawl_speed`; 2 for motions that are mirror symmetric, at the cost of two deformations per
+    parameter (see `gradient.second`); for sheets that bend on their ground, without friction on the
+    lower face, likewise, but for harmonics of a travelling wave, which cost as one (see
+    `gradient.bending`). rtol: of the speed; the errors of the derivatives follow from it and are
+    estimated each. progress: True prints on stderr, a function is called with a `progress.Progress`.
 
     Where V has a kink, as where part of the sheet is at rest under dry friction, the result is a
     subgradient, and `kinks` says why. Errors do not count that of a measured wave.
@@ -124,8 +127,8 @@ def cost_gradient(
     """Derivatives of the cost of transport (`CrawlSpeed.cost_of_transport`, over mu), likewise.
 
     With P the power of friction and D the speed in any direction, d(P/D) = dP/D - P dD/D^2. Arguments
-    as for `speed_gradient`; order = 2 for sheets that bend alone. Raises ValueError as it does, and where the cost is infinite as no distance
-    is resolved.
+    as for `speed_gradient`; order = 2 for sheets that bend alone. Raises ValueError as it does, and
+    where the cost is infinite as no distance is resolved.
 
     >>> from linear_theory import Contact, Scene, Sheet, SineWave, Tanh, cost_gradient
     >>> scene = Scene(Sheet(), SineWave(), alpha=0.2, contact=Contact("current", Tanh(0.05)))
@@ -192,9 +195,7 @@ def _second(scene: Scene, over: Any, rtol: float) -> SpeedGradient:
     )
 
 
-def _asked(
-    scene: Any, over: Any, order: int = 1
-) -> tuple[tuple[Parameter, ...], list[Direction]]:
+def _asked(scene: Any, over: Any, order: int = 1) -> tuple[tuple[Parameter, ...], list[Direction]]:
     """Parameters and their directions. Raises ValueError as `speed_gradient` does."""
     scene = validation.instance("scene", scene, Scene)
     (PLATE if order == 2 and not scene.planar else THEORY).require(scene)

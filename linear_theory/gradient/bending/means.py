@@ -9,7 +9,7 @@ alone, with all else: sheet, ground, couplings, other waves.
 """
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -131,13 +131,10 @@ class BentDerivatives:
         """Of moments, enough for all degrees and for c."""
         shapes = self._shapes
         degrees = [shapes.plane.first.degree, shapes.plate.degree, shapes.stretch.degree]
-        across, along = (max(d) for d in zip(*degrees, strict=True))
-        found = across + across // 4 + 12, along + along // 4 + 12
-        if not self._waves:
-            return found
-        both = zip(found, self._wave_shapes.counts, strict=True)
-        across, along = (max(pair) for pair in both)
-        return across, along
+        if self._waves:
+            degrees += [self._wave_shapes.first.degree, self._wave_shapes.plate.degree]
+        across, along = (max(one[i] for one in degrees) for i in range(2))
+        return across + across // 4 + 12, along + along // 4 + 12
 
     def _sides(self, weights: TimeWeights) -> list[TimeWeights]:
         """Weights at both halves of a period of which one is known by V(t_0 - t) = V(t)."""
@@ -157,17 +154,19 @@ class BentDerivatives:
         """What weights make of the change of the deformation, (parts, k, 2, T) of both weights."""
         value = one.value(self.scene)
         step = STEP * (abs(value) or 1.0)
-        nodes, factors = (-1, 1), (-0.5, 0.5)
+        nodes, factors = [-1, 1], [-0.5, 0.5]
         if direction.poisson:  # towards smaller values, as it may be at its bound
-            nodes, factors = (0, -1, -2), (1.5, -2.0, 0.5)
-        found = [0.0, 0.0]
-        for node, factor in zip(nodes, factors, strict=True):
-            shapes = self._near(one.changed(self.scene, value + node * step))
-            for i, of in enumerate((weights, differences)):
-                sides = self._sides(of)
-                made = sum(shapes.works(side) for side in sides) / len(sides)
-                found[i] = found[i] + factor / step * made
-        return found[0], found[1]
+            nodes, factors = [0, -1, -2], [1.5, -2.0, 0.5]
+        near = [self._near(one.changed(self.scene, value + node * step)) for node in nodes]
+        whole, finer = (
+            np.tensordot(np.array(factors) / step, [self._made(one, of) for one in near], 1)
+            for of in (weights, differences)
+        )
+        return whole, finer
+
+    def _made(self, shapes: Shapes, of: TimeWeights) -> Array:
+        """What weights make of a deformation, the mean of both halves of the period."""
+        return mean_of(shapes.works(side) for side in self._sides(of))
 
     def _near(self, scene: Scene) -> Shapes:
         """The deformation of a scene near the own one; the own one where only couplings differ."""
@@ -180,17 +179,16 @@ class BentDerivatives:
     def _by_waves(self, weights: TimeWeights, differences: TimeWeights) -> tuple[Array, Array]:
         """Of harmonics, likewise."""
         changes = [self.directions[i].harmonics for i in self._waves]
-        found = []
-        for of in (weights, differences):
-            sides = self._sides(of)
-            found.append(sum(self._wave_shapes.at_times(s, changes) for s in sides) / len(sides))
-        values, errors = self._averaged(*found)
-        rules = _rules(self._grid)
-        sides = self._sides(weights)
-        whole = sum(self._wave_shapes.of_means(s, rules, changes) for s in sides) / len(sides)
-        checks = np.eye(differences.times.size)
-        sides = self._sides(differences)
-        finer = sum(self._wave_shapes.of_means(s, checks, changes) for s in sides) / len(sides)
+        waves, checks = self._wave_shapes, np.eye(differences.times.size)
+        at_times = [
+            mean_of(waves.at_times(side, changes) for side in self._sides(of))
+            for of in (weights, differences)
+        ]
+        values, errors = self._averaged(at_times[0], at_times[1])
+        whole, finer = (
+            mean_of(waves.of_means(side, rules, changes) for side in self._sides(of))
+            for of, rules in ((weights, _rules(self._grid)), (differences, checks))
+        )
         values[:, 1] += whole[:, :, 0].sum(0)
         errors[:, 1] += abs(whole[:, :, 1:].sum(0)).max(1) + SAFETY * abs(finer.sum(0)).max(1)
         fields = self._field_errors[1:3, None, None]
@@ -214,7 +212,13 @@ class BentDerivatives:
     def _field_errors(self) -> Array:
         """Relative, of each of `shapes.PARTS`."""
         plane, plate, stretch = self.terms.plane, self.terms.plate, self.terms.stretch
-        own = (plane.error, plane.second_error, stretch.error + 2 * plate.error, plane.error, plate.error)
+        own = (
+            plane.error,
+            plane.second_error,
+            stretch.error + 2 * plate.error,
+            plane.error,
+            plate.error,
+        )
         return FIELD_SAFETY * np.array(own)
 
     def _by_law(self, weights: TimeWeights, differences: TimeWeights) -> tuple[Array, Array]:
@@ -233,6 +237,11 @@ class BentDerivatives:
         means, errors = (one.reshape(both[0].shape[:-1]) for one in self._grid.means(flat))
         errors = errors + SAFETY * abs(both[1]).max(-1)
         return means.swapaxes(1, 2), errors.swapaxes(1, 2)
+
+
+def mean_of(parts: Iterable[Array]) -> Array:
+    """Of arrays."""
+    return np.mean(list(parts), axis=0)
 
 
 def _rules(grid: TimeGrid) -> Array:

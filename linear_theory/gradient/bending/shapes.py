@@ -85,10 +85,9 @@ class Shapes(NamedTuple):
                 -plate.pressing * plate.polynomials,
             )
         ]
-        a = weights.sizes
-        factors = (1.0, a, a * self.ratio**2, 1.0, self.ratio)
-        pairs = zip(factors, [*velocities, *loads], strict=True)
-        return np.stack([factor * part for factor, part in pairs])
+        a, ratio = weights.sizes, self.ratio
+        first, second, bent = velocities
+        return np.stack([first, a * second, a * ratio**2 * bent, loads[0], ratio * loads[1]])
 
 
 def load_polynomials(first: RitzField, load: Load, counts: tuple[int, int]) -> Array:

@@ -79,9 +79,7 @@ def _found(
     speed, motion = _solved(scene, rtol)
     start, alpha, course = time.perf_counter(), scene.alpha, motion.course
     assert course is not None
-    of = BentDerivatives(
-        scene, motion.terms, course, chosen, directions, QUANTITIES[:count], rtol
-    )
+    of = BentDerivatives(scene, motion.terms, course, chosen, directions, QUANTITIES[:count], rtol)
     derivatives, errors, flat = of.means()
     own, own_errors = (part[:, 1] for part in course.means())
     (work, work_errors), power = course.works(), speed.power

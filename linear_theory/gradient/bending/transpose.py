@@ -55,9 +55,7 @@ class QuadraticFlux(ABC):
         for s, (factors, z) in enumerate(zip(amplitudes.T, tested, strict=True)):
             here = np.tensordot(factors, table, 1)
             q, units = self.tests(z), np.eye(len(here))[:, :, None, None]
-            slopes = [
-                ((self.fluxes(here + e) - self.fluxes(here - e)) / 2 * q).sum(1) for e in units
-            ]
+            slopes = [((self.fluxes(here + e) - self.fluxes(here - e)) / 2 * q).sum(1) for e in units]
             found[:, :, s] = np.stack(slopes, 1).reshape(len(q), -1) @ flat.T
         return found
 

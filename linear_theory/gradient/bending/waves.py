@@ -163,9 +163,7 @@ class Waves:
         series = trigonometric_rates(weights.times, self._phases, self.series.period)
         summed = np.einsum("rt,ts,ktdij->skrdij", rules, series, mean, optimize=True)
         load = elastic.displacement_load(summed.reshape(-1, *summed.shape[-3:]))
-        return elastic.adjoint(solver, load, mirrored=True).reshape(
-            len(summed), -1, *summed.shape[-3:]
-        )
+        return elastic.adjoint(solver, load, mirrored=True).reshape(len(summed), -1, *summed.shape[-3:])
 
 
 def trigonometric_rates(times: Array, phases: Array, period: float) -> Array:

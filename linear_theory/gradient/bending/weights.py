@@ -28,7 +28,7 @@ from linear_theory.speed.plate.terms import PlateCoefficients
 Array = NDArray[np.float64]
 
 SMALL, SMALL_DRY = 1e-6, 2e-2
-"""a; the latter for dry friction, where points at rest move with a and cells must resolve by how far."""
+"""a; the latter for dry friction, where points at rest move with a, which cells must resolve."""
 
 NEWTON_STEPS = 3
 """From q_0 + a q_1."""
@@ -65,9 +65,13 @@ class TimeWeights(NamedTuple):
 
     def some(self, which: slice | NDArray[np.int64]) -> "TimeWeights":
         """At some of the times."""
-        at = (slice(None), slice(None), which)
-        parts = {"velocity": self.velocity[at], "load": self.load[at], "slip": self.slip[at]}
-        return self._replace(times=self.times[which], laws=self.laws[:, :, :, which], **parts)
+        return self._replace(
+            times=self.times[which],
+            velocity=self.velocity[:, :, which],
+            load=self.load[:, :, which],
+            slip=self.slip[:, :, which],
+            laws=self.laws[:, :, :, which],
+        )
 
     def reversed(self, time: float) -> "TimeWeights":
         """At the times t_0 - t, where V(t_0 - t) = V(t) as c(-y, t_0 - t) = c(y, t)."""
@@ -78,15 +82,19 @@ class TimeWeights(NamedTuple):
 
     def minus(self, other: "TimeWeights") -> "TimeWeights":
         """Differences to others at the same times."""
-        names = ("velocity", "load", "slip", "laws")
-        return self._replace(**{name: getattr(self, name) - getattr(other, name) for name in names})
+        return self._replace(
+            velocity=self.velocity - other.velocity,
+            load=self.load - other.load,
+            slip=self.slip - other.slip,
+            laws=self.laws - other.laws,
+        )
 
 
 def _products(moments: Array, polynomials: Array) -> Array:
     across, along = polynomials.shape[-2:]
     own = moments[..., :across, :along]
     flat = polynomials.reshape(len(polynomials), -1)
-    return np.asarray(own.reshape(*own.shape[: 3], -1) @ flat.T)
+    return np.asarray(own.reshape(*own.shape[:3], -1) @ flat.T)
 
 
 def orders(values: Array, size: float) -> Array:
@@ -114,10 +122,15 @@ def time_weights(
         which = slice(some, some + size)
         near = motion.leading[which], motion.remainder[which]
         parts.append(_batch(crawl, times[which], near, asked))
-    axes = {"times": 0, "laws": 3}
-    names = ("times", "velocity", "load", "slip", "laws")
-    joined = [np.concatenate([getattr(p, n) for p in parts], axes.get(n, 2)) for n in names]
-    return TimeWeights(*joined, size=parts[0].size, flat=any(p.flat for p in parts))
+    return TimeWeights(
+        times=times,
+        velocity=np.concatenate([part.velocity for part in parts], 2),
+        load=np.concatenate([part.load for part in parts], 2),
+        slip=np.concatenate([part.slip for part in parts], 2),
+        laws=np.concatenate([part.laws for part in parts], 3),
+        size=parts[0].size,
+        flat=any(part.flat for part in parts),
+    )
 
 
 def _batch(
