@@ -20,7 +20,7 @@ from linear_theory.balance.course import Course
 from linear_theory.balance.time_grid import TimeGrid
 from linear_theory.common.progress import track
 from linear_theory.gradient.bending.shapes import Shapes
-from linear_theory.gradient.bending.waves import Waves
+from linear_theory.gradient.bending.waves import Rules, Waves
 from linear_theory.gradient.bending.weights import Asked, TimeWeights, orders, time_weights
 from linear_theory.gradient.direction import Direction
 from linear_theory.gradient.means import CHECKED, PER_HARMONIC, SAFETY, law_changes
@@ -185,9 +185,9 @@ class BentDerivatives:
             for of in (weights, differences)
         ]
         values, errors = self._averaged(at_times[0], at_times[1])
-        whole, finer = (
-            mean_of(waves.of_means(side, rules, changes) for side in self._sides(of))
-            for of, rules in ((weights, _rules(self._grid)), (differences, checks))
+        whole, finer = waves.of_means(
+            [Rules(self._sides(weights), _rules(self._grid)), Rules(self._sides(differences), checks)],
+            changes,
         )
         values[:, 1] += whole[:, :, 0].sum(0)
         errors[:, 1] += abs(whole[:, :, 1:].sum(0)).max(1) + SAFETY * abs(finer.sum(0)).max(1)

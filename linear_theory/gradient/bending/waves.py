@@ -9,6 +9,7 @@ means over the period, see `transpose`.
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,6 +32,16 @@ from linear_theory.wave.travelling import TravellingWave
 
 Array = NDArray[np.float64]
 Change = Sequence[Harmonic]
+
+
+class Rules(NamedTuple):
+    """Linear functions of values at times (rules, T), as means are, and the weights of these.
+
+    sides: at the times, or at those of both halves of a period, of which the mean is taken.
+    """
+
+    sides: Sequence[TimeWeights]
+    rules: Array
 
 
 @dataclass(frozen=True)
@@ -122,29 +133,33 @@ class Waves:
             found.append(np.stack([np.einsum("kstj,jt->kst", *pair) for pair in pairs]))
         return np.stack(found, 2)
 
-    def of_means(self, weights: TimeWeights, rules: Array, changes: Sequence[Change]) -> Array:
-        """Changes of the odd part of what weights make of v_2 and v_b, (2, k, rules, changes).
-
-        rules (rules, T): linear functions of values at their times, as means are.
-        """
-        phases = self._phases
+    def of_means(self, rules: Sequence[Rules], changes: Sequence[Change]) -> list[Array]:
+        """Changes of the odd part of what weights make of v_2 and v_b, (2, k, rules, changes) each."""
+        phases, ratio = self._phases, self.shapes.ratio
         slopes = np.stack([self.changes(change, phases) for change in changes])
         here = self.amplitudes(self.series, phases)
-        source = self.shapes.plane._source
-        plane = Source(self.first.drive, self.first.gradient_polynomials, source.square, source.weight)
-        solver, bent = self.first.solver, self.shapes.stretch.degree
-        bent = bent if self._has_all else self.plate.degree
-        bending = BendingSource(self.plate, bent)
-        parts: list[tuple[QuadraticFlux, RitzSolver, float]] = [
-            (PlaneFlux(self.first, plane), solver, 1.0),
-            (BendingFlux(self.first, bending), RitzSolver(solver.sheet, bent), self.shapes.ratio**2),
-        ]
         found = []
-        for flux, own, factor in parts:
-            tested = self._tested(weights, rules, own)
+        for flux, solver, factor in zip(self._fluxes, self._solvers, (1.0, ratio**2), strict=True):
+            tested = np.concatenate([self._tested(one, solver) for one in rules], 1)
             by_cases = factor * flux.by_cases(here, tested)
             found.append(np.einsum("njs,cjs->nc", by_cases, slopes))
-        return np.reshape(found, (2, len(weights.velocity), len(rules), len(changes)))
+        sizes = [len(one.sides[0].velocity) * len(one.rules) for one in rules]
+        parts = np.split(np.stack(found), np.cumsum(sizes)[:-1], 1)
+        shapes = [(2, -1, len(one.rules), len(changes)) for one in rules]
+        return [part.reshape(shape) for part, shape in zip(parts, shapes, strict=True)]
+
+    @property
+    def _fluxes(self) -> tuple[QuadraticFlux, QuadraticFlux]:
+        """Of u_2 and of the stretching by deflection."""
+        first, own = self.first, self.shapes.plane._source
+        plane = Source(first.drive, first.gradient_polynomials, own.square, own.weight)
+        bending = BendingSource(self.plate, self._solvers[1].degree)
+        return PlaneFlux(first, plane), BendingFlux(first, bending)
+
+    @cached_property
+    def _solvers(self) -> tuple[RitzSolver, RitzSolver]:
+        bent = self.shapes.stretch.degree if self._has_all else self.plate.degree
+        return self.first.solver, RitzSolver(self.shapes.plate.sheet, bent)
 
     @cached_property
     def _phases(self) -> Array:
@@ -152,18 +167,22 @@ class Waves:
         count = 4 * self.all.cosine.size + 1
         return np.linspace(0, self.series.period, count, endpoint=False)
 
-    def _tested(self, weights: TimeWeights, rules: Array, solver: RitzSolver) -> Array:
-        """Displacements on which the fluxes at each phase do work, (phases, n, 2, ...).
+    def _tested(self, of: Rules, solver: RitzSolver) -> Array:
+        """Displacements on which the fluxes at each phase do work, (phases, k rules, 2, ...).
 
         Between the phases, fluxes are trigonometric polynomials: their rates at other times are sums
         over the phases.
         """
         across, along = solver.degree
-        mean = weights.velocity.mean(1)[..., : across + 1, : along + 1]  # of both signs, a cancels
-        series = trigonometric_rates(weights.times, self._phases, self.series.period)
-        summed = np.einsum("rt,ts,ktdij->skrdij", rules, series, mean, optimize=True)
-        load = elastic.displacement_load(summed.reshape(-1, *summed.shape[-3:]))
-        return elastic.adjoint(solver, load, mirrored=True).reshape(len(summed), -1, *summed.shape[-3:])
+        summed = 0.0
+        for weights in of.sides:
+            mean = weights.velocity.mean(1)[..., : across + 1, : along + 1]  # of both signs, a cancels
+            series = trigonometric_rates(weights.times, self._phases, self.series.period)
+            summed = summed + np.einsum("rt,ts,ktdij->skrdij", of.rules, series, mean, optimize=True)
+        moments = np.asarray(summed) / len(of.sides)
+        load = elastic.displacement_load(moments.reshape(-1, *moments.shape[-3:]))
+        z = elastic.adjoint(solver, load, mirrored=True)
+        return z.reshape(len(moments), -1, *moments.shape[-3:])
 
 
 def trigonometric_rates(times: Array, phases: Array, period: float) -> Array:
