@@ -27,6 +27,9 @@ DEGREE = (9, 17)
 
 CELLS = Resolution(4.0, 7, 0, 1e-13)
 
+PANELS = 8
+"""Of half a period, where one half is known by V(t_0 - t) = V(t)."""
+
 STEP = 1e-3
 """Of a direction; the error of its difference is of the fourth power."""
 
@@ -74,10 +77,10 @@ class Frozen:
             cells=cells,
             width=own.sheet.width,
         )
-        start, share = 0.0, 1.0
-        if (reversal := own.drive.reversal_time) is not None and crawl.reversal_time is not None:
-            start, share = reversal / 2, 0.5
-        grid = first_grid(start, start + share * own.period, 5)
+        reversal = own.drive.reversal_time
+        start, panels = (0.0, 5) if reversal is None else (reversal / 2, 2 * PANELS)
+        share = 1.0 if crawl.reversal_time is None else 0.5
+        grid = first_grid(start, start + share * own.period, int(share * panels))
         return terms, Course(crawl, grid, crawl.balance(grid.times))
 
     def orders(self, scene: Scene):

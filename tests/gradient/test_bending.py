@@ -10,7 +10,7 @@ from fem_check.optimisation.adjoint import Adjoint
 from fem_check.optimisation.objectives import Speed
 from fem_check.optimisation.unknowns import Unknowns
 from linear_theory import (
-    FieldWave,
+    FractionalWave,
     Scene,
     Sheet,
     SineWave,
@@ -65,7 +65,7 @@ CASES = {
 
 @pytest.mark.parametrize("case", CASES)
 def test_derivatives_on_a_frozen_grid_are_those_of_differences(case):
-    """Of speed and power, along a random direction of all parameters, to 1e-6 of the size of its parts."""
+    """Of speed and power, along a random direction of all parameters, to 1e-6 of its parts."""
     wave, law, seed, waves = CASES[case]
     scene, names = scene_of(wave, law, seed), [*PLATE, *waves]
     direction, frozen = direction_of(scene, names), Frozen(scene)
@@ -81,7 +81,7 @@ def gradient_at(rtol: float):
 
 
 def test_stated_errors_are_not_smaller_than_true_ones():
-    loose, tight = gradient_at(1e-3), gradient_at(1e-6)
+    loose, tight = gradient_at(1e-3), gradient_at(1e-4)
     share = abs(loose.values - tight.values) / loose.errors
     assert 1e-4 < share.max() <= 1
     assert np.all(loose.errors < 0.1 * np.linalg.norm(tight.values) + abs(tight.values))
@@ -129,13 +129,11 @@ def test_a_narrow_sheet_is_the_exact_strip():
 
 
 def test_a_wave_that_is_no_series_and_a_family_of_it():
-    """The same pulse, given as a function, by its first amplitude."""
+    """The same pulse, as one of not quite a whole number of waves, by its first amplitude."""
 
     def wave(size):
-        def value(x, y, t):
-            return PULSE.value(x, y, t) + (size - 0.5) * np.cos(2 * np.pi * (y - t))
-
-        return FieldWave(value, period=1.0)
+        profile = TravellingWave([size, 0.2], PULSE.sine, mean=0.1)
+        return FractionalWave(profile, 1 + 1e-9)
 
     family = WaveFamily("size", 0.5, wave)
     found = speed_gradient(scene_of(wave(0.5)), [family, "sheet.thickness"], order=2, rtol=1e-2)
@@ -146,11 +144,11 @@ def test_a_wave_that_is_no_series_and_a_family_of_it():
 
 def test_the_gradient_of_the_cost_is_that_of_differences():
     """Of speeds that are solved anew."""
-    scene, step = scene_of(law=Tanh(0.2)), 1e-2
+    scene, step = scene_of(law=Tanh(0.02)), 1e-2
     (one,) = parameters("sheet.thickness")
     found = cost_gradient(scene, [one], order=2, rtol=1e-3)
     ends = [
-        crawl_speed(one.changed(scene, 0.03 * (1 + s * step)), order=2, rtol=1e-5).cost_of_transport
+        crawl_speed(one.changed(scene, 0.03 * (1 + s * step)), order=2, rtol=1e-4).cost_of_transport
         for s in (1, -1)
     ]
     want = (ends[0].value - ends[1].value) / (2 * 0.03 * step)
@@ -170,11 +168,11 @@ def test_the_best_couplings_are_those_of_a_scan():
     for towards in (1, -1):
         found = form.best(0.1, 2.0, towards)
         scan = [form.at(0.1 * np.cos(a), 2.0 * np.sin(a)).value for a in angle]
-        assert towards * found.speed.value == pytest.approx(max(towards * v for v in scan), rel=1e-6)
+        assert towards * found.speed.value == pytest.approx(max(towards * v for v in scan), rel=1e-5)
         assert form.at(found.alpha, found.beta).value == pytest.approx(found.speed.value)
         assert (found.alpha / 0.1) ** 2 + (found.beta / 2.0) ** 2 == pytest.approx(1.0)
     with pytest.raises(ValueError, match="lifts off"):
-        form.best(0.1, 100.0)
+        form.best(0.1, 100.0, towards=-1)
     with pytest.raises(ValueError, match="first degree"):
         QuadraticForm(Estimate(0.1, 0.0), Estimate(1.5, 0.0)).best(0.1, 2.0)
 
@@ -187,22 +185,22 @@ def test_what_has_no_gradient_is_refused_by_name():
         speed_gradient(scene_of(), "alpha")  # order 1
     with pytest.raises(ValueError, match="order = 2"):
         cost_gradient(flat, "alpha", order=2)
-    lower = scene_of().but(
-        effects=[*scene_of().effects[:-1], Friction(1e-3, law="viscous", surface="bottom")]
-    )
+    below = Friction(1e-3, law="viscous", surface="bottom")
+    effects = [*(e for e in scene_of().effects if not isinstance(e, Friction)), below]
     with pytest.raises(ValueError, match="lower face"):
-        speed_gradient(lower, "alpha", order=2)
+        speed_gradient(scene_of().but(effects=effects), "alpha", order=2)
     with pytest.raises(ValueError, match="lifts off"):
         speed_gradient(scene_of().but(curvature_coupling=5.0), "alpha", order=2)
 
 
 def test_optimise_has_the_gradient_of_a_sheet_that_bends():
-    scene = scene_of()
+    scene = scene_of(law=Tanh(0.1))
     unknowns = Unknowns(
         scene, {"growth.curvature_coupling": (-0.3, 0.3), "sheet.thickness": (0.02, 0.05)}
     )
     adjoint = Adjoint.of(unknowns, Speed(), 1e-3, "second order")
     found = adjoint(unknowns.present)
-    assert found.gradient[0] == pytest.approx(-0.004195 * 0.6, rel=1e-2)
+    want = speed_gradient(scene, ["growth.curvature_coupling", "sheet.thickness"], order=2, rtol=1e-3)
+    assert found.gradient == pytest.approx(want.values * [0.6, 0.03], rel=1e-6)
     assert Adjoint.of(unknowns, Speed(), 1e-3, "first order") is None
     assert Adjoint.of(unknowns, Speed(), 1e-3, "cycle") is None
