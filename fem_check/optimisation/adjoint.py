@@ -1,10 +1,11 @@
-"""Gradients by an adjoint: of small-strain theory, by the package `linear_theory.gradient` if it is
-there.
+"""Gradients by an adjoint: of small-strain theory, and of second order for sheets that bend, by the
+package `linear_theory.gradient` if it is there.
 
 A gradient there costs about as much as the speed, for any number of unknowns. It is asked for by the
 names of the unknowns, of fields as in scene files, of harmonics "wave.cosine.0" for cos phi and so on.
 """
 
+import math
 from collections.abc import Callable
 from importlib import import_module
 from importlib.util import find_spec
@@ -24,11 +25,22 @@ Array = NDArray[np.float64]
 
 PACKAGE = "linear_theory.gradient"
 
-LEVEL = "first order"
-"""The level whose speeds it differentiates."""
+ORDERS = {"first order": 1, "second order": 2}
+"""The levels whose speeds it differentiates, and their orders; the second of sheets that bend alone."""
+
+NUMBERS = (
+    *("growth.alpha", "growth.curvature_coupling", "gravity.weight", "ground.stiffness"),
+    *("sheet.width", "sheet.poisson", "sheet.thickness"),
+)
+"""Of a sheet that bends. One that changes with a field other than its own, as the weight of a given
+density does with the thickness, leaves derivatives to differences."""
 
 SMALL = 1e-4
 """Change of an unknown over which the number of a field is differentiated: its scenes cost nothing."""
+
+
+SAME = 1e-9
+"""Relative change of a number that is none."""
 
 
 class Gradient(Protocol):
@@ -41,10 +53,11 @@ class Gradient(Protocol):
 
 
 class Adjoint:
-    """The objective of unknowns and its gradient; rtol: of the speed."""
+    """The objective of unknowns and its gradient; rtol: of the speed; order: of the theory."""
 
-    def __init__(self, unknowns: Unknowns, objective: Objective, rtol: float) -> None:
-        self._unknowns, self._objective, self._rtol = unknowns, objective, rtol
+    def __init__(self, unknowns: Unknowns, objective: Objective, rtol: float, order: int = 1) -> None:
+        self._unknowns, self._objective = unknowns, objective
+        self._asked = {"rtol": rtol, "order": order} if order > 1 else {"rtol": rtol}
         self._package: Any = import_module(PACKAGE)
         harmonics = unknowns.harmonics
         waves = [] if harmonics is None else [_renamed(name) for name in harmonics.names]
@@ -52,14 +65,20 @@ class Adjoint:
         self._parameters = self._package.parameters(self._names)
 
     @classmethod
-    def of(cls, unknowns: Unknowns, objective: Objective, rtol: float) -> "Adjoint | None":
-        """None where there is no gradient of these unknowns, or of this objective."""
+    def of(
+        cls, unknowns: Unknowns, objective: Objective, rtol: float, level: str = "first order"
+    ) -> "Adjoint | None":
+        """None where there is no gradient of these unknowns, of this objective, or at this level."""
+        order = ORDERS.get(level)
+        if order is None or (order > 1) == unknowns.scene.planar:
+            return None
         known = isinstance(objective, CostOfTransport) or objective.slope(unknowns.scene) is not None
         if not known or unknowns.scene.alpha == 0 or find_spec(PACKAGE) is None:
             return None
         try:
-            return cls(unknowns, objective, rtol)
-        except ValueError:
+            found = cls(unknowns, objective, rtol, order)
+            return found if order == 1 or found._changes_one_by_one() else None
+        except (ValueError, Unusable):
             return None  # a field that it does not know
 
     def __call__(self, point: Array) -> Evaluation:
@@ -70,7 +89,7 @@ class Adjoint:
             self._package, "cost_gradient" if is_cost else "speed_gradient"
         )
         try:
-            found = work(scene, self._names, rtol=self._rtol)
+            found = work(scene, self._names, **self._asked)
         except (SheetcrawlError, ValueError, ArithmeticError) as problem:
             raise Unusable(" ".join(str(problem).split())) from None
         if found.speed.beyond_reach:
@@ -85,6 +104,18 @@ class Adjoint:
             abs(chain) * found.errors,
             "; ".join(found.kinks),
         )
+
+    def _changes_one_by_one(self) -> bool:
+        """Whether each field changes no other number of the scene than its own."""
+        unknowns, numbers = self._unknowns, self._package.parameters(NUMBERS)
+        centre = unknowns.region.centre
+        for place, field in enumerate(unknowns.fields):
+            move = SMALL * np.eye(centre.size)[place]
+            ends = [unknowns.scene_at(centre + sign * move) for sign in (1, -1)]
+            others = [one for one in numbers if one.name != field.name]
+            if not all(math.isclose(*map(one.value, ends), rel_tol=SAME) for one in others):
+                return False
+        return True
 
     def _chain(self, point: Array) -> Array:
         """Derivatives of the parameters by the unknowns."""
