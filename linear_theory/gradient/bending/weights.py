@@ -21,8 +21,8 @@ from linear_theory.balance.crawl import BATCH
 from linear_theory.common.progress import track
 from linear_theory.friction.law import FrictionLaw
 from linear_theory.gradient.adjoint import AdjointBalance, LawChange
+from linear_theory.gradient.moments import moments
 from linear_theory.gradient.quantity import Quantity
-from linear_theory.gradient.sensitivity import _moments
 from linear_theory.speed.plate.terms import PlateCoefficients
 
 Array = NDArray[np.float64]
@@ -150,8 +150,8 @@ def _batch(
         for _ in range(NEWTON_STEPS):
             q = balance.polished(q, a)
         found.append(balance.weights(q, a, asked.quantities, asked.laws))
-    velocity = np.stack([_moments(crawl, one.velocity, asked.counts) for one in found], 1)
-    load = np.stack([_moments(crawl, one.load, asked.counts) for one in found], 1)
+    velocity = np.stack([moments(crawl, one.velocity, asked.counts, None) for one in found], 1)
+    load = np.stack([moments(crawl, one.load, asked.counts, None) for one in found], 1)
     return TimeWeights(
         times=times,
         velocity=np.moveaxis(velocity, 2, 3),
