@@ -15,10 +15,12 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from linear_theory.balance.balance import _AREA
 from linear_theory.common.pairs import product
 from linear_theory.gradient.adjoint import AdjointBalance, LawChange, _State
-from linear_theory.gradient.leaves import gathered, point_weights
+from linear_theory.gradient.leaves import gathered, local_coordinates, point_weights
 from linear_theory.gradient.quantity import ALONG
+from linear_theory.motion.cells import Graded
 
 Array = NDArray[np.float64]
 
@@ -45,8 +47,8 @@ class CycleAdjoint(AdjointBalance):
     def by_points(self, q: Array, laws: Sequence[LawChange] = ()) -> PointWeights:
         """The derivatives of V_y at the motion q (times, 3); cells are frozen."""
         unknowns = self._unknowns(q)
-        leaves, where = self._leaves(unknowns)
-        at = _Points(self, leaves, unknowns, 0.0)  # the load is in the area, and not expanded
+        leaves, where, shares = self._leaves_and_shares(unknowns)
+        at = _Points(self, leaves, unknowns, 0.0, shares)  # the load is in the area, and not expanded
         points, numbers = at.by_points(laws)
         count, cells, n, _ = self._values.shape[1:]
         found = gathered(leaves, where, points, count * cells).reshape(-1, count, cells, n, n)
@@ -60,10 +62,30 @@ class CycleAdjoint(AdjointBalance):
             flat=at.flat,
         )
 
+    def _leaves_and_shares(self, q: Array) -> tuple[Graded, Array, Array]:
+        """As `_leaves`, and what the parts of cut cells multiply the area by, (leaves, n, n)."""
+        channels, count, cells, n, _ = self._values.shape
+        place = np.broadcast_to(local_coordinates(n)[:, None], (2, count * cells, n, n))
+        flat = self._values.reshape(channels, count * cells, n, n)
+        whole = np.concatenate([flat, place, flat[_AREA : _AREA + 1]])
+        whole[_AREA] = 1.0
+        leaves = self._refined(
+            whole,
+            np.arange(count * cells),
+            lambda values, owners: [self._moved(values, q[owners // cells])],
+            self._stages[-1][0],
+        )
+        values, where = leaves.values[:channels], leaves.values[channels:-1]
+        shares = values[_AREA].copy()
+        values[_AREA] *= leaves.values[-1]
+        return leaves._replace(values=values), where, shares
+
 
 @dataclass(frozen=True)
 class _Points(_State):
-    """The points of all leaves in a motion q."""
+    """The points of all leaves in a motion q; shares: see `CycleAdjoint`."""
+
+    shares: Array
 
     def by_points(self, laws: Sequence[LawChange]) -> tuple[Array, Array]:
         """By velocity, load and place at the points, (5, leaves, n, n), and by numbers."""
@@ -73,7 +95,8 @@ class _Points(_State):
         velocity = load * product(self.law.tangent, virtual)
         force = self.law.force.copy()
         force[1] += own._slope
-        by_load = point_weights(self.leaves, w.shape[-1]) * (force * virtual).sum(0)
+        weights = self.shares * point_weights(self.leaves, w.shape[-1])
+        by_load = weights * (force * virtual).sum(0)
         place = np.zeros_like(velocity)
         if multipliers.shape[1] > 1:  # the sheet may turn
             turn, lever = (part[:, 2, None, None] for part in (self.q[self.times], multipliers))
