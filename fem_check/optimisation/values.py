@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from fem_check.choice.result import Prediction
 from fem_check.choice.settings import RTOL, RunSettings
 from fem_check.choice.solving import solve
-from fem_check.optimisation.adjoint import LEVEL, Adjoint
+from fem_check.optimisation.adjoint import Adjoint
 from fem_check.optimisation.kept import Kept
 from fem_check.optimisation.objectives import Objective
 from fem_check.optimisation.unknowns import Unknowns
@@ -98,9 +98,8 @@ class Question:
 
     @cached_property
     def _adjoint(self) -> Adjoint | None:
-        if self.settings.level != LEVEL:
-            return None
-        return Adjoint.of(self.unknowns, self.objective, self.settings.rtol or RTOL)
+        run = self.settings
+        return Adjoint.of(self.unknowns, self.objective, run.level, run.rtol or RTOL)
 
     def along_line(self, width: float | None) -> OfPoints:
         """With the gradient on a strip. width: of a tanh law instead of dry friction, over the unit."""

@@ -69,7 +69,7 @@ def _model(scene: Scene, like: ShellModel) -> ShellModel:
     stretch = scene.sheet.width / like.scene.sheet.width
     if stretch == 1:
         model = ShellModel(scene)
-        model.__dict__["discretisation"] = like.discretisation
+        model.discretisation = like.discretisation
         return model
     mesh = like.discretisation.mesh.scaled((stretch, 1.0))
     return ShellModel(scene.but(cells=None, mesh=mesh))

@@ -39,6 +39,12 @@ Array = NDArray[np.float64]
 MEAN, COARSE, SINGLE = 0, 1, 2
 """Rows of the rule in time: the mean over the period, that by a coarser rule, single times from there."""
 
+LEAST_SHARE = 0.25
+"""Of the relative error of the speed, below which that of a derivative by the mesh is not believed."""
+
+ROUNDOFF = 1e-12
+"""Of the largest derivative."""
+
 
 @one_blas_thread
 def cycle_gradient(
@@ -109,8 +115,10 @@ class _Gradient:
         rows, flat = self._rows()
         mean, coarse, thinned, *cells = rows
         error = SAFETY * (abs(coarse - mean) + abs(np.array(cells)).max(0))
-        error += self._unresolved * abs(thinned - mean) + self._by_mesh(mean)
+        error += self._unresolved * abs(thinned - mean)
+        error += np.maximum(self._by_mesh(mean), self._least * abs(mean))
         error += self.speed.error * np.array([abs(d.period) for d in self.directions])
+        error += ROUNDOFF * abs(mean).max()
         seconds, period = time.perf_counter() - start, self._period
         still = self._solved.contact.friction.width == 0 and period.fastest == 0
         kinks, over = kinks_of(period.sticks or still, flat), tuple(self.parameters)
@@ -221,6 +229,11 @@ class _Gradient:
         sums = self._sums(other, changes, leading, self._rule[:1])
         found = sums.explicit + StaticAdjoint(shapes).along(sums.states, changes)
         return np.asarray(abs(found[0] - mean) / gain)
+
+    @property
+    def _least(self) -> float:
+        """Of the relative error by the mesh: its difference to another one may vanish by accident."""
+        return LEAST_SHARE * min(self.speed.error / abs(self.speed.mean or 1.0), 1.0)
 
     @cached_property
     def _unresolved(self) -> Array:
