@@ -26,7 +26,7 @@ SMALL = 1e-4
 
 
 class Way(NamedTuple):
-    """How a level is differentiated: parameters from names, and gradients of speed and cost (if any)."""
+    """How a level is differentiated: parameters by names, gradients of speed and, if any, of cost."""
 
     parameters: Callable[[Any], tuple[Parameter, ...]]
     speed: Callable[..., Gradient]

@@ -1,4 +1,4 @@
-"""The gradient of the speed of a cycle of shapes, by the adjoints of friction balance and equilibrium."""
+"""The gradient of the speed of a cycle of shapes, by adjoints of friction balance and equilibrium."""
 
 from fem_check.shell.cycle.gradient.gradient import cycle_gradient
 

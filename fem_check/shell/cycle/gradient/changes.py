@@ -1,4 +1,4 @@
-"""What parameters change in a cycle of shapes: the wave at every point, friction, or the scene as a whole.
+"""What parameters change in a cycle of shapes: the wave at every point, friction, or all of the scene.
 
 Waves are many and cheap: their changes dc(x, y, t) meet one density for all. Couplings, sheet, weight
 and ground are few: forces and motions at frozen shapes are taken from scenes with other values, by
@@ -140,7 +140,11 @@ class Changes:
 
     @classmethod
     def of(
-        cls, chosen: Sequence[Parameter], directions: Sequence[Direction], balance: CycleBalance, scene: Scene
+        cls,
+        chosen: Sequence[Parameter],
+        directions: Sequence[Direction],
+        balance: CycleBalance,
+        scene: Scene,
     ) -> "Changes":
         """Of parameters; balance: of the shapes to be differentiated; scene: that of the speed."""
         model = balance.shapes.model
@@ -154,5 +158,3 @@ class Changes:
 def is_of_scene(d: Direction) -> bool:
     """Whether a parameter is differentiated by scenes with other values."""
     return not (d.harmonics or d.growth or d.slip or d.period or d.law or d.map)
-
-

@@ -3,9 +3,9 @@
 As `linear_theory.gradient.adjoint`, for the loads and places of a nonlinear sheet: with the multipliers
 lambda of H lambda = -g and the virtual motion r = sum_j lambda_j R_j, V_y changes by
 
-    dJ = int load (D r) . dv + (f + s e_y) . r dload + dR-terms,
+    dJ = int load (D r) . dv + (f + s e_y) . r dload + ...,
 
-s the slope, and the last those of the arms of turning, in w = v + ... + Omega (-y, x) and in the moment.
+s the slope; the dots stand for the arms of turning, in w = v + ... + Omega (-y, x) and in the moment.
 """
 
 from collections.abc import Sequence

@@ -37,7 +37,7 @@ from linear_theory.speed.wave_error import with_wave_error
 Array = NDArray[np.float64]
 
 MEAN, COARSE, SINGLE = 0, 1, 2
-"""Rows of the rule in time: the mean over the period, that by a coarser rule, single times from there."""
+"""Rows of the rule in time: the mean over the period, that by a coarser rule; then single times."""
 
 LEAST_SHARE = 0.25
 """Of the relative error of the speed, below which that of a derivative by the mesh is not believed."""
@@ -128,7 +128,7 @@ class _Gradient:
         """Derivatives of V, by a coarser rule in time, by half the phases; changes by finer cells."""
         own = self._sums(self._balance, self._changes, self._leading, self._rule)
         thinned, finer = self._thinned, self._finer
-        states = [own.states[: SINGLE], thinned.states, finer.states - own.states[SINGLE:]]
+        states = [own.states[:SINGLE], thinned.states, finer.states - own.states[SINGLE:]]
         explicit = [own.explicit[:SINGLE], thinned.explicit, finer.explicit - own.explicit[SINGLE:]]
         statics = StaticAdjoint(self._balance.shapes).along(np.concatenate(states), self._changes)
         return np.concatenate(explicit) + statics, own.flat
@@ -225,7 +225,10 @@ class _Gradient:
         """What another mesh changes, over the least ratio of that to the error, (parameters,)."""
         shapes, gain = self.cycle.other(self._balance)
         other = self._balance.on(shapes)
-        changes, leading = self._changes_on(other), other.balance(self._grid.times, self._leading).leading
+        changes, leading = (
+            self._changes_on(other),
+            other.balance(self._grid.times, self._leading).leading,
+        )
         sums = self._sums(other, changes, leading, self._rule[:1])
         found = sums.explicit + StaticAdjoint(shapes).along(sums.states, changes)
         return np.asarray(abs(found[0] - mean) / gain)

@@ -164,8 +164,8 @@ def _unframed(
         -b * by_spin / square,
         a * by_spin / square,
     ]
-    stacked = (np.stack(part)[..., 0] for part in (means, rates))
-    return np.stack([by_x, by_y]), np.stack([by_vx, by_vy]), *stacked
+    by_means, by_rates = (np.stack(part)[..., 0] for part in (means, rates))
+    return np.stack([by_x, by_y]), np.stack([by_vx, by_vy]), by_means, by_rates
 
 
 @dataclass(frozen=True)

@@ -104,10 +104,9 @@ class OfEffect(OfScene):
     def changed(self, scene: Scene, value: float) -> Scene:
         """See Parameter."""
         self.value(scene)
-        effects = [
-            replace(effect, **{self.field: value}) if isinstance(effect, self.kind) else effect
-            for effect in scene.effects
-        ]
+        own = scene.find(self.kind)
+        other = replace(own, **{self.field: value})
+        effects = [other if effect is own else effect for effect in scene.effects]
         return scene.but(effects=effects)
 
 
@@ -124,8 +123,7 @@ class Stiffness(OfEffect):
 
 
 OWN: dict[str, Parameter] = {
-    one.name: one
-    for one in (Thickness(), PoissonRatio(), CurvatureCoupling(), Weight(), Stiffness())
+    one.name: one for one in (Thickness(), PoissonRatio(), CurvatureCoupling(), Weight(), Stiffness())
 }
 """By their names, as in scene files."""
 

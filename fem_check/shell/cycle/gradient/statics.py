@@ -95,7 +95,7 @@ class StaticAdjoint:
         growth, (x, y) = model.scene.growth, region.parameters.reshape(2, -1)
         bent = abs(growth.curvature_coupling) * model.scene.sheet.length
         step = GROWTH_STEP / max(abs(growth.alpha), bent)
-        c, found = model.growth(t, x, y), 0.0
+        c, found = model.growth(t, x, y), np.zeros(1)
         for k, factor in CENTRAL.items():
             other = here.under(grown_state(region, c + k * step, growth))
             found = found + factor / step * _virtual_work(self.effects, other, jets)
@@ -114,7 +114,7 @@ class StaticAdjoint:
 
 
 def _jets(region: Region, virtual: Array, effects: Any) -> list[Array]:
-    """Derivatives of virtual displacements that each effect reads, (rules, entries, components, points)."""
+    """Derivatives of virtual displacements that effects read, (rules, entries, components, points)."""
     return [np.stack([region.displacement(row, e.entries) for row in virtual]) for e in effects]
 
 
