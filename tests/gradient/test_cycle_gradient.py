@@ -1,6 +1,7 @@
 """The gradient of a cycle of shapes: exact on frozen grids, honest, for small growth that of theory."""
 
 from dataclasses import replace
+from importlib.resources import files
 
 import numpy as np
 import pytest
@@ -17,6 +18,9 @@ from fem_check import (
     cycle_speed,
     optimise,
 )
+from fem_check.optimisation.adjoint import Adjoint
+from fem_check.optimisation.objectives import objective_of
+from fem_check.optimisation.optimise_file import read
 from fem_check.shell.cycle.balance import CycleBalance
 from fem_check.shell.cycle.gradient.changes import Changes
 from fem_check.shell.cycle.gradient.parameters import cycle_parameters
@@ -49,9 +53,9 @@ def oblique(s):
     return FieldWave(lambda x, y, t: np.sin(2 * np.pi * (s * x + y - t)) * (1 + 0.3 * x), 1.0)
 
 
-def on_ground(surface="middle"):
+def on_ground():
     material = Material(0.03, 0.3)
-    ground = (Gravity(2.5e-4), Ground(0.5), Friction(1.0, slip_speed=0.1, surface=surface))
+    ground = (Gravity(2.5e-4), Ground(0.5), Friction(1.0, slip_speed=0.1, surface="bottom"))
     effects = (Membrane(material), Bending(material), *ground)
     sheet = Sheet(poisson=0.3)
     return Scene(sheet, PULSE, alpha=0.1, curvature_coupling=0.8, effects=effects, cells=(2, 4))
@@ -72,10 +76,9 @@ FROZEN = {
         FLAT.but(wave=oblique(0.2), contact=Contact("current", Viscous())),
         ["growth.alpha", WaveFamily("tilt", 0.2, oblique)],
     ),
-    "bent": (on_ground(), [*SHEET, *BENT, *WAVE]),
-    "lower face": (on_ground("bottom"), ["growth.alpha", *BENT]),
+    "lower face": (on_ground(), [*SHEET, *BENT, *WAVE]),
 }
-COUNT = 8
+COUNT = 6
 
 
 class Frozen:
@@ -84,8 +87,8 @@ class Frozen:
     def __init__(self, scene):
         self.scene, self.model = scene, ShellModel(scene)
         self.shapes = cycle_of_shapes(self.model, COUNT)
-        self.times = np.linspace(0.03, 0.97, 5)
-        self.rule = np.array([[1.0, 0.7, 1.2, 0.9, 0.4]])
+        self.times = np.array([0.03, 0.41, 0.77])
+        self.rule = np.array([[1.0, 0.7, 1.2]])
 
     def _balance(self, shapes):
         found = CycleBalance.of(shapes, shapes.scene.contact, 1e-2)
@@ -149,35 +152,34 @@ def found():
 
 
 def test_stated_errors_are_not_smaller_than_true_ones(found):
-    finer = cycle_gradient(FLAT.but(cells=(4, 8)), found.parameters, rtol=2e-3)
+    finer = cycle_gradient(FLAT.but(cells=(3, 6)), found.parameters, rtol=5e-3)
     assert np.all(abs(found.values - finer.values) <= found.errors)
     assert np.all(finer.errors < found.errors)
     assert not found.kinks
 
 
 def test_whole_evaluations_differ_as_the_gradient_says(found):
-    for name, step in {"growth.alpha": 1e-2, "wave.sine.1": 2e-2}.items():
-        one = cycle_parameters(name)[0]
-        ends = [
-            cycle_speed(one.changed(FLAT, one.value(FLAT) + sign * step), rtol=1e-2) for sign in (1, -1)
-        ]
-        slope = (ends[0].mean - ends[1].mean) / (2 * step)
-        error = dict(zip(found.names, found.errors, strict=True))[name]
-        assert abs(found[name] - slope) <= error + 1e-3 * abs(slope)
+    step, one = 2e-2, cycle_parameters("wave.sine.1")[0]
+    ends = [
+        cycle_speed(one.changed(FLAT, one.value(FLAT) + sign * step), rtol=1e-2) for sign in (1, -1)
+    ]
+    slope = (ends[0].mean - ends[1].mean) / (2 * step)
+    error = dict(zip(found.names, found.errors, strict=True))[one.name]
+    assert abs(found[one.name] - slope) <= error + 1e-3 * abs(slope)
 
 
 def test_small_growth_has_the_gradient_of_theory():
-    scene = FLAT.but(alpha=0.01, cells=(4, 8), contact=Contact("current", Tanh(0.005)))
-    over = ["growth.alpha", "sheet.width", "sheet.poisson", "wave.cosine.1", "friction.slip_speed"]
+    scene = FLAT.but(alpha=1e-3, contact=Contact("current", Viscous()))
+    over = ["growth.alpha", "wave.cosine.1", "wave.sine.0", "sheet.width", "sheet.poisson"]
     ours, theory = cycle_gradient(scene, over), speed_gradient(scene, over, order=2, rtol=1e-3)
-    third = scene.alpha**2 * abs(theory.values)  # of the next order
+    third = 2 * scene.alpha * abs(theory.values)  # of the next order
     assert np.all(abs(ours.values - theory.values) <= ours.errors + theory.errors + third)
-    assert np.all(ours.errors[[0, 3, 4]] < 0.02 * abs(ours.values[[0, 3, 4]]))
+    assert np.all(ours.errors[:3] < 0.02 * abs(ours.values[:3]))
 
 
 def test_a_sine_knows_its_symmetries():
     """Quarter of a period and half a sheet stand for all: phases do not count, even harmonics do."""
-    sine = FLAT.but(wave=TravellingWave([0.0], [1.0]), contact=Contact("grown", Tanh(0.1)))
+    sine = FLAT.but(wave=TravellingWave([0.0], [1.0]), contact=Contact("grown", Viscous()))
     found = cycle_gradient(sine, ["wave.phase.0", "wave.cosine.1", "wave.sine.1"])
     ends = [
         cycle_speed(sine.but(wave=TravellingWave([0.0, a], [1.0, b])), rtol=1e-2).mean
@@ -223,9 +225,27 @@ def test_what_has_no_gradient_is_refused_by_name(change, over, words):
 
 
 def test_the_best_wave_by_cycles_climbs():
-    scene = FLAT.but(wave=TravellingWave([1.0, 0.2], [0.0, 0.0]), contact=Contact("current", Viscous()))
-    found = optimise(
-        scene, {"wave": Harmonics(2, largest=1.0)}, level="cycle", starts=1, rtol=1e-2, check=False
-    )
+    start = FLAT.but(wave=TravellingWave([0.5], [0.0]), contact=Contact("current", Viscous()))
+    over = {"wave": Harmonics(1, largest=1.0)}
+    found = optimise(start, over, level="cycle", starts=1, rtol=1e-2, check=False)
     assert found.converged
-    assert found.value.value > 1.5 * cycle_speed(scene, rtol=1e-2).mean
+    assert found.value.value > 3 * cycle_speed(start).mean > 0
+
+
+@pytest.mark.parametrize(
+    ("field", "low", "high", "known"),
+    [
+        ("sheet.thickness", "1.2 mm", "1.6 mm", False),
+        ("ground.stiffness", "150 Pa/mm^2", "200 Pa/mm^2", True),
+    ],
+)
+def test_a_field_that_changes_more_than_itself_has_no_adjoint(tmp_path, field, low, high, known):
+    """Of two layers and a density, growth and weight follow the thickness."""
+    scene = files("fem_check.files").joinpath("scenes", "inchworm.toml").read_text()
+    tmp_path.joinpath("inchworm.toml").write_text(scene)
+    path = tmp_path / "optimise.toml"
+    path.write_text(
+        f'scene = "inchworm.toml"\n[over]\n{field} = {{ low = "{low}", high = "{high}" }}\n'
+    )
+    found = Adjoint.of(read(path).unknowns, objective_of("speed"), "cycle", 1e-2)
+    assert (found is not None) == known
