@@ -170,10 +170,6 @@ class Cycle(Shown):
         mesh, gain = other_mesh(self._shapes.model.discretisation.mesh)
         return KeptShapes(ShellModel(self.scene.but(cells=None, mesh=mesh))), gain
 
-    def shapes(self, count: int) -> Shapes:
-        """At that many phases, FIRST_PHASES times a power of two."""
-        return self._shapes.at(count)
-
     def other(self, balance: CycleBalance) -> tuple[Shapes, float]:
         """Shapes at the same phases on the other mesh, and the gain."""
         kept, gain = self._compared

@@ -8,7 +8,7 @@ phases, on another mesh, by a coarser rule in time and on finer cells.
 
 import time
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
@@ -20,6 +20,7 @@ from fem_check.shell.cycle.gradient.changes import Changes
 from fem_check.shell.cycle.gradient.parameters import cycle_parameters
 from fem_check.shell.cycle.gradient.statics import StaticAdjoint
 from fem_check.shell.cycle.gradient.sums import FrictionAdjoint, Sums
+from fem_check.shell.cycle.shapes import Shapes, phases
 from fem_check.shell.cycle.speed import FIRST_PHASES, MOST_PHASES, Cycle, speeds_of_harmonics
 from linear_theory.balance.time_grid import TimeGrid
 from linear_theory.common import validation
@@ -40,7 +41,8 @@ MEAN, COARSE, SINGLE = 0, 1, 2
 """Rows of the rule in time: the mean over the period, that by a coarser rule; then single times."""
 
 LEAST_SHARE = 0.25
-"""Of the relative error of the speed, below which that of a derivative by the mesh is not believed."""
+"""Of the relative error of the speed, below which that of a derivative by the mesh is not believed: the
+difference to another mesh may vanish by accident."""
 
 ROUNDOFF = 1e-12
 """Of the largest derivative."""
@@ -73,9 +75,9 @@ def cycle_gradient(
     >>> found = cycle_gradient(scene, ["alpha", "sheet.width", "wave.cosine.1"])
     >>> for name, value in zip(found.names, found.values, strict=True):
     ...     print(f"{name:13} {value:6.2f}")
-    growth.alpha    0.71
+    growth.alpha    0.70
     sheet.width    -0.01
-    wave.cosine.1   0.20
+    wave.cosine.1   0.18
     """
     hint = "make one by Scene(sheet, wave, alpha, effects=...)"
     scene = validation.instance("scene", scene, Scene, hint)
@@ -116,7 +118,9 @@ class _Gradient:
         mean, coarse, thinned, *cells = rows
         error = SAFETY * (abs(coarse - mean) + abs(np.array(cells)).max(0))
         error += self._unresolved * abs(thinned - mean)
-        error += np.maximum(self._by_mesh(mean), self._least * abs(mean))
+        error += np.maximum(self._by_mesh(mean), LEAST_SHARE * self._relative * abs(mean))
+        if self._balance.shapes is not self._solved.shapes:
+            error += self._relative * abs(mean)  # shapes in between are as accurate as the speed
         error += self.speed.error * np.array([abs(d.period) for d in self.directions])
         error += ROUNDOFF * abs(mean).max()
         seconds, period = time.perf_counter() - start, self._period
@@ -150,11 +154,16 @@ class _Gradient:
     @cached_property
     def _balance(self) -> CycleBalance:
         """On phases that resolve the harmonics of the parameters beside those of the motion."""
-        known = len(self._solved.shapes.states)
-        count = known
-        while count < min(2 * self._highest + known // 2, MOST_PHASES):
+        return self._solved.on(self._on_more_phases(self._solved.shapes))
+
+    def _on_more_phases(self, known: Shapes) -> Shapes:
+        """Shapes that are interpolated to more phases, as the speed's resolve them, if need be."""
+        count = own = len(known.states)
+        while count < min(2 * self._highest + own // 2, MOST_PHASES):
             count *= 2
-        return self._solved if count == known else self._solved.on(self.cycle.shapes(count))
+        if count == own:
+            return known
+        return replace(known, states=known.at(phases(known.scene.period, count)))
 
     @cached_property
     def _changes(self) -> Changes:
@@ -175,7 +184,7 @@ class _Gradient:
     def _leading(self) -> Array:
         """Motion on the grid and half a period later, (2, times, 3)."""
         known = self._period
-        if self._grid is known.grid and self._balance is self._solved:
+        if self._grid is known.grid and self._balance.shapes is self._solved.shapes:
             return known.leading
         rows = known.grid.interpolated(known.leading.swapaxes(1, 2), self._grid.times)
         return self._balance.balance(self._grid.times, rows.swapaxes(1, 2)).leading
@@ -223,7 +232,8 @@ class _Gradient:
 
     def _by_mesh(self, mean: Array) -> Array:
         """What another mesh changes, over the least ratio of that to the error, (parameters,)."""
-        shapes, gain = self.cycle.other(self._balance)
+        known, gain = self.cycle.other(self._solved)
+        shapes = self._on_more_phases(known)
         other = self._balance.on(shapes)
         changes, leading = (
             self._changes_on(other),
@@ -234,9 +244,9 @@ class _Gradient:
         return np.asarray(abs(found[0] - mean) / gain)
 
     @property
-    def _least(self) -> float:
-        """Of the relative error by the mesh: its difference to another one may vanish by accident."""
-        return LEAST_SHARE * min(self.speed.error / abs(self.speed.mean or 1.0), 1.0)
+    def _relative(self) -> float:
+        """Relative error of the speed, at most 1."""
+        return min(self.speed.error / abs(self.speed.mean), 1.0) if self.speed.mean else 1.0
 
     @cached_property
     def _unresolved(self) -> Array:

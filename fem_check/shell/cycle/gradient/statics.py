@@ -27,7 +27,7 @@ from linear_theory.common.progress import track
 
 Array = NDArray[np.float64]
 
-GROWTH_STEP = 1e-3
+GROWTH_STEP = 1e-4
 """Of alpha c, and of beta c L, by which forces are differentiated with respect to growth."""
 
 
@@ -64,18 +64,19 @@ class StaticAdjoint:
         model = self.shapes.model
         rest, region = model.rest(t), model.discretisation.interior
         virtual = self._solved(t, state, weights, rest)
+        jets = _jets(region, virtual, self.effects)
+        x, y = region.parameters.reshape(2, -1)
+        c = model.growth(t, x, y)
         found = np.zeros((len(weights), len(changes.directions)))
         here = PointState(region, state, self.entries, rest)
         for effect in self.effects:
             effect.gradient(here)  # what is known of the shape is kept for other growth
         if changes.waves:
-            jets = _jets(region, virtual, self.effects)
-            density = self._by_growth(t, here, jets)
-            x, y = region.parameters.reshape(2, -1)
+            density = self._by_growth(c, here, jets)
             found[:, changes.waves] = density @ changes.of_waves.at(x, y, t).T
         for i, scenes in changes.scenes.items():
             for variant in scenes:
-                found[:, i] += variant.factor * self._work(variant, t, here, state, virtual)
+                found[:, i] += variant.factor * self._work(variant, c, here, state, virtual, jets)
         return found
 
     def _solved(self, t: float, state: Array, weights: Array, rest: RestState) -> Array:
@@ -89,27 +90,35 @@ class StaticAdjoint:
         virtual[:, order] = np.stack([met.factor.solve(row) for row in weights[:, order]])
         return virtual
 
-    def _by_growth(self, t: float, here: PointState, jets: list[Array]) -> Array:
+    def _by_growth(self, c: Array, here: PointState, jets: list[Array]) -> Array:
         """Virtual work per dc at each point, (rules, points)."""
-        model, region = self.shapes.model, here.region
-        growth, (x, y) = model.scene.growth, region.parameters.reshape(2, -1)
-        bent = abs(growth.curvature_coupling) * model.scene.sheet.length
+        scene, region = self.shapes.scene, here.region
+        growth = scene.growth
+        bent = abs(growth.curvature_coupling) * scene.sheet.length
         step = GROWTH_STEP / max(abs(growth.alpha), bent)
-        c, found = model.growth(t, x, y), np.zeros(1)
+        found = np.zeros(1)
         for k, factor in CENTRAL.items():
             other = here.under(grown_state(region, c + k * step, growth))
             found = found + factor / step * _virtual_work(self.effects, other, jets)
         return np.asarray(found)
 
     def _work(
-        self, variant: Variant, t: float, here: PointState, state: Array, virtual: Array
+        self,
+        variant: Variant,
+        c: Array,
+        here: PointState,
+        state: Array,
+        virtual: Array,
+        jets: list[Array],
     ) -> Array:
-        """Virtual work in another scene, (rules,)."""
+        """Virtual work in another scene with the same growth c at its points, (rules,)."""
         model = variant.model
-        region, rest = model.discretisation.interior, model.rest(t)
-        same = region is here.region
-        other = here.under(rest) if same else PointState(region, state, self.entries, rest)
+        region = model.discretisation.interior
+        rest = grown_state(region, c, model.scene.growth)
         effects = [e for e in variant.effects if not e.idle(region.components)]
+        if region is here.region:
+            return _virtual_work(effects, here.under(rest), jets).sum(-1)
+        other = PointState(region, state, self.entries, rest)
         return _virtual_work(effects, other, _jets(region, virtual, effects)).sum(-1)
 
 

@@ -21,7 +21,7 @@ from linear_theory.motion.motion import Motion
 
 Array = NDArray[np.float64]
 
-GROWTH_STEP = 1e-3
+GROWTH_STEP = 1e-4
 """Of alpha c, by which grown areas are differentiated."""
 
 
