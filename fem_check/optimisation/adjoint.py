@@ -54,8 +54,10 @@ class Adjoint:
         self._check()
 
     @classmethod
-    def of(cls, unknowns: Unknowns, objective: Objective, level: str, rtol: float) -> "Adjoint | None":
-        """None where there is no gradient at that level, of these unknowns, or of this objective."""
+    def of(
+        cls, unknowns: Unknowns, objective: Objective, rtol: float, level: str = "first order"
+    ) -> "Adjoint | None":
+        """None where there is no gradient of these unknowns, of this objective, or at this level."""
         way, is_cost = WAYS.get(level), isinstance(objective, CostOfTransport)
         if way is None or unknowns.scene.alpha == 0:
             return None

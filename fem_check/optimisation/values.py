@@ -98,8 +98,8 @@ class Question:
 
     @cached_property
     def _adjoint(self) -> Adjoint | None:
-        run = self.settings
-        return Adjoint.of(self.unknowns, self.objective, run.level, run.rtol or RTOL)
+        settings = self.settings
+        return Adjoint.of(self.unknowns, self.objective, settings.rtol or RTOL, settings.level)
 
     def along_line(self, width: float | None) -> OfPoints:
         """With the gradient on a strip. width: of a tanh law instead of dry friction, over the unit."""

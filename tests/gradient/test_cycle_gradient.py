@@ -247,5 +247,5 @@ def test_a_field_that_changes_more_than_itself_has_no_adjoint(tmp_path, field, l
     path.write_text(
         f'scene = "inchworm.toml"\n[over]\n{field} = {{ low = "{low}", high = "{high}" }}\n'
     )
-    found = Adjoint.of(read(path).unknowns, objective_of("speed"), "cycle", 1e-2)
+    found = Adjoint.of(read(path).unknowns, objective_of("speed"), 1e-2, "cycle")
     assert (found is not None) == known

@@ -58,7 +58,7 @@ def cycle_gradient(
     files: those of `linear_theory.speed_gradient`, of the wave, of friction, "growth.alpha" and
     "sheet.width"; "sheet.poisson", "sheet.thickness", "growth.curvature_coupling", "gravity.weight" and
     "ground.stiffness". Forty harmonics cost little more than one; each of those that are not of the
-    wave or of friction costs four evaluations of the forces per phase. rtol: of the speed; the errors
+    wave or of friction costs two evaluations of the forces per phase. rtol: of the speed; the errors
     of the derivatives follow from it and are estimated each. progress: True prints on stderr, a
     function is called with a `Progress`.
 
