@@ -18,6 +18,7 @@ from .optimisation.over import Harmonics
 from .output.paraview import write_paraview
 from .plane_stress.field import PlaneStressField, plane_stress_field
 from .scene import Scene, bilayer
+from .shell.cycle.gradient.gradient import cycle_gradient
 from .shell.cycle.speed import cycle_speed
 from .shell.effects.contact.self_contact import SelfContact
 from .shell.effects.friction import Friction
@@ -63,6 +64,7 @@ __all__ = [
     "Trajectory",
     "__version__",
     "bilayer",
+    "cycle_gradient",
     "cycle_speed",
     "excitable_preset",
     "optimise",

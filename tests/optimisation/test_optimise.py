@@ -2,7 +2,6 @@
 
 import json
 import math
-from importlib.util import find_spec
 
 import numpy as np
 import pytest
@@ -10,7 +9,6 @@ from scipy.optimize import minimize_scalar
 
 from fem_check import Harmonics, Scene, optimise
 from fem_check.choice.settings import RunSettings
-from fem_check.optimisation.adjoint import PACKAGE
 from fem_check.optimisation.kept import Kept, KeptError
 from fem_check.optimisation.objectives import Speed, objective_of
 from fem_check.optimisation.optimising import NothingFound
@@ -102,7 +100,6 @@ def test_a_coupling_between_bounds():
     assert held.sensitivities["growth.alpha"] == pytest.approx(numeric, rel=1e-2)
 
 
-@pytest.mark.skipif(find_spec(PACKAGE) is None, reason="without the package of adjoints")
 def test_the_adjoint_is_the_gradient_of_differences():
     scene = Scene(Sheet(), TravellingWave(np.array([1.0, 0.2]), np.array([0.0, 0.1])), alpha=0.2)
     unknowns = Unknowns(scene, {"sheet.width": (0.3, 0.7)})

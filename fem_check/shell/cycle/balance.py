@@ -8,7 +8,7 @@ taken over half a period.
 import math
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import NamedTuple
+from typing import NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,6 +27,7 @@ from linear_theory.motion.rigid import RigidNorm
 from linear_theory.wave.protocol import PER_HARMONIC
 
 Array = NDArray[np.float64]
+Kind = TypeVar("Kind", bound=Balance)
 
 TIMES_PER_PHASE = 8
 """Largest number of times per phase of the cycle: V(t) has kinks where the shapes have none, but if
@@ -139,6 +140,10 @@ class CycleBalance:
         """The balance of other shapes of the same scene."""
         return replace(self, shapes=shapes, mirrored=_mirrored(shapes, self.contact))
 
+    def finer(self) -> "CycleBalance":
+        """On finer cells, by which the error of the cells is known."""
+        return replace(self, order=self.order + 2, halvings=self.halvings + 6)
+
     def average(self, tolerance: Tolerance) -> PairedPeriod:
         """Mean motion over a period, with as many times as the tolerance needs and noise permits."""
         grid, most = self._first_grid(), TIMES_PER_PHASE * len(self.shapes.states)
@@ -161,11 +166,17 @@ class CycleBalance:
         power = Estimate(power.value, power.error + work_error + 1e-12 * found.fastest)
         return PairedPeriod(grid, found.leading, mean, error, found.fastest, sticks, found.works, power)
 
-    def balance(self, times: Array) -> RigidMotion:
-        """Motion at given times and half a period later, leading and remainder (2, times, 3)."""
+    def balance(self, times: Array, near: Array | None = None) -> RigidMotion:
+        """Motion at given times and half a period later, leading and remainder (2, times, 3).
+
+        near: a motion (2, times, 3) from which to start, of shapes that differ little.
+        """
         later = self._with_partners(times)
+        guess = None if near is None else near.reshape(-1, 3)
         starts = track("friction balance over the period", range(0, later.size, LOT))
-        lots = [self._balance(later[i : i + LOT]).solve() for i in starts]
+        lots = [
+            self._balance(later[i : i + LOT]).solve(_guess(guess, slice(i, i + LOT))) for i in starts
+        ]
         leading, remainder, rest, fastest, works = zip(*lots, strict=True)
         shape = 2, times.size
         return RigidMotion(
@@ -239,8 +250,7 @@ class CycleBalance:
     def _quadrature_errors(self, grid: TimeGrid, found: RigidMotion) -> tuple[Array, float]:
         """Largest change on finer cells, at three times: of the paired motion (3,), of the power."""
         some = np.unique((np.array([0.07, 0.41, 0.77]) * grid.times.size).astype(int))
-        finer = replace(self, order=self.order + 2, halvings=self.halvings + 6)
-        change, works = finer.step(grid.times[some], found.leading[:, some])
+        change, works = self.finer().step(grid.times[some], found.leading[:, some])
         powers = self._powers(works - found.works[:, some]).mean(0)
         return np.asarray(abs(_paired(change)).max(1)), float(abs(powers).max())
 
@@ -255,10 +265,22 @@ class CycleBalance:
         return CycleMotion(*of, map=law.map, depth=depth)
 
     def _balance(self, times: Array) -> Balance:
+        return self.balance_of(Balance, times)
+
+    def balance_of(self, kind: type[Kind], times: Array) -> Kind:
+        """The balance of friction at times (T,), of a class that may know more of it."""
         motion, law, slope = self._motion.at(times), self.contact.friction, self.contact.slope
         resolution = self.halvings, self.tolerance
         rest = self._motion.weight
-        return Balance(motion, motion.dilation, 1.0, law, *resolution, slope, rest, WORK_HALVINGS)
+        return kind(motion, motion.dilation, 1.0, law, *resolution, slope, rest, WORK_HALVINGS)
+
+
+def _guess(near: Array | None, some: slice) -> RigidMotion | None:
+    """Some of the motions (times, 3) from which to start."""
+    if near is None:
+        return None
+    part = near[some]
+    return RigidMotion(part, np.zeros_like(part), np.zeros(len(part)), 0.0)
 
 
 def _opposed(shapes: Shapes, contact: Contact) -> bool:

@@ -191,9 +191,7 @@ class _Solver:
         self.model, self.scene, self.discretisation = model, model.scene, model.discretisation
         self.may_buckle = not model.planar
         self.effects = working_effects(model)
-        motions = "xyz" if model.find(Ground) is None else "xy"
-        supports = Supports(self.discretisation).anchor(motions=motions)
-        self.minimiser = Minimiser(supports, TOLERANCE, check_stability=self.may_buckle)
+        self.minimiser = minimiser_of(model)
         self.ellipticity = None if self.may_buckle else _ellipticity(model)
         self.iterations = self.buckled = 0
         self.reserve = np.inf
@@ -268,6 +266,13 @@ class _Solver:
     def _count(self, result: Equilibrium) -> Equilibrium:
         self.iterations += result.iterations
         return result
+
+
+def minimiser_of(model: ShellModel) -> Minimiser:
+    """That of the static shapes of a model: without rigid motions, and stable in space."""
+    motions = "xyz" if model.find(Ground) is None else "xy"
+    supports = Supports(model.discretisation).anchor(motions=motions)
+    return Minimiser(supports, TOLERANCE, check_stability=not model.planar)
 
 
 def _ellipticity(model: ShellModel) -> Ellipticity:

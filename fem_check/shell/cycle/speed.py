@@ -121,6 +121,8 @@ class Cycle(Shown):
         CYCLE.require(scene)
         self.scene = scene
         self._shapes = KeptShapes(ShellModel(scene))
+        self.solved: tuple[CycleBalance, PairedPeriod] | None = None
+        """Of the last speed, for its derivatives."""
 
     def _contents(self) -> Mapping[str, Any]:
         return {"scene": self.scene}
@@ -138,6 +140,7 @@ class Cycle(Shown):
         if scene.alpha == 0 and (scene.planar or scene.curvature_coupling == 0):
             return _without_growth(scene, contact)
         balance, period, phase_error = _with_enough_phases(self._shapes, contact, tolerance)
+        self.solved = balance, period
         mesh_error, work_error = self._mesh_errors(balance, period)
         error = period.error + phase_error[:3] + mesh_error
         times, rigid, spent = balance.whole_period(period)
@@ -158,7 +161,7 @@ class Cycle(Shown):
             sticks=period.sticks,
             turning=None if balance.mirrored else RigidSpeed(rigid, period.mean, error),
             energy=Energy(power, spent, contact.friction, mean_map_of(scene), contact.slope, distance),
-            deformation=CycleDeformation(balance.shapes, contact, self._other(balance)),
+            deformation=CycleDeformation(balance.shapes, contact, self.other(balance)),
         )
 
     @cached_property
@@ -167,14 +170,14 @@ class Cycle(Shown):
         mesh, gain = other_mesh(self._shapes.model.discretisation.mesh)
         return KeptShapes(ShellModel(self.scene.but(cells=None, mesh=mesh))), gain
 
-    def _other(self, balance: CycleBalance) -> tuple[Shapes, float]:
+    def other(self, balance: CycleBalance) -> tuple[Shapes, float]:
         """Shapes at the same phases on the other mesh, and the gain."""
         kept, gain = self._compared
         return kept.at(len(balance.shapes.states)), gain
 
     def _mesh_errors(self, balance: CycleBalance, period: PairedPeriod) -> tuple[Array, float]:
         """Mesh errors of the mean motion and of the power, from another mesh at the same times."""
-        shapes, gain = self._other(balance)
+        shapes, gain = self.other(balance)
         other = balance.on(shapes).balance(period.grid.times)
         power = balance.power(period.grid, other.works).value - period.power.value
         return abs(balance.mean(period.grid, other.leading) - period.mean) / gain, abs(power) / gain
@@ -242,7 +245,7 @@ def _phase_error(balance: CycleBalance, period: PairedPeriod) -> Array:
     change, works = thinned.step(period.grid.times, period.leading)
     power = balance.power(period.grid, works).value - period.power.value
     changes = abs(np.array([*balance.mean(period.grid, change), power]))
-    speeds = _speeds_of_harmonics(balance.shapes)
+    speeds = speeds_of_harmonics(balance.shapes)
     lost, beyond = np.linalg.norm(speeds[speeds.size // 2 - 1 :]), 2 * speeds[-2:].max()
     return np.asarray(changes * (min(1.0, beyond / lost) if lost > 0 else 0.0))
 
@@ -257,7 +260,7 @@ def _hidden(balance: CycleBalance, count: int) -> float:
     return balance.speed_per_rate * max(rates.beyond(highest) - seen, 0.0)
 
 
-def _speeds_of_harmonics(shapes: Shapes) -> Array:
+def speeds_of_harmonics(shapes: Shapes) -> Array:
     """Magnitude of the velocity of each harmonic 1 ... K, (K,), in any unit."""
     count, sheet = len(shapes.states) // 2, shapes.discretisation
     size = np.linalg.norm(shapes.harmonics[1:] / np.repeat(sheet.units, sheet.components), axis=1)
