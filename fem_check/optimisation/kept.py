@@ -47,7 +47,7 @@ class Kept:
         if self.path is None:
             return self
         try:
-            self._lock = claimed(self.path.with_name(self.path.name + LOCK))
+            self._lock = claimed(self.path.with_name(self.path.name + LOCK), stays=False)
             holder = self._lock.__enter__()
             if holder:
                 raise KeptError(f"{self.path}: is being written by {holder}")

@@ -1,5 +1,6 @@
 """From a scene and what may change to the best one."""
 
+import contextlib
 import math
 import time
 from collections.abc import Mapping
@@ -14,7 +15,7 @@ from fem_check.choice.solving import solve
 from fem_check.choice.ways import ANSWERS, way_of
 from fem_check.optimisation.kept import Kept
 from fem_check.optimisation.objectives import Objective, objective_of
-from fem_check.optimisation.result import Check, Optimum, Start
+from fem_check.optimisation.result import Check, Optimum, Scale, Start
 from fem_check.optimisation.unknowns import Unknowns
 from fem_check.optimisation.values import Question
 from linear_theory.common import validation
@@ -35,6 +36,10 @@ LADDER = ("strip", "first order", "second order", "cycle", "stepped")
 
 FINE = 1e-3
 """Relative tolerance of the answers of a search."""
+
+
+ROUNDING = 1e-12
+"""Of values, relative."""
 
 
 class NothingFound(SheetcrawlError):
@@ -66,7 +71,7 @@ def optimise(
     higher level is asked, too. file: keeps all answers, and the same call goes on from it.
 
     The gradient is the closed one of a strip at that level, of speeds by a travelling wave,
-    growth.alpha and wave.period, else by differences. Dry friction on a strip is smoothed in stages
+    growth.alpha and wave.period, else by adjoints or differences. Dry friction on a strip is smoothed in stages
     (see `values`).
 
     Raises ValueError, before any work, for what is no field, no objective, no level; `NothingFound`
@@ -89,7 +94,7 @@ def optimise(
         settings,
         starts,
         seed,
-        how or Ascent(),
+        how,
         check,
         file,
         progress,
@@ -103,7 +108,7 @@ def search(
     settings: RunSettings,
     starts: int,
     seed: int,
-    how: Ascent,
+    how: Ascent | None,
     check: bool,
     file: str | Path | None = None,
     progress: bool | Report | None = None,
@@ -111,15 +116,15 @@ def search(
 ) -> Optimum:
     """`optimise` of unknowns; again: what is said to go on with after an interruption."""
     begin, report = time.perf_counter(), reporting(progress)
+    how = Ascent() if how is None else validation.instance("how", how, Ascent)
+    check = validation.flag("check", check)
     points = _starts(unknowns, starts, validation.integer("seed", seed, 0))
-    path = None if file is None else Path(file)
+    path = None if file is None else _path(file)
     settings = _with_level(unknowns.scene, settings)
     asked = {
         "unknowns": unknowns.definition(),
         "objective": objective.to_dict(),
         "settings": settings.to_dict(),
-        "starts": [starts, seed],
-        "how": how.to_dict(),
     }
     with Kept(path, asked) as kept:
         question = Question(unknowns, settings, objective, kept)
@@ -131,6 +136,12 @@ def search(
                 raise KeyboardInterrupt("interrupted; nothing is kept without file=...") from None
             words = f"interrupted; {kept.count} answers are in {path}; {again} goes on with them"
             raise KeyboardInterrupt(words) from None
+
+
+def _path(file: object) -> Path:
+    if not isinstance(file, str | Path) or not str(file):
+        raise ValueError(f"file = {validation.shown(file)}: must be the name of a file")
+    return Path(file)
 
 
 def _with_level(scene: Scene, settings: RunSettings) -> RunSettings:
@@ -198,6 +209,7 @@ def _found(
     scene, sign = unknowns.scene_at(best.point), objective.sign
     value = Estimate(sign * best.found.value, best.found.error)
     slopes = question.proof(best.stage)(best.point).gradient / unknowns.slopes(best.point)
+    ends = tuple(_end(one, sign) for one in climbs)
     return Optimum(
         scene=scene,
         values=unknowns.values(best.point),
@@ -208,13 +220,34 @@ def _found(
         certificate=proof,
         rounding=abs(proof.value - best.found.value),
         sensitivities=dict(zip(unknowns.names, (sign * slopes).tolist(), strict=True)),
-        starts=tuple(_end(one, sign) for one in climbs),
+        starts=ends,
         check=_check(question, scene) if check else None,
         answers=question.kept.fresh,
         seconds=time.perf_counter() - begin,
         units=unknowns.units,
         field_units={field.name: field.axis.unit for field in unknowns.fields},
+        scale=Scale.of(objective, value, [one.first for one in ends]),
+        without_effect=_without_effect(question, best.point, value, proof),
+        outside=unknowns.outside,
     )
+
+
+def _without_effect(
+    question: Question, point: Array, value: Estimate, proof: Certificate
+) -> tuple[str, ...]:
+    """Fields that no bound holds, and at both of whose bounds the objective is the same."""
+    found = []
+    for place, field in enumerate(question.unknowns.fields):
+        ends = [np.where(np.arange(point.size) == place, share, point) for share in (0.0, 1.0)]
+        if any(held.endswith(f" bound of {field.name}") for held in proof.held):
+            continue
+        with contextlib.suppress(Unusable):
+            others = [question.value(end) for end in ends]
+            here = question.objective.sign * value.value
+            doubt = value.error + ROUNDING * abs(here)
+            if all(abs(one.value - here) <= one.error + doubt for one in others):
+                found.append(field.name)
+    return tuple(found)
 
 
 def _certificate(question: Question, best: Climbed) -> Certificate:
