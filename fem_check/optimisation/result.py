@@ -43,6 +43,27 @@ class Check(Shown):
 
 
 @dataclass(frozen=True)
+class Limited(Shown):
+    """A number of the answer that must keep to a bound: its value, and what of the objective moving the
+    bound by 1 brings, 0 where it does not hold. unit: of the number, as that of an `Objective`."""
+
+    name: str
+    value: Estimate
+    bound: float
+    brings: float
+    unit: str
+
+
+@dataclass(frozen=True)
+class Regime(Shown):
+    """The objective in one of several regimes, with the best scene there."""
+
+    name: str
+    value: Estimate
+    scene: Scene
+
+
+@dataclass(frozen=True)
 class Scale(Shown):
     """What a gain is compared with. size: >= 0, in units of the objective; words: what it is, where it
     is not the value itself."""
@@ -84,7 +105,9 @@ class Optimum(Shown):
     a file had kept; seconds. units: of the numbers, None for plain ones; field_units: of the fields.
     scale: of the objective, which shares are of; without_effect: fields between whose bounds it does
     not change within its errors; outside: where the scene as given lies outside of the bounds, in
-    words: the first climb then began at the nearest scene inside.
+    words: the first climb then began at the nearest scene inside. slopes: of the values by the unknowns
+    of the search. limits: numbers that must keep to bounds; regimes: of a robust optimum, by: "worst"
+    or "mean" of them; its answer is that of the worst.
     """
 
     scene: Scene
@@ -105,14 +128,22 @@ class Optimum(Shown):
     scale: "Scale" = field(default_factory=lambda: Scale(1.0))
     without_effect: tuple[str, ...] = ()
     outside: tuple[str, ...] = ()
+    slopes: tuple[float, ...] = ()
+    limits: tuple[Limited, ...] = ()
+    regimes: tuple[Regime, ...] = ()
+    by: str = ""
 
     @property
     def unit(self) -> str:
         """Of the objective, in the units of the scene file if it has some."""
+        return self.in_units(self.objective.unit)
+
+    def in_units(self, unit: str) -> str:
+        """A unit of the library in those of the scene file."""
         if self.units is None:
-            return self.objective.unit
+            return unit
         named = {"length/time": self.units.speed, "length": self.units.length}
-        return named.get(self.objective.unit, self.objective.unit)
+        return {**named, "1/time": f"1/{self.units.time}"}.get(unit, unit)
 
     @property
     def level(self) -> str:
@@ -123,6 +154,14 @@ class Optimum(Shown):
     def left(self) -> float:
         """Share of the scale that may be left in the neighbourhood; NaN if not known."""
         return self.scale.share(self.certificate.gain + self.rounding)
+
+    @property
+    def at_bounds(self) -> Mapping[str, float]:
+        """What moving the bound of each value brings, by its unit, all constraints kept; 0 where none
+        holds it."""
+        sign, found = self.objective.sign, self.certificate.multipliers
+        slopes = zip(self.values, found, self.slopes, strict=True)
+        return {name: float(sign * push / slope) for name, push, slope in slopes}
 
     @property
     def converged(self) -> bool:

@@ -37,6 +37,8 @@ def _lines(found: "Optimum") -> Iterator[tuple[str, str]]:
         yield "NOT MET", _doubts(found)
     yield "proof", _proof(found)
     yield "held by", ", ".join(found.certificate.held)
+    yield "limits", _limits(found)
+    yield "regimes", _regimes(found)
     yield "starts", _starts(found)
     yield "depends", _sensitivities(found)
     yield "check", _check(found)
@@ -114,17 +116,37 @@ def _proof(found: "Optimum") -> str:
     return words
 
 
+def _limits(found: "Optimum") -> str:
+    """Each number with its bound, and what moving the bound brings where it holds."""
+    own, words = f" {found.unit}" if found.unit else "", []
+    for one in found.limits:
+        unit = found.in_units(one.unit)
+        said = f"{one.name}: {shown(one.value)} {unit}".rstrip()
+        if one.brings:
+            said += f" (moving the bound brings {plain(one.brings)}{own} per {unit or 1})"
+        words.append(said)
+    return "; ".join(words)
+
+
+def _regimes(found: "Optimum") -> str:
+    if not found.regimes:
+        return ""
+    each = ", ".join(f"{one.name}: {shown(one.value)}" for one in found.regimes)
+    return f"the value above is the {found.by} of {len(found.regimes)}: {each}"
+
+
 def _starts(found: "Optimum") -> str:
-    ends = ", ".join(plain(one.value) for one in found.starts)
+    ends = ", ".join("none" if math.isnan(one.value) else plain(one.value) for one in found.starts)
     bad = {one.words for one in found.starts if one.words != "converged"}
     near = "" if not found.scale.words else f"of {plain(found.scale.size)} "
-    words = f"{found.agreed} of {len(found.starts)} ended within {100 * GAIN:g} % {near}of the best ({ends})"
+    words = f"{found.agreed} of {len(found.starts)} ended within {100 * GAIN:g} % {near}of the best"
+    words += f" ({ends})"
     return words + "".join(f"; {one}" for one in sorted(bad))
 
 
 def _sensitivities(found: "Optimum") -> str:
     held = [name for name in found.field_units if _bound(found, name)]
-    fields = {name: found.sensitivities[name] for name in held}
+    fields = {name: found.at_bounds[name] for name in held}
     unit = f" {found.unit}" if found.unit else ""
     return ", ".join(
         f"{plain(value)}{unit} per {found.field_units.get(name) or 1} of {name}"

@@ -25,13 +25,23 @@ ROUNDING = 1e-9
 
 
 class Unknowns:
-    """The unknowns of a scene. fields, harmonics: what they are; base: of the fields, None without."""
+    """The unknowns of a scene.
 
-    def __init__(self, scene: Scene, over: Mapping[str, Any], base: Variation | None = None) -> None:
+    fields, harmonics: what they are; base: of the fields, None without; fixed: values by which the
+    scene differs from that of the base.
+    """
+
+    def __init__(
+        self,
+        scene: Scene,
+        over: Mapping[str, Any],
+        base: Variation | None = None,
+        fixed: Mapping[str, Any] | None = None,
+    ) -> None:
         self.fields, self.harmonics = parts_of(over)
-        self.scene, self._over = scene, over
+        self.scene, self.over = scene, over
         self._like = travelling(scene) if self.harmonics else None
-        self._base = base
+        self._base, self._fixed = base, dict(fixed or {})
         if self.fields and base is None:
             self._base = Variation.of(scene, RunSettings())
         if self._base is not None:
@@ -40,12 +50,11 @@ class Unknowns:
                 self._check_ends(field, self._base)
             self._check_scenes(self._base)
 
-    @staticmethod
-    def _check_ends(field: Field, base: Variation) -> None:
+    def _check_ends(self, field: Field, base: Variation) -> None:
         """Raise ValueError, naming the bound, for one that the field itself does not allow, and for a
         field that has no numbers at all."""
         for share, which in ((0.0, "lower"), (1.0, "upper")):
-            found, mistakes = base.scene_of({field.name: field.said(share)})
+            found, mistakes = base.scene_of({**self._fixed, field.name: field.said(share)})
             place = tuple(field.name.split("."))
             wrong = [words for at, words in mistakes.found if at[: len(place)] == place]
             if found is None and wrong:
@@ -56,12 +65,18 @@ class Unknowns:
         """Raise ValueError, in the words of the scene, where it is none at both bounds and between."""
         wrong = []
         for share in (0.5, 0.0, 1.0):
-            found, mistakes = base.scene_of({field.name: field.said(share) for field in self.fields})
+            said = {field.name: field.said(share) for field in self.fields}
+            found, mistakes = base.scene_of({**self._fixed, **said})
             if found is not None:
                 return
             wrong.append("; ".join(words for _, words in mistakes.found))
         names = ", ".join(field.name for field in self.fields)
         raise ValueError(f"over: {names}: {wrong[0]}")
+
+    @property
+    def base(self) -> Variation | None:
+        """The scene of which the fields are; None without fields."""
+        return self._base
 
     @property
     def units(self) -> Units | None:
@@ -92,7 +107,7 @@ class Unknowns:
         scene = self.scene
         if self.fields and self._base is not None:
             said = {f.name: f.said(float(s)) for f, s in zip(self.fields, shares, strict=True)}
-            found, mistakes = self._base.scene_of(said)
+            found, mistakes = self._base.scene_of({**self._fixed, **said})
             if found is None:
                 raise Unusable("; ".join(words for _, words in mistakes.found))
             scene = found.scene

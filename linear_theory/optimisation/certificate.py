@@ -59,8 +59,8 @@ class Certificate(Shown):
     Hessian, negative at a maximum; NaN if it was not computed, and minus infinity if no direction is
     left. held: names of the constraints that hold the point; multipliers (unknowns,): dV for a bound
     that is moved by 1, negative for a lower one. kink: why the gradient is one from one side, in words.
-    value: of the objective. pushes: multipliers of the constraints and limits that hold the point, and of the
-    smallest of several objectives, by name, as they are scaled.
+    value: of the objective. pushes: multipliers of the constraints and limits that hold the point, and
+    of the smallest of several objectives, by name, as they are scaled.
     """
 
     value: float

@@ -94,11 +94,12 @@ class _Best:
         self.count += 1
         if self.count == 1:
             self.scale = max(abs(found.value), float(np.linalg.norm(found.gradient)), 1e-300)
-        if found.value > self.value and self._region.excess(point) <= ALLOWED and self._meets(point):
+        if found.value > self.value and self._region.excess(point) <= ALLOWED and self.meets(point):
             self.value, self.point = found.value, np.array(point)
         return -found.value / self.scale, -found.gradient / self.scale
 
-    def _meets(self, point: Array) -> bool:
+    def meets(self, point: Array) -> bool:
+        """Whether all limits are kept to."""
         return all(float(limit.excess(point)[0]) <= 0 for limit in self.limits)
 
     def offer(self, point: Array) -> None:
@@ -126,8 +127,6 @@ def climb(
     for stage, objective in enumerate(objectives):
         best = _Best(objective, region, limits[stage] if limits else ())
         words = _climbed(best, region, point, how)
-        if best.point is None and best.limits:
-            words = _climbed(best, region, _restored(best, region, point, how), how)
         count += best.count
         point = start if best.point is None else region.towards_centre(best.point)
         ends.append(point)
@@ -166,6 +165,10 @@ def _allowed(limits: Sequence[Limit], point: Array) -> bool:
 def _climbed(best: _Best, region: Region, start: Array, how: Ascent) -> str:
     """Climb, leaving all points in `best`; how it ended, in words."""
     try:
+        if best.limits and not best.meets(start):
+            start = _restored(best, region, start, how)
+            if not best.meets(start):
+                return "no scene near it keeps to the constraints"
         last, words = _minimised(best, region, start, how)
         best.offer(region.towards_centre(last))
     except Unusable as outside:
@@ -177,7 +180,9 @@ def _restored(best: _Best, region: Region, start: Array, how: Ascent) -> Array:
     """A point at which the squares of what is beyond the limits are least, from a start."""
 
     def missed(point: Array) -> tuple[float, Array]:
-        found = [(float(one.excess(point)[0]) + 2 * MARGIN, one.slopes(point)[0]) for one in best.limits]
+        found = [
+            (float(one.excess(point)[0]) + 2 * MARGIN, one.slopes(point)[0]) for one in best.limits
+        ]
         return (
             sum(max(over, 0.0) ** 2 for over, _ in found),
             sum((2 * max(over, 0.0) * slopes for over, slopes in found), np.zeros(point.size)),
@@ -188,10 +193,16 @@ def _restored(best: _Best, region: Region, start: Array, how: Ascent) -> Array:
     options = {"maxiter": how.iterations, "ftol": MARGIN**2}
     try:
         ended = minimize(
-            *(missed, start), method="SLSQP", jac=True, bounds=bounds, constraints=rules, options=options
+            *(missed, start),
+            method="SLSQP",
+            jac=True,
+            bounds=bounds,
+            constraints=rules,
+            options=options,
         )
     except Unusable:
         return start
+    best.count += ended.nfev
     return region.towards_centre(np.asarray(ended.x))
 
 

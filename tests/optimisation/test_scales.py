@@ -1,4 +1,4 @@
-"""Shares of a gain have a scale; unknowns without effect, bounds and scenes outside of them are told."""
+"""Shares of a gain have a scale; unknowns without effect, and scenes outside of bounds, are told."""
 
 import math
 
