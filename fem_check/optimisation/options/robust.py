@@ -43,21 +43,11 @@ class Robust(Value):
     def __post_init__(self) -> None:
         validation.choice("by", self.by, (WORST, MEAN))
         validation.flag("paired", self.paired)
-        scenes: Any = self.regimes
-        if not isinstance(scenes, Mapping):
-            if not isinstance(scenes, list | tuple) or not all(isinstance(s, Scene) for s in scenes):
-                shown = validation.shown(scenes)
-                raise ValueError(f"regimes = {shown}: must map fields to lists of values, or be scenes")
-            if len(scenes) < 2:
-                raise ValueError(f"regimes: {len(scenes)} scenes: must be two or more")
+        _check_regimes(self.regimes)
         if self.weights is not None:
             if self.by == WORST:
                 raise ValueError("weights: must be left out for by = 'worst'")
-            if not isinstance(self.weights, list | tuple):
-                shown = validation.shown(self.weights)
-                raise ValueError(f"weights = {shown}: must be a list of numbers")
-            weights = tuple(validation.positive("weights", weight) for weight in self.weights)
-            object.__setattr__(self, "weights", weights)
+            object.__setattr__(self, "weights", _weights(self.weights))
 
     def unknowns(
         self, scene: Scene, over: Mapping[str, Any], base: Variation | None
@@ -104,6 +94,23 @@ class Robust(Value):
     def definition(self) -> dict[str, Any]:
         """As plain data, but for the regimes."""
         return {"by": self.by, "weights": self.weights}
+
+
+def _weights(given: object) -> tuple[float, ...]:
+    if not isinstance(given, list | tuple):
+        raise ValueError(f"weights = {validation.shown(given)}: must be a list of numbers")
+    return tuple(validation.positive("weights", weight) for weight in given)
+
+
+def _check_regimes(given: object) -> None:
+    """Raise ValueError for what is neither fields nor two scenes."""
+    if isinstance(given, Mapping):
+        return
+    if not isinstance(given, list | tuple) or not all(isinstance(one, Scene) for one in given):
+        shown = validation.shown(given)
+        raise ValueError(f"regimes = {shown}: must map fields to lists of values, or be scenes")
+    if len(given) < 2:
+        raise ValueError(f"regimes: {len(given)} scenes: must be two or more")
 
 
 def _axes(regimes: Any, over: Mapping[str, Any]) -> Any:
