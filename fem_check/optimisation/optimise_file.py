@@ -110,11 +110,13 @@ def parsed(text: str, path: Path) -> OptimiseFile:
     base = base_of(data["scene"], text, path)
     run = replace(base.file.run, steps=None, rtol=rtol)
     settings = run if table.level is None else replace(run, level=table.level)
-    unknowns = None
-    with mistakes.under("over"):
+    try:
         unknowns = Unknowns(base.file.scene, over, base)
-    if unknowns is None:
-        raise mistakes.error(path, text)
+    except ValueError as problem:
+        words = str(problem).removeprefix("over: ")
+        name = words.partition(":")[0]
+        mistakes.add_words(("over", *(name.split(".") if name in over else ())), f"[over] {words}")
+        raise mistakes.error(path, text) from None
     _check_constraints(unknowns, constraints, mistakes)
     with mistakes.under("robust"):
         if robust is not None:

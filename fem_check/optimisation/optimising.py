@@ -137,7 +137,8 @@ def search(
         except KeyboardInterrupt:
             if path is None:
                 raise KeyboardInterrupt("interrupted; nothing is kept without file=...") from None
-            words = f"interrupted; {kept.count} answers are in {path}; {again} goes on with them"
+            answers = "1 answer is" if kept.count == 1 else f"{kept.count} answers are"
+            words = f"interrupted; {answers} in {path}; {again} goes on with them"
             raise KeyboardInterrupt(words) from None
 
 

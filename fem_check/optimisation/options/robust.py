@@ -27,8 +27,8 @@ class Robust(Value):
     regimes: fields, each with a list of values or a `Between` with a count, every value with every
     other one, or side by side if `paired`; or a list of scenes, in each of which the unknowns change
     alike. by: "worst", the smallest of them is to be as large as it can be, or "mean". weights: of the
-    mean, one to a regime, > 0; equal ones unless given. Constraints hold in every regime. Raises
-    ValueError for others.
+    mean, one to a regime, > 0; equal ones unless given. Constraints hold in every regime.
+    Raises ValueError for others.
 
     >>> from fem_check import Robust
     >>> print(Robust({"friction.law": ["dry", "viscous"]}).by)
