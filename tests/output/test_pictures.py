@@ -113,6 +113,24 @@ def test_the_sheet_is_drawn_where_it_is(theory):
     assert image.get_clim() == pytest.approx((-20, 20), rel=1e-2)  # alpha c in per cent
 
 
+def test_a_colour_bar_fits_beside_axes_of_the_caller(theory):
+    """Its label, too, within the old place of its axes, which may be drawn into again."""
+    fig = Figure(figsize=(9, 4))
+    for _ in range(2):
+        left, right = fig.subplots(1, 2)
+        edges = right.get_position().x0, 1.0
+        for ax, edge in zip((left, right), edges, strict=True):
+            theory.plot("friction", ax=ax)
+            (bar,) = ax.child_axes
+            fig.draw_without_rendering()
+            assert bar.get_tightbbox().x1 < edge * fig.bbox.width
+        width = left.get_position().width
+        left.clear()
+        theory.plot("friction", ax=left)
+        assert left.get_position().width == width
+        fig.clear()
+
+
 def test_arrows_are_friction_against_the_slip(theory):
     ax = theory.plot("sheet", ax=axes(), phase=0.3)
     (arrows,) = (a for a in ax.collections if isinstance(a, Quiver))
