@@ -34,7 +34,7 @@ from fem_check.files.reading import data_of, text_of
 from fem_check.optimisation.objectives import OBJECTIVES
 from fem_check.optimisation.optimising import FINE, search
 from fem_check.optimisation.options.constraints import Bound, checked, sides_of, sums_of
-from fem_check.optimisation.options.robust import Robust
+from fem_check.optimisation.options.robust import Robust, unknowns_of
 from fem_check.optimisation.options.tables import (
     BoundTable,
     HarmonicsTable,
@@ -120,7 +120,7 @@ def parsed(text: str, path: Path) -> OptimiseFile:
     _check_constraints(unknowns, constraints, mistakes)
     with mistakes.under("robust"):
         if robust is not None:
-            robust.unknowns(base.file.scene, over, base)
+            unknowns_of(robust, base.file.scene, over, base)
     if mistakes:
         raise mistakes.error(path, text)
     return OptimiseFile(unknowns, settings, table, constraints, robust)

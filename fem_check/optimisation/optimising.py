@@ -17,7 +17,7 @@ from fem_check.optimisation.finding import found
 from fem_check.optimisation.kept import Kept
 from fem_check.optimisation.objectives import Objective, objective_of
 from fem_check.optimisation.options.constraints import checked
-from fem_check.optimisation.options.robust import Robust
+from fem_check.optimisation.options.robust import Robust, unknowns_of
 from fem_check.optimisation.result import Optimum
 from fem_check.optimisation.task import Task
 from fem_check.optimisation.unknowns import Unknowns
@@ -116,7 +116,9 @@ def search(
     check = validation.flag("check", check)
     path = None if file is None else _path(file)
     constraints = checked(constraints)
-    regimes = [] if robust is None else robust.unknowns(unknowns.scene, unknowns.over, unknowns.base)
+    regimes = (
+        [] if robust is None else unknowns_of(robust, unknowns.scene, unknowns.over, unknowns.base)
+    )
     settings = _with_level(unknowns.scene, settings)
     for name, one in regimes:
         _check_regime(name, one.scene, settings.level)

@@ -60,7 +60,10 @@ class Regime(Shown):
 
     name: str
     value: Estimate
-    scene: Scene
+    scene: Scene = field(repr=False)
+
+    def _contents(self) -> Mapping[str, Any]:
+        return {"name": self.name, "value": self.value}
 
 
 @dataclass(frozen=True)

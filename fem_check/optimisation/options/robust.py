@@ -49,43 +49,6 @@ class Robust(Value):
                 raise ValueError("weights: must be left out for by = 'worst'")
             object.__setattr__(self, "weights", _weights(self.weights))
 
-    def unknowns(
-        self, scene: Scene, over: Mapping[str, Any], base: Variation | None
-    ) -> list[tuple[str, Unknowns]]:
-        """Those of every regime, with its name. Raises ValueError, by name, for what is no regime."""
-        if isinstance(self.regimes, Mapping):
-            found = self._by_fields(scene, over, base)
-        else:
-            found = [
-                (f"scene {place}", Unknowns(one, over)) for place, one in enumerate(self.regimes, 1)
-            ]
-        if not 1 < len(found) <= MOST:
-            raise ValueError(f"regimes: {len(found)}: must be from 2 to {MOST}")
-        if self.weights is not None and len(self.weights) != len(found):
-            raise ValueError(f"weights: {len(self.weights)}: must be {len(found)}, one to a regime")
-        return found
-
-    def _by_fields(
-        self, scene: Scene, over: Mapping[str, Any], base: Variation | None
-    ) -> list[tuple[str, Unknowns]]:
-        axes = _axes(self.regimes, over)
-        design = Paired() if self.paired else Grid()
-        try:
-            size = design.size(axes)
-        except ValueError as problem:
-            raise ValueError(f"regimes: {str(problem).removeprefix('over: ')}") from None
-        if size > MOST:
-            raise ValueError(f"regimes: {size}: must be from 2 to {MOST}")
-        base, found = base or Variation.of(scene, RunSettings()), []
-        for values in design.points(axes):
-            fixed = {axis.path: axis.said(v) for axis, v in zip(axes, values, strict=True)}
-            made, mistakes = base.scene_of(fixed)
-            if made is None:
-                raise ValueError(f"regimes: {'; '.join(words for _, words in mistakes.found)}")
-            name = ", ".join(f"{path} = {value}" for path, value in fixed.items())
-            found.append((name, Unknowns(made.scene, over, base, fixed)))
-        return found
-
     def of_each(self, count: int) -> tuple[float, ...]:
         """Weights of that many regimes, whose sum is 1."""
         weights = self.weights or (1.0,) * count
@@ -124,3 +87,40 @@ def _axes(regimes: Any, over: Mapping[str, Any]) -> Any:
         if axis.path in over:
             raise ValueError(f"regimes: {axis.path}: must not be among what may change, too")
     return axes
+
+
+def unknowns_of(
+    robust: Robust, scene: Scene, over: Mapping[str, Any], base: Variation | None
+) -> list[tuple[str, Unknowns]]:
+    """Those of every regime, with its name. Raises ValueError, by name, for what is no regime."""
+    if isinstance(robust.regimes, Mapping):
+        found = _by_fields(robust, scene, over, base)
+    else:
+        found = [(f"scene {place}", Unknowns(one, over)) for place, one in enumerate(robust.regimes, 1)]
+    if not 1 < len(found) <= MOST:
+        raise ValueError(f"regimes: {len(found)}: must be from 2 to {MOST}")
+    if robust.weights is not None and len(robust.weights) != len(found):
+        raise ValueError(f"weights: {len(robust.weights)}: must be {len(found)}, one to a regime")
+    return found
+
+
+def _by_fields(
+    robust: Robust, scene: Scene, over: Mapping[str, Any], base: Variation | None
+) -> list[tuple[str, Unknowns]]:
+    axes = _axes(robust.regimes, over)
+    design = Paired() if robust.paired else Grid()
+    try:
+        size = design.size(axes)
+    except ValueError as problem:
+        raise ValueError(f"regimes: {str(problem).removeprefix('over: ')}") from None
+    if size > MOST:
+        raise ValueError(f"regimes: {size}: must be from 2 to {MOST}")
+    base, found = base or Variation.of(scene, RunSettings()), []
+    for values in design.points(axes):
+        fixed = {axis.path: axis.said(v) for axis, v in zip(axes, values, strict=True)}
+        made, mistakes = base.scene_of(fixed)
+        if made is None:
+            raise ValueError(f"regimes: {'; '.join(words for _, words in mistakes.found)}")
+        name = ", ".join(f"{path} = {value}" for path, value in fixed.items())
+        found.append((name, Unknowns(made.scene, over, base, fixed)))
+    return found
