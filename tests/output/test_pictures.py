@@ -115,20 +115,17 @@ def test_the_sheet_is_drawn_where_it_is(theory):
 
 def test_a_colour_bar_fits_beside_axes_of_the_caller(theory):
     """Its label, too, within the old place of its axes, which may be drawn into again."""
-    fig = Figure(figsize=(9, 4))
-    for _ in range(2):
-        left, right = fig.subplots(1, 2)
-        edges = right.get_position().x0, 1.0
-        for ax, edge in zip((left, right), edges, strict=True):
-            theory.plot("friction", ax=ax)
-            (bar,) = ax.child_axes
-            fig.draw_without_rendering()
-            assert bar.get_tightbbox().x1 < edge * fig.bbox.width
-        width = left.get_position().width
-        left.clear()
-        theory.plot("friction", ax=left)
-        assert left.get_position().width == width
-        fig.clear()
+    left, right = Figure(figsize=(9, 4)).subplots(1, 2)
+    edge = right.get_position().x0
+    for ax in (left, right):
+        theory.plot("friction", ax=ax)
+    fig, width = left.figure, left.get_position().width
+    fig.draw_without_rendering()
+    for ax, end in ((left, edge), (right, 1.0)):
+        assert ax.child_axes[0].get_tightbbox().x1 < end * fig.bbox.width
+    left.clear()
+    theory.plot("friction", ax=left)
+    assert left.get_position().width == width
 
 
 def test_arrows_are_friction_against_the_slip(theory):
