@@ -19,9 +19,11 @@ ASKED = {"level": "strip", "check": False}
 
 def test_an_objective_that_is_0_at_its_best_is_certified():
     """A kink at 0, whose place is that of the speed 0.02."""
-    found = optimise(STRIP, {"growth.alpha": (0.05, 0.4)}, lambda s: -abs(s.mean - 0.02), **ASKED)
+    found = optimise(
+        STRIP, {"growth.alpha": (0.05, 0.4)}, lambda s: -abs(s.mean - 0.02), **ASKED, starts=2
+    )
     assert found.converged
-    assert found.agreed == 4
+    assert found.agreed == 2
     alpha = found.values["growth.alpha"]
     assert line_balance(SineWave(), alpha, body="strip", growth_law="exp").mean == pytest.approx(
         0.02, abs=1e-4
