@@ -14,6 +14,8 @@ from .excitable.presets import excitable_preset
 from .excitable.speeds import speeds
 from .mesh.outline import Outline
 from .optimisation.optimising import optimise
+from .optimisation.options.constraints import Bound
+from .optimisation.options.robust import Robust
 from .optimisation.over import Harmonics
 from .output.paraview import write_paraview
 from .plane_stress.field import PlaneStressField, plane_stress_field
@@ -40,6 +42,7 @@ from .version import __version__
 __all__ = [
     "BackwardDifferences",
     "Bending",
+    "Bound",
     "DeadLoad",
     "Excitation",
     "FitzHughNagumo",
@@ -56,6 +59,7 @@ __all__ = [
     "PlaneStressField",
     "Prediction",
     "RigidGround",
+    "Robust",
     "RunSettings",
     "Scene",
     "SelfContact",

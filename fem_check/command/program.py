@@ -71,8 +71,9 @@ def _run(arguments: Sequence[str]) -> int:
     try:
         found = app(tidied(arguments), exit_on_error=False, print_error=False)
     except UnusedCliTokensError as problem:
+        command = tidied(arguments)[0]
         word = (problem.unused_tokens or [""])[0]
-        _complain(f"{word!r}: must follow an option, such as --growth; see sheetcrawl speed --help")
+        _complain(f"{word!r}: must follow an option, such as --growth; see sheetcrawl {command} --help")
         return BAD_ARGUMENTS
     except (CycloptsError, ValueError) as problem:
         for line in getattr(problem, "mistakes", (str(problem),)):  # of a scene file, all of them

@@ -193,5 +193,9 @@ def _words(error: Any, keys: Iterable[str]) -> str:
         return f" = {given}: must be a table"
     if kind == "value_error":
         return f" = {given}: {error['ctx']['error']}"
+    if kind == "literal_error" and isinstance(error["input"], str):
+        hint = nearest(error["input"], re.findall(r"'([^']*)'", error["ctx"]["expected"]))
+        hint = f"; {hint}" if hint.startswith("did") else ""
+        return f" = {given}: must be {error['ctx']['expected']}{hint}"
     words = re.sub(r"^\w+ should (be|have)", r"must \1", error["msg"])
     return f" = {given}: {words.replace(' after validation', '').replace('greater than 0', '> 0')}"

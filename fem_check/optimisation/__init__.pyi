@@ -2,7 +2,18 @@
 
 from .objectives import CostOfTransport, Distance, Speed
 from .optimising import optimise
+from .options.constraints import Bound
+from .options.robust import Robust
 from .over import Harmonics
 from .result import Optimum
 
-__all__ = ["CostOfTransport", "Distance", "Harmonics", "Optimum", "Speed", "optimise"]
+__all__ = [
+    "Bound",
+    "CostOfTransport",
+    "Distance",
+    "Harmonics",
+    "Optimum",
+    "Robust",
+    "Speed",
+    "optimise",
+]

@@ -47,20 +47,25 @@ class Kept:
         if self.path is None:
             return self
         try:
-            self._lock = claimed(self.path.with_name(self.path.name + LOCK))
+            self._lock = claimed(self.path.with_name(self.path.name + LOCK), stays=False)
             holder = self._lock.__enter__()
             if holder:
                 raise KeptError(f"{self.path}: is being written by {holder}")
             self._begin(self.path)
         except OSError as problem:
+            self.__exit__()
             raise KeptError(f"{self.path}: cannot be written ({problem.strerror})") from None
+        except KeptError:
+            self.__exit__()
+            raise
         return self
 
     def __exit__(self, *_: object) -> None:
         if self._file is not None:
             self._file.close()
         if self._lock is not None:
-            self._lock.__exit__(None, None, None)
+            lock, self._lock = self._lock, None
+            lock.__exit__(None, None, None)
 
     def _begin(self, path: Path) -> None:
         text = path.read_bytes().decode("utf-8", "replace") if path.exists() else ""

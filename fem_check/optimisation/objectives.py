@@ -2,8 +2,8 @@
 
 import math
 from abc import abstractmethod
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 from typing import Any, ClassVar
 
 from linear_theory.common import validation
@@ -82,8 +82,8 @@ class CostOfTransport(Objective):
 class Given(Objective):
     """A function of the speed, a `CrawlSpeed`; to be large.
 
-    It returns a number, taken as exact but for the relative error of the speed, or an `Estimate`.
-    Raises ValueError where it returns no finite number.
+    It returns a number, whose error is by how much it changes where the speed and its power change by
+    theirs, or an `Estimate`. Raises ValueError where it returns no finite number.
     """
 
     function: Callable[[CrawlSpeed], Any]
@@ -93,16 +93,67 @@ class Given(Objective):
     def of(self, speed: CrawlSpeed, scene: Scene) -> Estimate:
         """See Objective."""
         found = self.function(speed)
-        value, error = found if isinstance(found, Estimate) else (found, math.nan)
-        if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value):
+        if not isinstance(found, Estimate):
+            value = self._number(found, found)
+            return Estimate(value, sum(self._change(value, pair) for pair in moved(speed)))
+        value, error = (self._number(part, found) for part in found)
+        if error < 0:
+            raise ValueError(f"objective: returned {validation.shown(found)}: error must be >= 0")
+        return Estimate(value, error)
+
+    def _change(self, value: float, pair: Sequence[CrawlSpeed]) -> float:
+        """The most by which one of two speeds changes it."""
+        found = [self.function(one) for one in pair]
+        return max(abs(self._number(one, one) - value) for one in found)
+
+    def _number(self, value: Any, found: Any) -> float:
+        """Those of numpy, too."""
+        try:
+            return validation.real("objective", value)
+        except ValueError:
             raise ValueError(
                 f"objective: returned {validation.shown(found)}: must be a finite number or an Estimate"
+            ) from None
+
+
+def moved(speed: CrawlSpeed) -> list[tuple[CrawlSpeed, CrawlSpeed]]:
+    """A speed with more and with less by each of its errors: of the mean, the turning, the power.
+
+    Raises `Unusable` for errors that are not known.
+    """
+    turning, energy = speed.turning, speed.energy
+    errors = [speed.error] if turning is None else [speed.error, *turning.error]
+    if not all(map(math.isfinite, errors)):
+        raise Unusable("the error of the speed is not known")
+    found = [_pair(lambda sign: _with_mean(speed, sign * speed.error))] if speed.error else []
+    if turning is not None and turning.error.any():
+        found.append(
+            _pair(
+                lambda sign: replace(
+                    speed, turning=replace(turning, mean=turning.mean + sign * turning.error)
+                )
             )
-        if isinstance(found, Estimate) and error < 0:
-            raise ValueError(f"objective: returned {validation.shown(found)}: error must be >= 0")
-        if math.isnan(error):
-            error = abs(value) * speed.error / max(abs(speed.mean), speed.error, 1e-300)
-        return Estimate(float(value), float(error))
+        )
+    if energy is not None and energy.power.error and math.isfinite(energy.power.error):
+        value, error = energy.power
+        found.append(
+            _pair(
+                lambda sign: replace(
+                    speed, energy=replace(energy, power=Estimate(value + sign * error, error))
+                )
+            )
+        )
+    return found
+
+
+def _pair(made: Callable[[float], CrawlSpeed]) -> tuple[CrawlSpeed, CrawlSpeed]:
+    return made(1.0), made(-1.0)
+
+
+def _with_mean(speed: CrawlSpeed, change: float) -> CrawlSpeed:
+    """Moved faster by that, at all times."""
+    mean = Estimate(speed.mean + change, speed.error)
+    return replace(speed, estimate=mean, velocity=speed.velocity + change)
 
 
 OBJECTIVES: dict[str, Objective] = {

@@ -9,6 +9,14 @@ growth.swelling = { low = "5 %", high = "10 %" }
 count = 5
 largest = 1.0
 
+[constraints]                      # may be left out, too
+speed = { at_least = "0.1 mm/s" }
+
+[robust]                           # likewise: over several regimes, the worst or the mean
+by = "worst"
+[robust.over]
+friction.law = ["dry", "viscous"]
+
 [optimise]                         # all of it may be left out
 objective = "cost of transport"
 """
@@ -16,61 +24,33 @@ objective = "cost of transport"
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Any
 
-from pydantic import Field as Limits
 from pydantic import ValidationError
 
 from fem_check.choice.settings import RunSettings
-from fem_check.files.fields import Natural, Table
 from fem_check.files.mistakes import Mistakes, nearest
 from fem_check.files.reading import data_of, text_of
 from fem_check.optimisation.objectives import OBJECTIVES
 from fem_check.optimisation.optimising import FINE, search
+from fem_check.optimisation.options.constraints import Bound, checked, sides_of, sums_of
+from fem_check.optimisation.options.robust import Robust, unknowns_of
+from fem_check.optimisation.options.tables import (
+    BoundTable,
+    HarmonicsTable,
+    OptimiseTable,
+    RobustTable,
+)
 from fem_check.optimisation.over import WAVE, Field, Harmonics
 from fem_check.optimisation.result import Optimum
+from fem_check.optimisation.task import region_of
 from fem_check.optimisation.unknowns import Unknowns
 from fem_check.sweeps.sweep_file import base_of, between, flattened
+from linear_theory.common import validation
 from linear_theory.common.progress import Report
 from linear_theory.optimisation.search import Ascent
 
-PARTS = ("scene", "over", "harmonics", "optimise")
-
-
-class HarmonicsTable(Table):
-    """The profile of a travelling wave of given size."""
-
-    count: Natural
-    """Harmonics."""
-    largest: Annotated[float, Limits(gt=0)] | None = None
-    """Of |c|."""
-    mean_square: Annotated[float, Limits(gt=0)] | None = None
-    """Of c, instead."""
-    mean: bool = True
-    """Whether the mean of c may differ from 0."""
-
-
-class OptimiseTable(Table):
-    """What is to be best, and how it is searched for."""
-
-    objective: Literal["speed", "speed towards -y", "distance per period", "cost of transport"] = (
-        "speed"
-    )
-    """To be large; cost of transport: to be small."""
-    level: (
-        Literal["auto", "predict", "cycle", "stepped", "strip", "first order", "second order"] | None
-    ) = None
-    """Instead of that of the scene."""
-    rtol: Annotated[float, Limits(gt=0, lt=1)] = FINE
-    """Of the speeds."""
-    starts: Annotated[int, Limits(ge=1)] = 4
-    """Climbs."""
-    seed: Annotated[int, Limits(ge=0)] = 0
-    """Of the points at random."""
-    method: Literal["SLSQP", "trust-constr"] = "SLSQP"
-    """Of scipy."""
-    check: bool = True
-    """Whether the next higher level is asked for the best scene and the given one."""
+PARTS = ("scene", "over", "harmonics", "constraints", "robust", "optimise")
 
 
 @dataclass(frozen=True)
@@ -80,6 +60,8 @@ class OptimiseFile:
     unknowns: Unknowns
     settings: RunSettings
     table: OptimiseTable
+    constraints: Mapping[str, Bound]
+    robust: Robust | None
 
     def run(self, file: Path | None, progress: Report | None, again: str) -> Optimum:
         """Search; see `optimising.search`."""
@@ -91,6 +73,8 @@ class OptimiseFile:
             file=file,
             progress=progress,
             again=again,
+            constraints=self.constraints,
+            robust=self.robust,
         )
 
 
@@ -112,6 +96,11 @@ def parsed(text: str, path: Path) -> OptimiseFile:
             mistakes.add((name,), f"is not a table of an optimisation; {nearest(name, PARTS)}")
     table = _table("optimise", OptimiseTable, data.get("optimise", {}), mistakes)
     over = _over(data, mistakes)
+    constraints, robust = _constraints(data, mistakes), _robust(data, mistakes)
+    rtol = FINE
+    with mistakes.under("optimise"):
+        if table is not None and table.rtol is not None:
+            rtol = validation.tolerance(table.rtol.into("dimensionless"))
     if "scene" not in data:
         mistakes.add(
             (), "scene: must be given, the name of a scene file or its tables, [scene.sheet] ..."
@@ -119,14 +108,22 @@ def parsed(text: str, path: Path) -> OptimiseFile:
     if mistakes or table is None:
         raise mistakes.error(path, text)
     base = base_of(data["scene"], text, path)
-    run = replace(base.file.run, steps=None, rtol=table.rtol)
+    run = replace(base.file.run, steps=None, rtol=rtol)
     settings = run if table.level is None else replace(run, level=table.level)
-    unknowns = None
-    with mistakes.under("over"):
+    try:
         unknowns = Unknowns(base.file.scene, over, base)
-    if unknowns is None:
+    except ValueError as problem:
+        words = str(problem).removeprefix("over: ")
+        name = words.partition(":")[0]
+        mistakes.add_words(("over", *(name.split(".") if name in over else ())), f"[over] {words}")
+        raise mistakes.error(path, text) from None
+    _check_constraints(unknowns, constraints, mistakes)
+    with mistakes.under("robust"):
+        if robust is not None:
+            unknowns_of(robust, base.file.scene, over, base)
+    if mistakes:
         raise mistakes.error(path, text)
-    return OptimiseFile(unknowns, settings, table)
+    return OptimiseFile(unknowns, settings, table, constraints, robust)
 
 
 def _table(name: str, kind: type[Any], given: Any, mistakes: Mistakes) -> Any:
@@ -139,6 +136,68 @@ def _table(name: str, kind: type[Any], given: Any, mistakes: Mistakes) -> Any:
     except ValidationError as problem:
         mistakes.add_refused(name, problem, kind)
         return None
+
+
+def _constraints(data: Mapping[str, Any], mistakes: Mistakes) -> dict[str, Bound]:
+    """Bounds by name."""
+    found: dict[str, Bound] = {}
+    given = data.get("constraints", {})
+    if not isinstance(given, Mapping):
+        mistakes.add(("constraints",), f"is {given!r}: must be a table, [constraints]")
+        return found
+    for name, bounds in given.items():
+        inner, table = Mistakes(), None
+        try:
+            table = BoundTable.model_validate(bounds)
+        except ValidationError as problem:
+            inner.add_refused(name, problem, BoundTable)
+        with inner.under():
+            if table is not None:
+                of = None if table.of is None else dict(flattened(table.of))
+                bound = Bound(table.at_most, table.at_least, table.exactly, of)
+                found |= checked({name: bound})
+        for _, words in inner.found:
+            said = words.removeprefix("constraints: ")
+            mistakes.add_words(("constraints", name), f"[constraints] {_named(name, said)}")
+    return found
+
+
+def _named(name: str, words: str) -> str:
+    """What is wrong with a bound, beginning with the name that it is given under."""
+    words = words.removeprefix(f"[{name}] ")
+    return words if words.startswith((name, f"'{name}'")) else f"{name}: {words}"
+
+
+def _check_constraints(
+    unknowns: Unknowns, constraints: Mapping[str, Bound], mistakes: Mistakes
+) -> None:
+    """What is wrong with units, with names of fields, and with what nothing can meet."""
+    for name, bound in constraints.items():
+        inner = Mistakes()
+        with inner.under():
+            sides_of({name: bound}, unknowns.units)
+            region_of(unknowns, sums_of({name: bound}, unknowns))
+        for _, words in inner.found:
+            said = words.removeprefix("constraints: ")
+            mistakes.add_words(("constraints", name), f"[constraints] {_named(name, said)}")
+
+
+def _robust(data: Mapping[str, Any], mistakes: Mistakes) -> Robust | None:
+    """Regimes; None without."""
+    if "robust" not in data:
+        return None
+    table, found = _table("robust", RobustTable, data["robust"], mistakes), None
+    if table is not None:
+        regimes: dict[str, Any] = {}
+        for path, value in flattened(table.over):
+            if isinstance(value, Mapping):
+                value = between(value, path, mistakes)
+            if value is not None:
+                regimes[path] = value
+        weights = None if table.weights is None else tuple(table.weights)
+        with mistakes.under("robust"):
+            found = Robust(regimes, table.by, weights, table.paired)
+    return found
 
 
 def _over(data: Mapping[str, Any], mistakes: Mistakes) -> dict[str, Any]:

@@ -12,33 +12,26 @@ from numpy.typing import NDArray
 from fem_check.choice.settings import RTOL, RunSettings
 from fem_check.choice.solving import solve
 from fem_check.choice.ways import ANSWERS, way_of
+from fem_check.optimisation.finding import NothingFound as NothingFound
+from fem_check.optimisation.finding import found
 from fem_check.optimisation.kept import Kept
 from fem_check.optimisation.objectives import Objective, objective_of
-from fem_check.optimisation.result import Check, Optimum, Start
+from fem_check.optimisation.options.constraints import checked
+from fem_check.optimisation.options.robust import Robust, unknowns_of
+from fem_check.optimisation.result import Optimum
+from fem_check.optimisation.task import Task
 from fem_check.optimisation.unknowns import Unknowns
-from fem_check.optimisation.values import Question
 from linear_theory.common import validation
-from linear_theory.common.errors import SheetcrawlError
-from linear_theory.common.estimate import Estimate
 from linear_theory.common.progress import Progress, Report, reporting
 from linear_theory.common.threads import one_blas_thread
-from linear_theory.optimisation.certificate import Certificate, certificate
-from linear_theory.optimisation.problem import Unusable
-from linear_theory.optimisation.search import Ascent, Climbed, climb
+from linear_theory.optimisation.search import Ascent
 from linear_theory.optimisation.starts import starts as starting_points
 from linear_theory.scene.scene import Scene
 
 Array = NDArray[np.float64]
 
-LADDER = ("strip", "first order", "second order", "cycle", "stepped")
-"""Levels, each checked by the next one that represents the scene."""
-
 FINE = 1e-3
 """Relative tolerance of the answers of a search."""
-
-
-class NothingFound(SheetcrawlError):
-    """No start has led to a scene with an answer; says why not."""
 
 
 def optimise(
@@ -54,6 +47,8 @@ def optimise(
     check: bool = True,
     file: str | Path | None = None,
     progress: bool | Report | None = None,
+    constraints: Mapping[str, Any] | None = None,
+    robust: Robust | None = None,
 ) -> Optimum:
     """The best scene between bounds, with a certificate.
 
@@ -64,10 +59,12 @@ def optimise(
     that answers the scene as given. rtol: of these speeds. starts: climbs, the first from the scene
     itself, the others from a Sobol sequence by that seed. how: an `Ascent`. check: whether the next
     higher level is asked, too. file: keeps all answers, and the same call goes on from it.
+    constraints: `Bound`s by name, of numbers of the answer or sums of fields, which the best scene must
+    keep to. robust: a `Robust`, several regimes over which the objective is the worst or the mean.
 
     The gradient is the closed one of a strip at that level, of speeds by a travelling wave,
-    growth.alpha and wave.period, else by differences. Dry friction on a strip is smoothed in stages
-    (see `values`).
+    growth.alpha and wave.period, else by adjoints or differences. Dry friction
+    on a strip is smoothed in stages (see `values`).
 
     Raises ValueError, before any work, for what is no field, no objective, no level; `NothingFound`
     where no start has an answer, as beyond the reach of the level; KeyboardInterrupt, saying what the
@@ -89,10 +86,12 @@ def optimise(
         settings,
         starts,
         seed,
-        how or Ascent(),
+        how,
         check,
         file,
         progress,
+        constraints=constraints,
+        robust=robust if robust is None else validation.instance("robust", robust, Robust),
     )
 
 
@@ -103,34 +102,52 @@ def search(
     settings: RunSettings,
     starts: int,
     seed: int,
-    how: Ascent,
+    how: Ascent | None,
     check: bool,
     file: str | Path | None = None,
     progress: bool | Report | None = None,
     again: str = "the same call",
+    constraints: Mapping[str, Any] | None = None,
+    robust: Robust | None = None,
 ) -> Optimum:
     """`optimise` of unknowns; again: what is said to go on with after an interruption."""
     begin, report = time.perf_counter(), reporting(progress)
-    points = _starts(unknowns, starts, validation.integer("seed", seed, 0))
-    path = None if file is None else Path(file)
+    how = Ascent() if how is None else validation.instance("how", how, Ascent)
+    check = validation.flag("check", check)
+    path = None if file is None else _path(file)
+    constraints = checked(constraints)
+    regimes = (
+        [] if robust is None else unknowns_of(robust, unknowns.scene, unknowns.over, unknowns.base)
+    )
     settings = _with_level(unknowns.scene, settings)
+    for name, one in regimes:
+        _check_regime(name, one.scene, settings.level)
     asked = {
         "unknowns": unknowns.definition(),
         "objective": objective.to_dict(),
         "settings": settings.to_dict(),
-        "starts": [starts, seed],
-        "how": how.to_dict(),
+        "constraints": {name: bound.definition() for name, bound in constraints.items()},
+        "robust": None if robust is None else robust.definition(),
+        "regimes": [[name, one.definition()] for name, one in regimes],
     }
     with Kept(path, asked) as kept:
-        question = Question(unknowns, settings, objective, kept)
+        task = Task.of(unknowns, regimes, objective, settings, constraints, robust, kept)
+        points = _starts(task, starts, validation.integer("seed", seed, 0))
         telling = _Telling(report, kept, len(points), begin)
         try:
-            return _found(question, points, how, check, telling, begin)
+            return found(task, points, how, check, telling, begin)
         except KeyboardInterrupt:
             if path is None:
                 raise KeyboardInterrupt("interrupted; nothing is kept without file=...") from None
-            words = f"interrupted; {kept.count} answers are in {path}; {again} goes on with them"
+            answers = "1 answer is" if kept.count == 1 else f"{kept.count} answers are"
+            words = f"interrupted; {answers} in {path}; {again} goes on with them"
             raise KeyboardInterrupt(words) from None
+
+
+def _path(file: object) -> Path:
+    if not isinstance(file, str | Path) or not str(file):
+        raise ValueError(f"file = {validation.shown(file)}: must be the name of a file")
+    return Path(file)
 
 
 def _with_level(scene: Scene, settings: RunSettings) -> RunSettings:
@@ -144,12 +161,20 @@ def _with_level(scene: Scene, settings: RunSettings) -> RunSettings:
     return RunSettings(level, settings.rtol, settings.periods, settings.steps)
 
 
-def _starts(unknowns: Unknowns, count: int, seed: int) -> list[Array]:
+def _check_regime(name: str, scene: Scene, level: str) -> None:
+    """Raise ValueError where the level does not represent a regime."""
+    try:
+        way_of(scene, level)
+    except ValueError as problem:
+        raise ValueError(f"regimes: {name}: {problem}") from None
+
+
+def _starts(task: Task, count: int, seed: int) -> list[Array]:
     """The scene as given, where it says all, and others."""
-    present = unknowns.present
-    known = np.where(np.isnan(present), unknowns.region.centre, present)
-    inside = np.clip(known, unknowns.region.low, unknowns.region.high)
-    return starting_points(unknowns.region, count, seed, inside)
+    present, region = task.unknowns.present, task.region
+    known = np.where(np.isnan(present), region.centre, present)
+    inside = np.clip(known, region.low, region.high)
+    return starting_points(region, count, seed, inside)
 
 
 class _Telling:
@@ -176,92 +201,3 @@ class _Telling:
             f"start {min(self._start + 1, self._starts)} of {self._starts}, {self._kept.count} answers"
         )
         self._report(Progress(words, min(share, 1.0), time.perf_counter() - self._begin, math.nan))
-
-
-def _found(
-    question: Question,
-    points: list[Array],
-    how: Ascent,
-    check: bool,
-    telling: _Telling,
-    begin: float,
-) -> Optimum:
-    unknowns, objective = question.unknowns, question.objective
-    stages, truth, climbs = question.stages(), question.truth(), []
-    for number, point in enumerate(points):
-        telling.at(number, len(stages))
-        climbs.append(climb(stages, truth, unknowns.region, point, how, telling.done))
-    best = max(climbs, key=lambda one: one.value)
-    if best.found is None:
-        raise NothingFound(f"no start has an answer; the first: {_why(question, points[0])}")
-    proof = _certificate(question, best)
-    scene, sign = unknowns.scene_at(best.point), objective.sign
-    value = Estimate(sign * best.found.value, best.found.error)
-    slopes = question.proof(best.stage)(best.point).gradient / unknowns.slopes(best.point)
-    return Optimum(
-        scene=scene,
-        values=unknowns.values(best.point),
-        objective=objective,
-        answer=question.answer(scene),
-        value=value,
-        start=_of(question, unknowns.scene),
-        certificate=proof,
-        rounding=abs(proof.value - best.found.value),
-        sensitivities=dict(zip(unknowns.names, (sign * slopes).tolist(), strict=True)),
-        starts=tuple(_end(one, sign) for one in climbs),
-        check=_check(question, scene) if check else None,
-        answers=question.kept.fresh,
-        seconds=time.perf_counter() - begin,
-        units=unknowns.units,
-        field_units={field.name: field.axis.unit for field in unknowns.fields},
-    )
-
-
-def _certificate(question: Question, best: Climbed) -> Certificate:
-    unknowns = question.unknowns
-    return certificate(
-        question.proof(best.stage),
-        unknowns.region,
-        best.point,
-        unknowns.names,
-        question.has_curvature(),
-    )
-
-
-def _why(question: Question, point: Array) -> str:
-    try:
-        question.value(point)
-    except Unusable as problem:
-        return str(problem)
-    return "it has one, but no neighbour of it"
-
-
-def _end(one: Climbed, sign: float) -> Start:
-    value = math.nan if one.found is None else sign * one.found.value
-    return Start(sign * one.first, value, one.words, one.evaluations, one.seconds)
-
-
-def _of(question: Question, scene: Scene) -> Estimate | None:
-    """The objective of a scene; None where it has none."""
-    try:
-        return question.objective.of(question.answer(scene).speed, scene)
-    except Unusable:
-        return None
-
-
-def _check(question: Question, scene: Scene) -> Check | None:
-    """By the next level that represents the scene."""
-    for level in LADDER[LADDER.index(question.settings.level) + 1 :]:
-        try:
-            way_of(scene, level)
-        except ValueError:
-            continue
-        higher = Question(
-            question.unknowns, RunSettings(level, RTOL), question.objective, Kept(None, None)
-        )
-        try:
-            best = question.objective.of(higher.answer(scene).speed, scene)
-        except Unusable as problem:
-            return Check(level, None, None, str(problem))
-        return Check(level, best, _of(higher, question.unknowns.scene))
-    return None

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from fem_check.sweeps.points.axes import Between, Range
 from fem_check.sweeps.points.fields import checked, takes_whole_numbers
 from linear_theory.common import validation
-from linear_theory.common.shown import Value
+from linear_theory.common.shown import Value, number
 from linear_theory.optimisation.problem import Ball, Constraint, Linear
 from linear_theory.scene.scene import Scene
 from linear_theory.wave.travelling import TravellingWave
@@ -21,6 +21,12 @@ Array = NDArray[np.float64]
 
 WAVE = "wave"
 """The name of the harmonics among what may change; fields have dots in theirs."""
+
+ANSWERING = "run."
+"""What fields that are not of the scene begin with."""
+
+LEEWAY = 1 - math.cos(math.pi / 32)
+"""Of |c|, within which a wave is of the size: that by which the bound is tightened, see GRID."""
 
 GRID = 32
 """Phases to a wavelength of the highest harmonic at which |c| is bounded: between them it is larger by
@@ -48,6 +54,8 @@ class Field:
     def of(cls, path: object, given: object) -> "Field":
         """From a `Between`, or a pair of numbers or of texts with units."""
         name = checked(path)
+        if name.startswith(ANSWERING):
+            raise ValueError(f"over: {name}: says how a scene is answered, not what it is")
         if takes_whole_numbers(name):
             raise ValueError(
                 f"over: {name}: takes whole numbers, which have no gradient; optimise for each of them"
@@ -57,6 +65,10 @@ class Field:
         if not isinstance(given, Between):
             shown = validation.shown(given)
             raise ValueError(f"over: {name} = {shown}: must be (low, high), or a Between")
+        if given.count is not None:
+            raise ValueError(
+                f"over: {name}: count = {given.count}: must be left out, all values between are tried"
+            )
         try:
             return cls(given.on(name))
         except ValueError as problem:
@@ -155,6 +167,18 @@ class Harmonics(Value):
         if self.mean:
             found[-1] = wave.mean
         return np.asarray(found / self.unit)
+
+    def outside(self, wave: TravellingWave) -> list[str]:
+        """How a wave is none of these, in words."""
+        found, unknowns = [], self.of(wave)
+        more = np.flatnonzero(np.hypot(wave.cosine, wave.sine)[self.count :]) + self.count + 1
+        if more.size:
+            found.append(f"wave has harmonics up to {more[-1]}, not up to {self.count}")
+        if wave.mean and not self.mean:
+            found.append(f"wave.mean = {number(wave.mean)}, not 0")
+        if float(self.constraint.excess(unknowns).max()) > LEEWAY:
+            found.append(f"its wave misses {self.constraint.name}")
+        return found
 
     @cached_property
     def constraint(self) -> Constraint:

@@ -1,13 +1,15 @@
 """What an optimisation found: the best scene, what it is worth, and why it is held to be the best."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
+import numpy as np
+
 from fem_check.answer.units import Units
 from fem_check.choice.result import Prediction
-from fem_check.optimisation.objectives import Objective
+from fem_check.optimisation.objectives import Given, Objective
 from fem_check.optimisation.words import shown
 from linear_theory.common.estimate import Estimate
 from linear_theory.common.shown import Shown, number
@@ -40,6 +42,58 @@ class Check(Shown):
     failed: str = ""
 
 
+@dataclass(frozen=True)
+class Limited(Shown):
+    """A number of the answer that must keep to a bound: its value, and what of the objective moving the
+    bound by 1 brings, 0 where it does not hold. unit: of the number, as that of an `Objective`."""
+
+    name: str
+    value: Estimate
+    bound: float
+    brings: float
+    unit: str
+
+
+@dataclass(frozen=True)
+class Regime(Shown):
+    """The objective in one of several regimes, with the best scene there."""
+
+    name: str
+    value: Estimate
+    scene: Scene = field(repr=False)
+
+    def _contents(self) -> Mapping[str, Any]:
+        return {"name": self.name, "value": self.value}
+
+
+@dataclass(frozen=True)
+class Scale(Shown):
+    """What a gain is compared with. size: >= 0, in units of the objective; words: what it is, where it
+    is not the value itself."""
+
+    size: float
+    words: str = ""
+
+    @classmethod
+    def of(cls, objective: Objective, value: Estimate, first: Sequence[float]) -> "Scale":
+        """That of a value; first: of the starts, NaN where there is none.
+
+        The value itself, unless it is 0 within its error, or of a function, whose 0 may lie anywhere:
+        then how far the starts lie from it, half of them farther, where that is more.
+        """
+        away = [abs(one - value.value) for one in first if not math.isnan(one)]
+        spread, size = float(np.median(away)) if away else 0.0, abs(value.value)
+        if (isinstance(objective, Given) or size <= value.error) and spread > size:
+            return cls(spread, "the distance of the starts from the best")
+        return cls(size)
+
+    def share(self, part: float) -> float:
+        """A part >= 0 of it; of nothing, nothing is 0 and all else infinite."""
+        if self.size:
+            return part / self.size
+        return 0.0 if part == 0 else math.inf if part > 0 else math.nan
+
+
 @dataclass(frozen=True, eq=False)
 class Optimum(Shown):
     """The best scene of an optimisation.
@@ -52,6 +106,11 @@ class Optimum(Shown):
     derivative of the objective by each value; starts: how each climb ended; check: by the next higher
     level, None if there is none or none was asked for; answers: that were computed, without those that
     a file had kept; seconds. units: of the numbers, None for plain ones; field_units: of the fields.
+    scale: of the objective, which shares are of; without_effect: fields between whose bounds it does
+    not change within its errors; outside: where the scene as given lies outside of the bounds, in
+    words: the first climb then began at the nearest scene inside. slopes: of the values by the unknowns
+    of the search. limits: numbers that must keep to bounds; regimes: of a robust optimum, by: "worst"
+    or "mean" of them; its answer is that of the worst.
     """
 
     scene: Scene
@@ -69,14 +128,25 @@ class Optimum(Shown):
     seconds: float
     units: Units | None = None
     field_units: Mapping[str, str] = field(default_factory=dict)
+    scale: "Scale" = field(default_factory=lambda: Scale(1.0))
+    without_effect: tuple[str, ...] = ()
+    outside: tuple[str, ...] = ()
+    slopes: tuple[float, ...] = ()
+    limits: tuple[Limited, ...] = ()
+    regimes: tuple[Regime, ...] = ()
+    by: str = ""
 
     @property
     def unit(self) -> str:
         """Of the objective, in the units of the scene file if it has some."""
+        return self.in_units(self.objective.unit)
+
+    def in_units(self, unit: str) -> str:
+        """A unit of the library in those of the scene file."""
         if self.units is None:
-            return self.objective.unit
+            return unit
         named = {"length/time": self.units.speed, "length": self.units.length}
-        return named.get(self.objective.unit, self.objective.unit)
+        return {**named, "1/time": f"1/{self.units.time}"}.get(unit, unit)
 
     @property
     def level(self) -> str:
@@ -85,9 +155,16 @@ class Optimum(Shown):
 
     @property
     def left(self) -> float:
-        """Share of the value that may be left in the neighbourhood; NaN if not known."""
-        proof = self.certificate
-        return (proof.gain + self.rounding) / max(abs(self.value.value), 1e-300)
+        """Share of the scale that may be left in the neighbourhood; NaN if not known."""
+        return self.scale.share(self.certificate.gain + self.rounding)
+
+    @property
+    def at_bounds(self) -> Mapping[str, float]:
+        """What moving the bound of each value brings, by its unit, all constraints kept; 0 where none
+        holds it."""
+        sign, found = self.objective.sign, self.certificate.multipliers
+        slopes = zip(self.values, found, self.slopes, strict=True)
+        return {name: float(sign * push / slope) for name, push, slope in slopes}
 
     @property
     def converged(self) -> bool:
@@ -98,7 +175,7 @@ class Optimum(Shown):
     def agreed(self) -> int:
         """How many starts ended within GAIN of the best one."""
         best = max(one.value * self.objective.sign for one in self.starts if not math.isnan(one.value))
-        near = GAIN * abs(best)
+        near = GAIN * self.scale.size
         return sum(one.value * self.objective.sign >= best - near for one in self.starts)
 
     def __str__(self) -> str:

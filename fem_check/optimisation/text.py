@@ -31,10 +31,14 @@ def _lines(found: "Optimum") -> Iterator[tuple[str, str]]:
     unit = f" {found.unit}" if found.unit else ""
     yield "best", f"{found.objective.name} {shown(found.value)}{unit}, {_improvement(found)}"
     yield "at", _values(found)
+    yield "no effect", _idle(found)
+    yield "outside", _outside(found)
     if not found.converged:
         yield "NOT MET", _doubts(found)
     yield "proof", _proof(found)
     yield "held by", ", ".join(found.certificate.held)
+    yield "limits", _limits(found)
+    yield "regimes", _regimes(found)
     yield "starts", _starts(found)
     yield "depends", _sensitivities(found)
     yield "check", _check(found)
@@ -64,6 +68,20 @@ def _values(found: "Optimum") -> str:
     return ", ".join(told) + (f"; and {more} smaller amplitudes" if more else "")
 
 
+def _idle(found: "Optimum") -> str:
+    if not found.without_effect:
+        return ""
+    names = ", ".join(found.without_effect)
+    return f"of {names} within the errors: the value above is that at both bounds, too"
+
+
+def _outside(found: "Optimum") -> str:
+    if not found.outside:
+        return ""
+    words = "; ".join(found.outside)
+    return f"the scene as given lies outside of the bounds, its climb began inside: {words}"
+
+
 def _weight(found: "Optimum", name: str) -> float:
     """Fields first, then amplitudes by their size."""
     harmonic = "[" in name or name == "wave.mean"
@@ -73,38 +91,62 @@ def _weight(found: "Optimum", name: str) -> float:
 def _doubts(found: "Optimum") -> str:
     if found.certificate.kink:
         return found.certificate.kink
-    if math.isnan(found.left):
+    if not math.isfinite(found.left):
         return "the error of the gradient is not known"
     return f"a gain of {100 * found.left:.2g} % may be left, allowed is {100 * GAIN:g} %"
 
 
 def _proof(found: "Optimum") -> str:
-    proof, size = found.certificate, max(abs(found.value.value), 1e-300)
-    words = f"projected gradient {percent(proof.slope / size)} per range of the unknowns"
-    if proof.doubt > max(0.1 * proof.slope, LITTLE * size):
-        words += f" ± {percent(proof.doubt / size)}"
+    proof, share = found.certificate, found.scale.share
+    words = f"projected gradient {percent(share(proof.slope))} per range of the unknowns"
+    if share(proof.doubt) > max(0.1 * share(proof.slope), LITTLE):
+        words += f" ± {percent(share(proof.doubt))}"
     if proof.highest == -math.inf:
         words += "; bounds hold every direction"
     elif math.isnan(proof.highest):
         words += "; curvature not computed"
-    else:
-        words += f"; largest curvature {plain(proof.highest / size, 2)}"
-    words += f"; gain left {percent(proof.gain / size)}"
-    if found.rounding >= LITTLE * size:
-        words += f"; what was climbed differs from the value above by {percent(found.rounding / size)}"
+    elif found.scale.size:
+        words += f"; largest curvature {plain(proof.highest / found.scale.size, 2)}"
+    words += f"; gain left {percent(share(proof.gain))}"
+    if share(found.rounding) >= LITTLE:
+        words += f"; what was climbed differs from the value above by {percent(share(found.rounding))}"
+    if found.scale.words:
+        unit = f" {found.unit}" if found.unit else ""
+        words += f"; shares are of {plain(found.scale.size)}{unit}, {found.scale.words}"
     return words
 
 
+def _limits(found: "Optimum") -> str:
+    """Each number with its bound, and what moving the bound brings where it holds."""
+    own, words = f" {found.unit}" if found.unit else "", []
+    for one in found.limits:
+        unit = found.in_units(one.unit)
+        said = f"{one.name}: {shown(one.value)} {unit}".rstrip()
+        if one.brings:
+            said += f" (moving the bound brings {plain(one.brings)}{own} per {unit or 1})"
+        words.append(said)
+    return "; ".join(words)
+
+
+def _regimes(found: "Optimum") -> str:
+    if not found.regimes:
+        return ""
+    each = ", ".join(f"{one.name}: {shown(one.value)}" for one in found.regimes)
+    return f"the value above is the {found.by} of {len(found.regimes)}: {each}"
+
+
 def _starts(found: "Optimum") -> str:
-    ends = ", ".join(plain(one.value) for one in found.starts)
+    ends = ", ".join("none" if math.isnan(one.value) else plain(one.value) for one in found.starts)
     bad = {one.words for one in found.starts if one.words != "converged"}
-    words = f"{found.agreed} of {len(found.starts)} ended within {100 * GAIN:g} % of the best ({ends})"
+    near = "" if not found.scale.words else f"of {plain(found.scale.size)} "
+    words = f"{found.agreed} of {len(found.starts)} ended within {100 * GAIN:g} % {near}of the best"
+    words += f" ({ends})"
     return words + "".join(f"; {one}" for one in sorted(bad))
 
 
 def _sensitivities(found: "Optimum") -> str:
     held = [name for name in found.field_units if _bound(found, name)]
-    fields = {name: found.sensitivities[name] for name in held}
+    fields = {name: found.at_bounds[name] for name in held}
     unit = f" {found.unit}" if found.unit else ""
     return ", ".join(
         f"{plain(value)}{unit} per {found.field_units.get(name) or 1} of {name}"
@@ -124,7 +166,8 @@ def _check(found: "Optimum") -> str:
     level = LEVEL_WORDS.get(check.level, check.level)
     if check.best is None:
         return f"none by {level}: {check.failed}"
-    words = f"{shown(check.best)} by {level}"
+    unknown = "" if math.isfinite(check.best.error) else ", its error not known,"
+    words = f"{shown(check.best)}{unknown} by {level}"
     if check.start is None or not check.start.value:
         return words
     return f"{words}, {against(check.best.value, check.start.value)}"

@@ -13,24 +13,70 @@ from fem_check.optimisation.over import WIDEST as WIDE
 from fem_check.optimisation.over import Field, parts_of, travelling
 from fem_check.sweeps.points.measures import in_unit, measured
 from fem_check.sweeps.variation import Variation
+from linear_theory.common.shown import number
 from linear_theory.optimisation.problem import Region, Unusable
 from linear_theory.scene.scene import Scene
 
 Array = NDArray[np.float64]
 
 
-class Unknowns:
-    """The unknowns of a scene. fields, harmonics: what they are; base: of the fields, None without."""
+ROUNDING = 1e-9
+"""Of the unknown of a field at a bound."""
 
-    def __init__(self, scene: Scene, over: Mapping[str, Any], base: Variation | None = None) -> None:
+
+class Unknowns:
+    """The unknowns of a scene.
+
+    fields, harmonics: what they are; base: of the fields, None without; fixed: values by which the
+    scene differs from that of the base.
+    """
+
+    def __init__(
+        self,
+        scene: Scene,
+        over: Mapping[str, Any],
+        base: Variation | None = None,
+        fixed: Mapping[str, Any] | None = None,
+    ) -> None:
         self.fields, self.harmonics = parts_of(over)
-        self.scene, self._over = scene, over
+        self.scene, self.over = scene, over
         self._like = travelling(scene) if self.harmonics else None
-        self._base = base
+        self._base, self._fixed = base, dict(fixed or {})
         if self.fields and base is None:
             self._base = Variation.of(scene, RunSettings())
         if self._base is not None:
             self._base.check_axes([field.axis for field in self.fields])
+            for field in self.fields:
+                self._check_ends(field, self._base)
+            self._check_scenes(self._base)
+
+    def _check_ends(self, field: Field, base: Variation) -> None:
+        """Raise ValueError, naming the bound, for one that the field itself does not allow, and for a
+        field that has no numbers at all."""
+        for share, which in ((0.0, "lower"), (1.0, "upper")):
+            found, mistakes = base.scene_of({**self._fixed, field.name: field.said(share)})
+            place = tuple(field.name.split("."))
+            wrong = [words for at, words in mistakes.found if at[: len(place)] == place]
+            if found is None and wrong:
+                words = wrong[0].partition(": ")[2] or wrong[0]
+                raise ValueError(f"over: {field.name}: {which} bound {field.said(share)}: {words}")
+
+    def _check_scenes(self, base: Variation) -> None:
+        """Raise ValueError, in the words of the scene, where it is none at both bounds and between."""
+        wrong = []
+        for share in (0.5, 0.0, 1.0):
+            said = {field.name: field.said(share) for field in self.fields}
+            found, mistakes = base.scene_of({**self._fixed, **said})
+            if found is not None:
+                return
+            wrong.append("; ".join(words for _, words in mistakes.found))
+        names = ", ".join(field.name for field in self.fields)
+        raise ValueError(f"over: {names}: {wrong[0]}")
+
+    @property
+    def base(self) -> Variation | None:
+        """The scene of which the fields are; None without fields."""
+        return self._base
 
     @property
     def units(self) -> Units | None:
@@ -61,7 +107,7 @@ class Unknowns:
         scene = self.scene
         if self.fields and self._base is not None:
             said = {f.name: f.said(float(s)) for f, s in zip(self.fields, shares, strict=True)}
-            found, mistakes = self._base.scene_of(said)
+            found, mistakes = self._base.scene_of({**self._fixed, **said})
             if found is None:
                 raise Unusable("; ".join(words for _, words in mistakes.found))
             scene = found.scene
@@ -76,6 +122,19 @@ class Unknowns:
         if self.harmonics is None or self._like is None:
             return np.array(found)
         return np.concatenate([found, self.harmonics.of(self._like)])
+
+    @property
+    def outside(self) -> tuple[str, ...]:
+        """Where the scene lies outside of the bounds, in words."""
+        found, present = [], self.present
+        for field, share in zip(self.fields, present[: len(self.fields)], strict=True):
+            if not -ROUNDING <= share <= 1 + ROUNDING and not np.isnan(share):
+                unit = f" {field.axis.unit}" if field.axis.unit else ""
+                said, ends = number(field.at(float(share))), [number(end) for end in field.axis.ends]
+                found.append(f"{field.name} = {said}{unit}, not from {ends[0]} to {ends[1]}{unit}")
+        if self.harmonics is not None and self._like is not None:
+            found += self.harmonics.outside(self._like)
+        return tuple(found)
 
     def _share(self, field: Field) -> float:
         """The unknown of a field as the scene has it."""

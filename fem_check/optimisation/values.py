@@ -9,7 +9,7 @@ slip speed.
 
 import warnings
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -31,6 +31,7 @@ from linear_theory.optimisation.differences import Differences
 from linear_theory.optimisation.problem import Evaluation, Unusable
 from linear_theory.optimisation.problem import Objective as OfPoints
 from linear_theory.scene.scene import Scene
+from linear_theory.speed.result import CrawlSpeed
 
 Array = NDArray[np.float64]
 
@@ -54,14 +55,28 @@ EXACT = 1e-9
 tests against differences of speeds 1e-9."""
 
 
+REMEMBERED = 32
+"""Speeds of the last points, of which several numbers may be asked for."""
+
+
 @dataclass(frozen=True)
 class Question:
-    """What is asked of every point: level, tolerance and objective."""
+    """What is asked of every point: level, tolerance and objective, or another number of the answer.
+
+    name: by which its answers are kept; speeds: of the last points, shared by those who ask for other
+    numbers of the same scenes.
+    """
 
     unknowns: Unknowns
     settings: RunSettings
     objective: Objective
     kept: Kept
+    name: str = ""
+    speeds: dict[bytes, CrawlSpeed] = field(default_factory=dict)
+
+    def also(self, objective: Objective, name: str) -> "Question":
+        """For another number of the same answers."""
+        return replace(self, objective=objective, name=f"{self.name}{name} ")
 
     def answer(self, scene: Scene) -> Prediction:
         """Of a scene. Raises `Unusable` beyond the reach of the level, and where it fails."""
@@ -79,10 +94,16 @@ class Question:
 
     def value(self, point: Array) -> Estimate:
         """Signed, so that larger is better."""
-        return self.kept.value("value", point, lambda: self._signed(self.unknowns.scene_at(point)))
+        return self.kept.value(f"{self.name}value", point, lambda: self._signed(point))
 
-    def _signed(self, scene: Scene) -> Estimate:
-        found = self.objective.of(self.answer(scene).speed, scene)
+    def _signed(self, point: Array) -> Estimate:
+        scene, key = self.unknowns.scene_at(point), point.tobytes()
+        if key not in self.speeds:
+            speed = self.answer(scene).speed
+            while len(self.speeds) >= REMEMBERED:
+                self.speeds.pop(next(iter(self.speeds)))
+            self.speeds[key] = speed
+        found = self.objective.of(self.speeds[key], scene)
         return Estimate(self.objective.sign * found.value, found.error)
 
     def by_differences(self, careful: bool = False) -> OfPoints:
@@ -94,7 +115,7 @@ class Question:
         adjoint = self._adjoint
         if adjoint is None:
             return None
-        return lambda point: self.kept.evaluation("adjoint", point, lambda: adjoint(point))
+        return lambda point: self.kept.evaluation(f"{self.name}adjoint", point, lambda: adjoint(point))
 
     @cached_property
     def _adjoint(self) -> Adjoint | None:
@@ -105,7 +126,8 @@ class Question:
         """With the gradient on a strip. width: of a tanh law instead of dry friction, over the unit."""
 
         def evaluated(point: Array) -> Evaluation:
-            return self.kept.evaluation(f"line {width!r}", point, lambda: self._on_line(point, width))
+            key = f"{self.name}line {width!r}"
+            return self.kept.evaluation(key, point, lambda: self._on_line(point, width))
 
         return evaluated
 
@@ -167,7 +189,7 @@ class Question:
             and scene.drive.series is not None
             and scene.alpha != 0
             and scene.contact.friction.map is None
-            and all(field.name in ON_LINE_FIELDS for field in self.unknowns.fields)
+            and all(one.name in ON_LINE_FIELDS for one in self.unknowns.fields)
         )
 
     def has_curvature(self) -> bool:

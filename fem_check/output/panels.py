@@ -5,6 +5,7 @@ that a left turn of the sheet is a left turn on the page.
 """
 
 from typing import Any
+from weakref import WeakKeyDictionary
 
 import numpy as np
 from matplotlib import colormaps
@@ -50,6 +51,16 @@ MARGIN = 0.1
 
 PRESSURE_MAP = colormaps["Blues"]
 """Colours of pressure: the darker, the more."""
+
+
+BAR_END = 1.055
+"""Right end of a colour bar, over the width of its axes."""
+
+ORIGINAL: WeakKeyDictionary[Axes, Any] = WeakKeyDictionary()
+"""Places of axes that were narrowed, which may be drawn into again."""
+
+LABEL = 0.75
+"""Width of its numbers and label, inches."""
 
 
 def draw_sheet(ax: Axes, moving: Moving, units: Units, phase: float) -> None:
@@ -112,9 +123,19 @@ def _time(frame: Frame, units: Units) -> str:
 
 def add_scale(ax: Axes, image: Any, label: str) -> None:
     """A colour bar beside the axes, as high as they are."""
+    if ax.figure.get_layout_engine() is None:  # axes of the caller: nothing else makes room
+        _make_room(ax)
     # inside of the axes' own box: it stays beside them when an equal aspect makes them smaller
-    bar = ax.inset_axes((1.02, 0.0, 0.035, 1.0))
+    bar = ax.inset_axes((1.02, 0.0, BAR_END - 1.02, 1.0))
     ax.figure.colorbar(image, cax=bar, label=label)
+
+
+def _make_room(ax: Axes) -> None:
+    """Narrow axes by what a colour bar with its label takes, which then fits into their old place."""
+    place = ORIGINAL.setdefault(ax, ax.get_position(original=True))
+    width = (place.width - LABEL / ax.figure.bbox.width * ax.figure.dpi) / BAR_END
+    if width > place.width / 3:
+        ax.set_position((place.x0, place.y0, width, place.height))
 
 
 def draw_side(ax: Axes, moving: Moving, units: Units, phase: float) -> None:

@@ -10,18 +10,35 @@ from typing import IO, Any
 
 
 @contextmanager
-def claimed(path: Path) -> Iterator[str]:
-    """Hold the lock, a file that stays; yields who holds it instead, empty where it was free.
+def claimed(path: Path, stays: bool = True) -> Iterator[str]:
+    """Hold the lock, a file; yields who holds it instead, empty where it was free.
 
-    Raises OSError where the file cannot be written.
+    stays: whether the file is left behind. Raises OSError where it cannot be written.
     """
-    with open(path, "a+", encoding="utf-8") as file:
-        if _held(file):
+    while True:
+        with open(path, "a+", encoding="utf-8") as file:
+            if not _held(file):
+                file.seek(0)
+                yield file.read().strip() or "an unknown process"
+                return
+            if not stays and not _is_at(file, path):
+                continue  # the one that held it has just removed it
             _sign(file)
-            yield ""
-        else:
-            file.seek(0)
-            yield file.read().strip() or "an unknown process"
+            try:
+                yield ""
+            finally:
+                if not stays:
+                    with contextlib.suppress(OSError):  # as on Windows, while it is open
+                        path.unlink()
+            return
+
+
+def _is_at(file: IO[Any], path: Path) -> bool:
+    """Whether a file is still the one of that path."""
+    try:
+        return os.path.samestat(os.fstat(file.fileno()), path.stat())
+    except OSError:
+        return False
 
 
 def _sign(file: IO[str]) -> None:

@@ -11,11 +11,12 @@ design = "grid"                    # "paired", "random" or "latin hypercube", wi
 time = "10 min"                    # to a scene
 """
 
+import math
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Annotated, Any, Literal, NamedTuple
 
-from pydantic import Field, ValidationError
+from pydantic import Field, PlainValidator, ValidationError, WithJsonSchema
 
 from fem_check.files.fields import Level, Natural, Table, Time
 from fem_check.files.mistakes import Mistakes, nearest
@@ -37,12 +38,24 @@ DESIGNS: dict[str, type[Design]] = {
 """By their names in a file."""
 
 
+def _end(value: object) -> float | str:
+    """A finite number or text; of two kinds pydantic would name both."""
+    if isinstance(value, str):
+        return value
+    if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value):
+        raise ValueError("must be a finite number, with or without a unit")
+    return value
+
+
+End = Annotated[float | str, PlainValidator(_end), WithJsonSchema({"type": ["number", "string"]})]
+
+
 class RangeTable(Table):
     """A range of a field: numbers, or text with units."""
 
-    low: float | str
+    low: End
     """E.g. 0.05 or "10 mm"."""
-    high: float | str
+    high: End
     """Likewise."""
     count: Annotated[int, Field(ge=2)] | None = None
     """Values on a grid, with both ends; random designs need none."""
@@ -113,6 +126,10 @@ def base_of(given: Any, text: str, path: Path) -> Variation:
     source = (path, text)
     if isinstance(given, str):
         file = path.parent / given
+        if file.resolve() == path.resolve():
+            mistakes = Mistakes()
+            mistakes.add_words(("scene",), f"scene = {given!r}: must not be this file itself")
+            raise mistakes.error(path, text)
         said = text_of(file)
         return Variation(data_of(said, file), file, said, source=source)
     mistakes = Mistakes(inside=("scene",))

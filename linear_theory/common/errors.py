@@ -17,7 +17,7 @@
       WrongWorkers              workers that cannot answer
       Fault                     a friction law that contradicts itself             ValueError
       KeptError                 answers with which an optimisation cannot go on    ValueError
-      NothingFound              an optimisation none of whose starts has an answer
+      NothingFound              an optimisation none of whose starts has an answer within its limits
       Unusable                  a point at which an objective has no value         ValueError
       NotWrittenError           an answer whose files cannot be written            OSError
 

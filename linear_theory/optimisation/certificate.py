@@ -15,9 +15,10 @@ gradient is, or where the point is a saddle, and zero at a maximum. Of an object
 derivatives are not computed it is the linear model's, |p|.
 """
 
+import itertools
 import math
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from typing import NamedTuple
 
 import numpy as np
@@ -26,12 +27,16 @@ from scipy.linalg import null_space
 from scipy.optimize import nnls
 
 from linear_theory.common.shown import Shown
-from linear_theory.optimisation.problem import Evaluation, Objective, Region, Unusable
+from linear_theory.optimisation.limits import Beside, Worst
+from linear_theory.optimisation.problem import Evaluation, Limited, Objective, Region, Unusable
 
 Array = NDArray[np.float64]
 
 ACTIVE = 1e-6
 """Distance to a bound or a constraint within which it is met with equality: both are scaled to 1."""
+
+NEAR = 1e-4
+"""The same of a limit on a computed number, to which the search keeps a margin."""
 
 GAIN = 0.02
 """Share of the value that may be left for a result to be called converged: of the quadratic model, with
@@ -54,7 +59,8 @@ class Certificate(Shown):
     Hessian, negative at a maximum; NaN if it was not computed, and minus infinity if no direction is
     left. held: names of the constraints that hold the point; multipliers (unknowns,): dV for a bound
     that is moved by 1, negative for a lower one. kink: why the gradient is one from one side, in words.
-    value: of the objective.
+    value: of the objective. pushes: multipliers of the constraints and limits that hold the point, and
+    of the smallest of several objectives, by name, as they are scaled.
     """
 
     value: float
@@ -65,6 +71,7 @@ class Certificate(Shown):
     held: tuple[str, ...]
     multipliers: Array
     kink: str = ""
+    pushes: Mapping[str, float] = field(default_factory=dict)
 
     def holds(self, rtol: float) -> bool:
         """Whether no gain above that share of the value is left, errors included, and none unknown."""
@@ -75,20 +82,25 @@ def certificate(
     objective: Objective, region: Region, point: Array, names: Sequence[str], second: bool = True
 ) -> Certificate:
     """Of a point inside a region. names: of the unknowns. second: whether to compute the curvature."""
+    if isinstance(objective, Worst):
+        return _of_the_worst(objective, region, point, names, second)
     found = objective(point)
     met = _met(region, point, names)
     normals = np.array([one.normal for one in met]).reshape(len(met), point.size)
     pushes, left = _projected(found.gradient, normals)
     held = pushes > HELD * max(float(np.linalg.norm(found.gradient)), 1e-300)
-    multipliers = np.zeros(point.size)
-    for push, one in zip(pushes, met, strict=True):
+    multipliers, sums = np.zeros(point.size), dict[str, float]()
+    for push, one in zip(pushes[held], itertools.compress(met, held), strict=True):
         if one.unknown >= 0:
             multipliers[one.unknown] += push * one.sign
+        else:
+            sums[one.name] = sums.get(one.name, 0.0) + float(push)
+    pushed = [(push, one) for push, one in zip(pushes, met, strict=True) if push]
+    found = _with_limits(found, region, point, pushed)
     free = null_space(normals[held]) if held.any() else np.eye(point.size)
     slope, doubt = float(np.linalg.norm(left)), float(np.linalg.norm(abs(free.T) @ found.doubt))
     gain, highest = slope + doubt, math.nan
     if second:
-        pushed = [(push, one) for push, one in zip(pushes, met, strict=True) if push]
         gain, highest = _second(objective, region, point, found, free, pushed, left)
     if math.isnan(doubt):
         gain = math.nan
@@ -101,7 +113,45 @@ def certificate(
         held=tuple(dict.fromkeys(one.name for one, h in zip(met, held, strict=True) if h)),
         multipliers=multipliers,
         kink=found.kink,
+        pushes=sums,
     )
+
+
+def _of_the_worst(
+    worst: Worst, region: Region, point: Array, names: Sequence[str], second: bool
+) -> Certificate:
+    """In the epigraph form, with the smallest value as one more unknown."""
+    found = worst(point)
+    scale = max(abs(found.value), float(np.linalg.norm(found.gradient)), 1e-300)
+    lifted = Region(
+        low=np.append(region.low, -np.inf),
+        high=np.append(region.high, np.inf),
+        centre=np.append(region.centre, 0.0),
+        spread=np.append(region.spread, 1.0),
+        constraints=tuple(Beside(one) for one in region.constraints),
+        limits=(*(Beside(one) for one in region.limits), *worst.lifted(scale)),
+    )
+
+    def height(at: Array) -> Evaluation:
+        last = scale * np.eye(at.size)[-1]
+        return Evaluation(scale * float(at[-1]), found.error, last, np.zeros(at.size))
+
+    top = np.append(point, found.value / scale)
+    proof = certificate(height, lifted, top, [*names, "the worst"], second)
+    return replace(proof, multipliers=proof.multipliers[:-1])
+
+
+def _with_limits(
+    found: Evaluation, region: Region, point: Array, pushed: "list[tuple[float, _Met]]"
+) -> Evaluation:
+    """With the errors and the kinks of the limits that hold the point."""
+    doubt, kinks = found.doubt, [found.kink]
+    for push, one in pushed:
+        if one.limit >= 0:
+            limit = region.limits[one.limit]
+            doubt = doubt + push * limit.doubt(point)
+            kinks.append(limit.kink(point))
+    return replace(found, doubt=doubt, kink="; ".join(dict.fromkeys(filter(None, kinks))))
 
 
 class _Met(NamedTuple):
@@ -113,6 +163,7 @@ class _Met(NamedTuple):
     sign: float = 1.0
     constraint: int = -1
     row: int = -1
+    limit: int = -1
 
 
 def _met(region: Region, point: Array, names: Sequence[str]) -> list[_Met]:
@@ -127,6 +178,9 @@ def _met(region: Region, point: Array, names: Sequence[str]) -> list[_Met]:
         slopes = constraint.slopes(point)
         for row in np.flatnonzero(constraint.excess(point) >= -ACTIVE):
             found.append(_Met(constraint.name, slopes[row], constraint=number, row=int(row)))
+    for number, limit in enumerate(region.limits):
+        if float(limit.excess(point)[0]) >= -NEAR:
+            found.append(_Met(limit.name, limit.slopes(point)[0], limit=number))
     return found
 
 
@@ -152,7 +206,8 @@ def _second(
     if not free.shape[1]:
         return 0.0, -math.inf
     try:
-        hessian = _reduced(objective, region, point, found, free)
+        limited = [(push, region.limits[one.limit]) for push, one in pushed if one.limit >= 0]
+        hessian = _reduced(_less(objective, limited), point, found, free)
     except Unusable:
         size = np.linalg.norm(left) + np.linalg.norm(abs(free.T) @ found.doubt)
         return float(size), math.nan
@@ -180,6 +235,9 @@ def _room(region: Region, point: Array, direction: Array) -> tuple[float, float]
     for constraint in region.constraints:
         moves.append(constraint.slopes(point) @ direction)
         gaps.append(-constraint.excess(point))
+    for limit in region.limits:
+        moves.append(limit.slopes(point) @ direction)
+        gaps.append(np.maximum(-limit.excess(point) - (NEAR - ACTIVE), 0.0))
     move, gap = np.concatenate(moves), np.concatenate(gaps)
     counts = gap > ACTIVE
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -196,9 +254,18 @@ def _gain(slope: float, curvature: float, ahead: float, behind: float) -> float:
     return max(ends)
 
 
-def _reduced(
-    objective: Objective, region: Region, point: Array, found: Evaluation, free: Array
-) -> Array:
+def _less(objective: Objective, limited: Sequence[tuple[float, Limited]]) -> Objective:
+    """The objective less the limits that hold the point, of its gradient alone."""
+
+    def evaluated(point: Array) -> Evaluation:
+        found = objective(point)
+        normals = [push * limit.slopes(point)[0] for push, limit in limited]
+        return replace(found, gradient=found.gradient - sum(normals, np.zeros(point.size)))
+
+    return evaluated if limited else objective
+
+
+def _reduced(objective: Objective, point: Array, found: Evaluation, free: Array) -> Array:
     """Second derivatives in the free directions, by central differences of gradients."""
     scale = max(abs(found.value), float(np.linalg.norm(found.gradient)), 1e-300)
     step = min(max(math.sqrt(float(found.doubt.max()) / scale), FINEST), COARSEST)

@@ -16,6 +16,10 @@ from linear_theory.common.shown import Shown
 Array = NDArray[np.float64]
 
 
+ROUNDING = 1e-12
+"""By which an equality may be missed: points are scaled to 1."""
+
+
 class Unusable(SheetcrawlError, ValueError):
     """A point at which the objective has no value, as its level of theory does not hold there."""
 
@@ -66,19 +70,24 @@ class Constraint(Protocol):
 
 @dataclass(frozen=True, eq=False)
 class Linear(Shown):
-    """matrix (rows, unknowns) times the point, at most `most` (rows,)."""
+    """matrix (rows, unknowns) times the point, at most `most` (rows,).
+
+    equal: neither more nor less, but for ROUNDING; every row is then there twice, with both signs.
+    """
 
     name: str
     matrix: Array
     most: Array
+    equal: bool = False
 
     def excess(self, point: Array) -> Array:
         """See Constraint."""
-        return np.asarray(self.matrix @ point - self.most)
+        over = np.asarray(self.matrix @ point - self.most)
+        return np.concatenate([over, -over]) - ROUNDING if self.equal else over
 
     def slopes(self, point: Array) -> Array:
         """See Constraint."""
-        return self.matrix
+        return np.vstack([self.matrix, -self.matrix]) if self.equal else self.matrix
 
     def curvature(self, multipliers: Array) -> Array:
         """None."""
@@ -106,13 +115,39 @@ class Ball(Shown):
         return np.diag(2 * self.weights / self.most) * multipliers[0]
 
 
+class Limited(Protocol):
+    """A `Constraint` of one row on a number that has an error; `linear_theory.optimisation.limits`."""
+
+    @property
+    def name(self) -> str:
+        """See Constraint."""
+        ...
+
+    def excess(self, point: Array) -> Array:
+        """See Constraint, (1,)."""
+        ...
+
+    def slopes(self, point: Array) -> Array:
+        """See Constraint, (1, unknowns)."""
+        ...
+
+    def doubt(self, point: Array) -> Array:
+        """Errors of the slopes, (unknowns,)."""
+        ...
+
+    def kink(self, point: Array) -> str:
+        """Why there are slopes from one side only, in words; empty if not."""
+        ...
+
+
 @dataclass(frozen=True, eq=False)
 class Region(Shown):
     """Points with low <= point <= high, (unknowns,) each, that meet the constraints.
 
     centre: a point inside, from which every other one can be seen: on the way to it no constraint is
-    left that was met. spread: how far starts lie from it, (unknowns,). Raises ValueError, naming it,
-    for a constraint that the centre does not meet, and for bounds that are not in order.
+    left that was met. spread: how far starts lie from it, (unknowns,). limits: further ones on numbers
+    that are computed with an error, which the centre need not meet. Raises ValueError, naming it, for a
+    constraint that the centre does not meet, and for bounds that are not in order.
     """
 
     low: Array
@@ -120,6 +155,7 @@ class Region(Shown):
     centre: Array
     spread: Array
     constraints: tuple[Constraint, ...] = ()
+    limits: tuple["Limited", ...] = ()
 
     def __post_init__(self) -> None:
         if not np.all(self.low < self.high):
@@ -145,6 +181,9 @@ class Region(Shown):
         """The point itself if it is inside, else the farthest one inside on the way to the centre."""
         if self.excess(point) <= allowed:
             return point
+        for one in self.constraints:
+            if isinstance(one, Linear) and one.equal:
+                point = point - np.linalg.pinv(one.matrix) @ (one.matrix @ point - one.most)
         inside, outside = 0.0, 1.0
         for _ in range(50):
             middle = (inside + outside) / 2

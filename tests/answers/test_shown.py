@@ -128,12 +128,23 @@ def swept():
 @cache
 def optimum():
     scene = linear_theory.Scene(SHEET, SINE, alpha=0.1)
-    return fem_check.optimise(scene, {"growth.alpha": (0.1, 0.2)}, level="strip", starts=1)
+    return fem_check.optimise(
+        scene,
+        {"growth.alpha": (0.1, 0.2)},
+        level="strip",
+        starts=1,
+        constraints={"power": fem_check.Bound(at_most=0.07)},
+        robust=fem_check.Robust({"friction.law": ["dry", "viscous"]}),
+    )
+
+
+PARTS_OF_OPTIMUM = ("Certificate", "Check", "Limited", "Regime", "Scale", "Speed", "Start")
 
 
 def part_of_optimum(name):
     found = optimum()
-    parts = (found.certificate, found.check, found.objective, found.starts[0])
+    parts = (found.certificate, found.check, found.objective, found.starts[0], found.scale)
+    parts += (found.limits[0], found.regimes[0])
     return next(part for part in parts if type(part).__name__ == name)
 
 
@@ -177,6 +188,7 @@ MADE = {
     "AirySeries": lambda: field("AirySeries"),
     "AnnulusSector": AnnulusSector,
     "Bending": lambda: fem_check.Bending(MATERIAL),
+    "Bound": lambda: fem_check.Bound(at_most=1.0),
     "Blocks": lambda: potential().hessian_blocks(
         ShellModel(planar(cells=(1, 2))).discretisation.zeros()
     )[0],
@@ -261,6 +273,7 @@ MADE = {
     "Region": lambda: ShellModel(full_scene()).discretisation.interior,
     "Record": lambda: next(swept().rows())[1],
     "Response": lambda: Response(linear_theory.Coulomb(), np.ones((2, 3))),
+    "Robust": lambda: fem_check.Robust({"friction.law": ["dry", "viscous"]}),
     "RigidGround": sunk,
     "RestState": lambda: ShellModel(planar()).rest(0.2),
     "RigidSpeed": lambda: turning().turning,
@@ -293,7 +306,7 @@ MADE = {
     "GrowthPower": lambda: speed().growth_power(1e-2),
     "Harmonics": lambda: fem_check.Harmonics(3, largest=1.0),
     "Optimum": optimum,
-    **{name: partial(part_of_optimum, name) for name in ("Certificate", "Check", "Speed", "Start")},
+    **{name: partial(part_of_optimum, name) for name in PARTS_OF_OPTIMUM},
 }
 """One of each public type and of what their calls return; what follows a space tells variants apart."""
 

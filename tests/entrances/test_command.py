@@ -153,6 +153,7 @@ def test_wave_of_harmonics_and_all_options(capsys):
         ([*SPEED, "--movie", "crawl.avi"], "must end in .gif or .mp4"),
         ([*SPEED, "--json", "--csv"], "--json: must not be combined with --csv"),
         ([*SPEED, "12"], "'12': must follow an option"),
+        (["run", "a.toml", "r1"], "'r1': must follow an option, such as --growth; see sheetcrawl run"),
         (["crawl"], "'crawl' is not a command: must be speed, run, show, movie, "),
     ],
 )

@@ -9,9 +9,9 @@ from scipy.optimize import minimize_scalar
 
 from fem_check import Harmonics, Scene, optimise
 from fem_check.choice.settings import RunSettings
+from fem_check.optimisation.finding import NothingFound
 from fem_check.optimisation.kept import Kept, KeptError
 from fem_check.optimisation.objectives import Speed, objective_of
-from fem_check.optimisation.optimising import NothingFound
 from fem_check.optimisation.unknowns import Unknowns
 from fem_check.optimisation.values import Question
 from figures.measure.optimise.one_arc import best_of_one_arc

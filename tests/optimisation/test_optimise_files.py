@@ -63,6 +63,17 @@ def test_the_best_scene_is_not_written_over_the_question(place, capsys):
     assert (place / "one.toml").read_text() == FILE
 
 
+CHECK = "check = false\n"
+
+
+def bounds(words):
+    return f"{CHECK}[constraints]\n{words}\n"
+
+
+def robust(words):
+    return f"{CHECK}[robust]\nby = 'worst'\n[robust.over]\n{words}\n"
+
+
 @pytest.mark.parametrize(
     ("old", "new", "words"),
     [
@@ -73,6 +84,21 @@ def test_the_best_scene_is_not_written_over_the_question(place, capsys):
         ('level = "strip"', 'objective = "fun"', "one.toml:13: [optimise] objective"),
         ("[optimise]", "[harmonics]\n[optimise]", "one.toml:12: [harmonics] count"),
         ('"0.4 cm"', '"1 kg"', "one.toml:10: [over] sheet.width"),
+        ('"2 mm"', '"-2 mm"', "one.toml:10: [over] sheet.width: lower bound -2.0 mm: must be > 0"),
+        ("low = 0.05", "low = true", "one.toml:11: [over] growth.alpha low = True: must be a finite"),
+        ("low = 0.05", "low = nan", "one.toml:11: [over] growth.alpha low = nan: must be a finite"),
+        ("low = 0.05", "count = 3, low = 0.05", "one.toml:11: [over] growth.alpha: count = 3"),
+        ("growth.alpha", "growth.law", "one.toml:11: [over] growth.law: lower bound 0.05: must be"),
+        ("growth.alpha", "run.rtol", "one.toml:11: [over] run.rtol: says how a scene is answered"),
+        ('"strip"', '"stirp"', "did you mean 'strip'?"),
+        ("starts = 1", 'rtol = "120 %"', "one.toml:14: [optimise] rtol = 1.2: must be in"),
+        (CHECK, bounds("power = { at_most = '1 kg' }"), "one.toml:17: [constraints] power: at_most"),
+        (CHECK, bounds("powr = { at_most = 1 }"), "one.toml:17: [constraints] 'powr': must be one of"),
+        (CHECK, bounds("power = { most = 1 }"), "one.toml:17: [constraints] power: most: is not a key"),
+        (CHECK, bounds("power = 3"), "one.toml:17: [constraints] power"),
+        (CHECK, robust("friction.law = ['dry', 'dyr']"), "[robust] regimes: [friction] law = 'dyr'"),
+        (CHECK, robust("friction.law = ['dry']"), "[robust] regimes: 1: must be from 2 to 32"),
+        (CHECK, robust("run.rtol = [1, 2]"), "[robust] regimes: run.rtol: says how a scene"),
     ],
 )
 def test_mistakes_are_told_with_their_line(place, capsys, old, new, words):
@@ -92,3 +118,35 @@ def test_what_cannot_be_answered_is_status_1(place, capsys):
     assert status == 1
     assert err.startswith("sheetcrawl: no start has an answer; the first: ")
     assert err.count("\n") == 1
+
+
+def test_a_file_with_constraints_and_regimes(place, capsys):
+    """The power of the sine is the larger on dry ground, its speed the smaller on viscous ground."""
+    words = bounds("power = { at_most = '0.5 mm/s' }").removeprefix(CHECK)
+    text = FILE.replace("high = 0.1", "high = 0.3").replace(CHECK, "check = false\nrtol = '0.2 %'\n")
+    (place / "two.toml").write_text(text + words + robust("friction.law = ['dry', 'viscous']")[14:])
+    status, out, err = run(capsys, "optimise", "two.toml")
+    assert (status, err) == (0, "")
+    said = " ".join(out.split())
+    assert "held by power <= 0.5 with friction.law = dry, friction.law = viscous" in said
+    assert "power <= 0.5 with friction.law = dry: 0.5 mm/s (moving the bound brings 0.48" in said
+    assert "the value above is the worst of 2" in said
+
+
+def test_a_scene_that_is_the_file_itself(place, capsys):
+    (place / "self.toml").write_text('scene = "self.toml"\n' + FILE[FILE.index("[over]") :])
+    status, _, err = run(capsys, "optimise", "self.toml")
+    assert status == 2
+    assert "self.toml:1: scene = 'self.toml': must not be this file itself" in err
+
+
+def test_an_interruption_before_the_search_says_what_is_kept(place, capsys, monkeypatch):
+    def stop(path):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("fem_check.optimisation.optimise_file.read", stop)
+    status, _, err = run(capsys, "optimise", "one.toml")
+    assert (status, "there is no answer yet" in err) == (130, True)
+    (place / "one.answers.jsonl").write_text("")
+    status, _, err = run(capsys, "optimise", "one.toml")
+    assert "answers are in one.answers.jsonl; sheetcrawl optimise one.toml goes on with them" in err

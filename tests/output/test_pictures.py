@@ -113,6 +113,21 @@ def test_the_sheet_is_drawn_where_it_is(theory):
     assert image.get_clim() == pytest.approx((-20, 20), rel=1e-2)  # alpha c in per cent
 
 
+def test_a_colour_bar_fits_beside_axes_of_the_caller(theory):
+    """Its label, too, within the old place of its axes, which may be drawn into again."""
+    left, right = Figure(figsize=(9, 4)).subplots(1, 2)
+    edge = right.get_position().x0
+    for ax in (left, right):
+        theory.plot("friction", ax=ax)
+    fig, width = left.figure, left.get_position().width
+    fig.draw_without_rendering()
+    for ax, end in ((left, edge), (right, 1.0)):
+        assert ax.child_axes[0].get_tightbbox().x1 < end * fig.bbox.width
+    left.clear()
+    theory.plot("friction", ax=left)
+    assert left.get_position().width == width
+
+
 def test_arrows_are_friction_against_the_slip(theory):
     ax = theory.plot("sheet", ax=axes(), phase=0.3)
     (arrows,) = (a for a in ax.collections if isinstance(a, Quiver))

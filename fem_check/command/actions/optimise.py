@@ -24,6 +24,19 @@ def optimise(path: Path, kept: Path | None, out: Path | None) -> int:
 
     Raises ValueError for mistakes in the file and for what cannot be used, before any work.
     """
+    options = [word for name, v in (("--kept", kept), ("--out", out)) if v for word in (name, str(v))]
+    again = shlex.join(["sheetcrawl", "optimise", str(path), *options])
+    file = kept or Path(path.stem + KEPT)
+    try:
+        return _optimised(path, file, out, again)
+    except KeyboardInterrupt as stopped:
+        words = f"answers are in {file}; {again} goes on with them"
+        if not file.exists():
+            words = f"there is no answer yet; {again} begins anew"
+        raise KeyboardInterrupt(str(stopped) or f"interrupted; {words}") from None
+
+
+def _optimised(path: Path, file: Path, out: Path | None, again: str) -> int:
     from fem_check.optimisation.optimise_file import read
     from fem_check.output.files import writable
 
@@ -32,9 +45,6 @@ def optimise(path: Path, kept: Path | None, out: Path | None) -> int:
         if out.resolve() == path.resolve():
             raise ValueError(f"--out {out}: is the optimisation file itself; give another name")
     asked = read(path)
-    options = [word for name, v in (("--kept", kept), ("--out", out)) if v for word in (name, str(v))]
-    again = shlex.join(["sheetcrawl", "optimise", str(path), *options])
-    file = kept or Path(path.stem + KEPT)
     try:
         with Lines() as lines:
             found = asked.run(file, lines.report, again)
