@@ -41,19 +41,19 @@ density does with the thickness, leaves derivatives to differences."""
 class Way(NamedTuple):
     """How a level is differentiated: parameters by names, gradients of speed and, if any, of cost.
 
-    bent: whether of sheets that bend alone.
+    planar: whether of flat sheets alone, or of those that bend alone; None for both.
     """
 
     parameters: Callable[[Any], tuple[Parameter, ...]]
     speed: Callable[..., Gradient]
     cost: Callable[..., Gradient] | None = None
-    bent: bool = False
+    planar: bool | None = None
 
 
 WAYS: Mapping[str, Way] = {
-    "first order": Way(parameters, speed_gradient, cost_gradient),
+    "first order": Way(parameters, speed_gradient, cost_gradient, planar=True),
     "second order": Way(
-        parameters, partial(speed_gradient, order=2), partial(cost_gradient, order=2), bent=True
+        parameters, partial(speed_gradient, order=2), partial(cost_gradient, order=2), planar=False
     ),
     "cycle": Way(cycle_parameters, cycle_gradient),
 }
@@ -72,7 +72,7 @@ class Adjoint:
         self._names = [*(field.name for field in unknowns.fields), *waves]
         self._parameters = way.parameters(self._names)
         self._check()
-        if way.bent:
+        if way.planar is False:
             self._check_numbers()
 
     @classmethod
@@ -81,7 +81,7 @@ class Adjoint:
     ) -> "Adjoint | None":
         """None where there is no gradient of these unknowns, of this objective, or at this level."""
         way, is_cost = WAYS.get(level), isinstance(objective, CostOfTransport)
-        if way is None or unknowns.scene.alpha == 0 or (way.bent and unknowns.scene.planar):
+        if way is None or way.planar not in (None, unknowns.scene.planar) or unknowns.scene.alpha == 0:
             return None
         if (way.cost if is_cost else objective.slope(unknowns.scene)) is None:
             return None
