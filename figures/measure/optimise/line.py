@@ -2,9 +2,10 @@
 
     python -m figures.measure.optimise.line [--out FILE]
 
-Fills figures/data/best_waves.csv, row by row: ten minutes of computing, half of it for 40 harmonics. For N harmonics with |c| <= 1, from waves
-at random: nTV/(alpha L) at alpha = 1e-3, where the small strain makes it median c - mean c to 1e-3.
-Starts are the wave of 2 harmonics that is given, and seven of a Sobol sequence.
+Fills figures/data/best_waves.csv, row by row: ten minutes of computing, half of it for 40 harmonics.
+For N harmonics with |c| <= 1, from waves at random: nTV/(alpha L) at alpha = 1e-3, where the small
+strain makes it median c - mean c to 1e-3. Starts are the wave of 2 harmonics that is given, and seven
+of a Sobol sequence.
 """
 
 import time
