@@ -66,7 +66,7 @@ def movie(
     _check_looks(periods, frames, fps, width)
     stage_of = STAGES[View.named(view, moving.components)]
     stage = stage_of(moving, checked_units(moving, units), periods, frames, width, factor)
-    return _written(stage, target, fps, progress)
+    return _written(stage, periods * frames, target, fps, progress)
 
 
 def race(
@@ -107,7 +107,7 @@ def race(
     view = View.named(None, max(moving.components for moving in movings))
     known = checked_units(movings[0], units)
     shown = Race(movings, names, known, min(counts), frames, width, STAGES[view])
-    return _written(shown, target, fps, progress)
+    return _written(shown, len(shown), target, fps, progress)
 
 
 def _target(path: str | Path) -> Path:
@@ -138,10 +138,12 @@ def _check_looks(periods: int, frames: int, fps: float, width: int) -> None:
         )
 
 
-def _written(stage: Stage | Race, target: Path, fps: float, progress: Report | bool) -> Path:
-    """The film in its file."""
+def _written(
+    stage: Stage | Race, total: int, target: Path, fps: float, progress: Report | bool
+) -> Path:
+    """The film of so many frames in its file."""
     write = writers.WRITERS[target.suffix.lower()]
-    with replacing(target) as part, _progress(target, len(stage), progress) as report:
+    with replacing(target) as part, _progress(target, total, progress) as report:
         write(part, _reported(stage, report), fps)
     return target
 
