@@ -1,11 +1,14 @@
 """Best numbers by gradient against plain scans and closed forms; rows of the tables made again."""
 
+import json
+
 import numpy as np
 import pytest
 from scipy.optimize import minimize_scalar
 
 from fem_check import Bending, Friction, Gravity, Ground, Material, Membrane, Scene, optimise, solve
 from figures.common.records import Table
+from figures.draw.optimise import best_waves, page
 from figures.measure.optimise import buys, line, scan
 from figures.measure.optimise.one_arc import best_of_one_arc, wave_of_one_arc
 from linear_theory import Sheet, SineWave
@@ -109,3 +112,25 @@ def test_a_row_of_what_optimisation_buys_is_made_again():
     cycle = solve(scene, "cycle", 1e-2).speed
     assert strip == pytest.approx(row.strip, rel=1e-4)
     assert abs(cycle.mean - row.cycle) <= cycle.error + row.cycle_error
+
+
+def test_the_page_is_that_of_the_tables():
+    rows = buys.TABLE.read()
+    assert page.page(rows, scan.TABLE.read()) == page.PAGE.read_text(encoding="utf-8")
+    assert {row.sheet for row in rows} == set(buys.SHEETS)
+    best = buys.Place("paper", "largest", 2, "first order")
+    (row,) = (row for row in rows if buys.place_of(row) == best)
+    (sine,) = (one for one in rows if one.sheet == "paper" and one.level == buys.GIVEN)
+    value, error = page.gain(rows, row)
+    assert value == row.cycle / sine.cycle
+    assert error > 0
+    with pytest.raises(ValueError, match="no sine on 'paper' in the table"):
+        page.page([row], [])
+
+
+def test_figure_of_the_best_waves(tmp_path):
+    paths = best_waves.write(line.TABLE.read(), tmp_path, ("pdf",))
+    assert [path.name for path in paths] == ["best_waves.pdf", "best_waves.json"]
+    shown = json.loads(paths[-1].read_text())
+    assert shown["viscous"]["wavelength"] == pytest.approx(shown["viscous"]["gain"])
+    assert shown["dry"]["40"]["bound"] == pytest.approx(20 / 21, abs=1e-5)
