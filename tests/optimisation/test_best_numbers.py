@@ -6,15 +6,13 @@ import numpy as np
 import pytest
 from scipy.optimize import minimize_scalar
 
-from fem_check import Bending, Friction, Gravity, Ground, Material, Membrane, Scene, optimise, solve
+from fem_check import solve
 from figures.common.records import Table
 from figures.draw.optimise import best_waves, page
-from figures.measure.optimise import buys, line, scan
+from figures.measure.optimise import buys, couplings, line, scan
 from figures.measure.optimise.one_arc import best_of_one_arc, wave_of_one_arc
-from linear_theory import Sheet, SineWave
 from linear_theory.line.best.dry import dry_bound, size_of
 from linear_theory.line.best.viscous import viscous_speed
-from linear_theory.optimisation.search import Ascent
 
 
 @pytest.mark.parametrize("table", [line.TABLE, scan.TABLE, buys.TABLE], ids=lambda t: t.path.stem)
@@ -39,7 +37,7 @@ def test_waves_of_many_harmonics_stay_between_the_linear_program_and_the_bound()
 def test_searches_and_scans_agree_within_the_grid_and_their_errors():
     """Of the whole table; the search is better but for errors, and closer than a place of the grid."""
     rows = scan.TABLE.read()
-    assert [row.question for row in rows] == list(scan.QUESTIONS)
+    assert [row.question for row in rows] == scan.asked()
     for row in rows:
         found, scanned, spacing = (
             np.array(text.split(), float) for text in (row.found, row.scanned, row.spacing)
@@ -80,23 +78,20 @@ def test_the_best_width_again():
     assert values[1] == pytest.approx(row.value, abs=row.error + found[1].error)
 
 
-def test_the_best_alpha_for_a_bent_sheet_is_that_of_the_quadratic_form():
+def test_the_best_couplings_of_a_bent_sheet_are_those_of_the_quadratic_form():
     """V = V_aa alpha^2 + V_ab alpha beta is lowest at alpha = -V_ab beta/(2 V_aa), beta at its bound.
 
     V_aa = 1.02798, V_ab = -0.103941 on the paper's ground are those of cycles of nonlinear shapes
     (figures/data/saddle.csv), 0.05 % from those of the theory.
     """
-    material = Material(0.03, 0.5)
-    ground = Gravity(2.5e-4), Ground(0.5), Friction(1e-3, slip_speed=1e3)
-    effects = (Membrane(material), Bending(material), *ground)
-    scene = Scene(Sheet(), SineWave(), 0.01, 0.2, effects, cells=(4, 8))
-    over = {"growth.alpha": (0.002, 0.03), "growth.curvature_coupling": (0.05, 0.4)}
-    settings = {"level": "second order", "starts": 1, "check": False, "how": Ascent(change=1e-4)}
-    found = optimise(scene, over, "speed towards -y", rtol=1e-2, **settings)
+    (row,) = (row for row in scan.TABLE.read() if row.question == couplings.QUESTION)
+    alpha, beta = (float(word) for word in row.found.split())
     aa, ab = 1.02798, -0.103941
-    assert found.values["growth.curvature_coupling"] == pytest.approx(0.4, rel=1e-6)
-    assert found.values["growth.alpha"] == pytest.approx(-ab * 0.4 / (2 * aa), rel=0.02)
-    assert found.value.value == pytest.approx(ab**2 * 0.4**2 / (4 * aa), rel=0.02)
+    assert beta == pytest.approx(0.4, rel=1e-3)
+    assert alpha == pytest.approx(-ab * beta / (2 * aa), rel=0.01)
+    assert row.value == pytest.approx(ab**2 * beta**2 / (4 * aa), rel=0.01)
+    again = couplings.speed_at(alpha, beta)
+    assert -again.mean == pytest.approx(row.value, abs=row.error + again.error)
 
 
 def test_a_row_of_what_optimisation_buys_is_made_again():

@@ -12,6 +12,7 @@ from figures.common.command import parser
 from figures.common.output import replacing
 from figures.measure.optimise import buys, scan
 from figures.measure.optimise.buys import FEW, GIVEN, LEVELS, MORE, SHEETS, Row
+from figures.measure.optimise.rows import Row as Numbers
 
 PAGE = Path(__file__).parents[3] / "docs" / "optimisation.md"
 COMMAND = "python -m figures.draw.optimise.page"
@@ -70,7 +71,7 @@ First order costs seconds and is right about its own waves to some percent."""
 Lines = Iterator[str]
 
 
-def page(rows: Sequence[Row], numbers: Sequence[scan.Row]) -> str:
+def page(rows: Sequence[Row], numbers: Sequence[Numbers]) -> str:
     """Its text."""
     parts = [HEAD, *_verdict(rows), "## Gains", ""]
     for size, words in SIZES.items():
@@ -94,7 +95,7 @@ def page(rows: Sequence[Row], numbers: Sequence[scan.Row]) -> str:
         "## Best numbers",
         "",
         "The best number of waves (whole or not), width and growth at first order, by the gradient",
-        f"from {scan.STARTS} starts and by a plain scan of a grid:",
+        f"from {scan.STARTS} starts and by a plain scan of a grid; the last by `optimise`:",
         "",
         *_numbers(numbers),
         "",
@@ -156,7 +157,7 @@ def _claim(rows: Sequence[Row], sheet: str, level: str) -> str:
     return f"{claimed:.3f}, {true:.3f} ({signed(100 * (claimed / true - 1))} %)"
 
 
-def _numbers(numbers: Sequence[scan.Row]) -> Lines:
+def _numbers(numbers: Sequence[Numbers]) -> Lines:
     yield (
         "| question | over | best by gradient | best of the grid | its spacing | V by gradient "
         "| V of the grid | seconds |"

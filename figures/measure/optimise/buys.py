@@ -11,7 +11,7 @@ sequence; at second order and on the cycle from the best wave of first order.
 import time
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from functools import cache, partial
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -125,14 +125,24 @@ def scene(sheet: str, wave: TravellingWave | None = None) -> Scene:
     return Scene(shape, wave or SineWave(), alpha=ALPHA, contact=Contact("current", law))
 
 
-@cache
+def _nearby(place: Place) -> TravellingWave:
+    """The best wave of first order; from the table, where that has it."""
+    wanted = Place(place.sheet, place.size, place.harmonics, "first order")
+    kept = TABLE.read() if TABLE.path.exists() else []
+    return next((one.wave for one in kept if place_of(one) == wanted), None) or _wave(search(wanted)[0])
+
+
+def _wave(found: Optimum) -> TravellingWave:
+    wave = found.scene.drive.series
+    assert wave is not None
+    return wave
+
+
 def search(place: Place) -> tuple[Optimum, float]:
     """The best wave, and the seconds that its search took."""
     over = {"wave": SIZES[place.size](place.harmonics)}
     near = place.level not in BY_ADJOINT
-    start = scene(place.sheet)
-    if near:
-        start = search(Place(place.sheet, place.size, place.harmonics, "first order"))[0].scene
+    start = scene(place.sheet, _nearby(place) if near else None)
     begin = time.process_time()
     found = optimise(
         start,
@@ -152,9 +162,7 @@ def row(place: Place) -> Row:
         sine = TravellingWave(np.zeros(1), np.ones(1))
         return valued(place, sine, float("nan"), 0.0)
     found, seconds = search(place)
-    wave = found.scene.drive.series
-    assert wave is not None
-    return valued(place, wave, 100 * found.left, seconds)
+    return valued(place, _wave(found), 100 * found.left, seconds)
 
 
 def valued(place: Place, wave: TravellingWave, left: float, seconds: float) -> Row:
@@ -189,8 +197,8 @@ def places() -> Iterator[Place]:
         for level in BY_ADJOINT:
             yield from (Place(sheet, size, FEW, level) for sheet in SHEETS)
     for size in SIZES:
-        for sheet in SHEETS:
-            yield from (Place(sheet, size, FEW, level) for level in reversed(LEVELS[2:]))
+        for level in reversed(LEVELS[2:]):
+            yield from (Place(sheet, size, FEW, level) for sheet in SHEETS)
         if size == "largest":
             for level in BY_ADJOINT:
                 yield from (Place(sheet, size, MORE, level) for sheet in SHEETS)

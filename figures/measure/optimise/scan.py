@@ -9,9 +9,9 @@ worse than the scan but for the errors of both.
 """
 
 import itertools
+import math
 import time
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
@@ -20,6 +20,8 @@ from numpy.typing import NDArray
 from figures.common.filling import Filling
 from figures.common.folders import DATA
 from figures.common.records import Table
+from figures.measure.optimise import couplings
+from figures.measure.optimise.rows import Row, told
 from linear_theory import Contact, Scene, Sheet, SineWave, TravellingWave, crawl_speed, speed_gradient
 from linear_theory.common.errors import SheetcrawlError
 from linear_theory.gradient import parameters
@@ -118,36 +120,11 @@ QUESTIONS = {
 }
 
 
-@dataclass(frozen=True)
-class Row:
-    """A question and both answers.
-
-    found, scanned: the numbers in turn; spacing: of the grid; value, error: V in L/T that the search
-    has found, towards the side that is asked for, scan_value, scan_error likewise; evaluations, seconds
-    of the processor, of all starts and of the scan; ended: starts within 1 % of the best.
-    """
-
-    question: str
-    names: str
-    found: str
-    scanned: str
-    spacing: str
-    value: float
-    error: float
-    scan_value: float
-    scan_error: float
-    ended: int
-    evaluations: int
-    places: int
-    seconds: float
-    scan_seconds: float
-
-
 TABLE = Table(
     DATA / "best_numbers.csv",
     Row,
     "python -m figures.measure.optimise.scan",
-    f"V in L/T at first order, {STARTS} starts each; seconds of one core",
+    f"V in L/T at first order unless said, {STARTS} starts each; seconds of one core",
     6,
 )
 
@@ -176,17 +153,51 @@ def scanned(question: Question) -> Scanned:
     return max(found, key=lambda one: one.value)
 
 
+WHOLE, MOST_WHOLE = "whole waves, paper's sheet", 4
+"""The question, and the largest number that is scanned."""
+
+
+def whole_row() -> Row:
+    """The best whole number of waves: one of the two beside the best real one, at least 1."""
+    question, begin = QUESTIONS["waves, paper's sheet"], time.process_time()
+    ends = searched(question, 1)
+    (real,) = question.numbers(ends[0].point)
+    near = {max(1, math.floor(real)), max(1, math.ceil(real))}
+    found = {count: crawl_speed(question.at([count]), rtol=RTOL) for count in near}
+    best = max(found, key=lambda count: found[count].mean)
+    middle = time.process_time()
+    speeds = {n: crawl_speed(question.at([n]), rtol=SCANNED) for n in range(1, MOST_WHOLE + 1)}
+    most = max(speeds, key=lambda count: speeds[count].mean)
+    return Row(
+        question=WHOLE,
+        names="wave.count",
+        found=told([best]),
+        scanned=told([most]),
+        spacing="1",
+        value=found[best].mean,
+        error=found[best].error,
+        scan_value=speeds[most].mean,
+        scan_error=speeds[most].error,
+        ended=1,
+        evaluations=ends[0].evaluations + len(near),
+        places=MOST_WHOLE,
+        seconds=middle - begin,
+        scan_seconds=time.process_time() - middle,
+    )
+
+
 def row(name: str) -> Row:
     """Of the table."""
+    if name == couplings.QUESTION:
+        return couplings.row()
+    if name == WHOLE:
+        return whole_row()
     question, begin = QUESTIONS[name], time.process_time()
     ends = searched(question)
     middle = time.process_time()
     scan = scanned(question)
     best = ends[0].found
     assert best is not None
-
-    def told(numbers: Sequence[float]) -> str:
-        return " ".join(f"{number:.4g}" for number in numbers)
 
     return Row(
         question=name,
@@ -206,10 +217,15 @@ def row(name: str) -> Row:
     )
 
 
+def asked() -> list[str]:
+    """All questions, in the order of the table."""
+    return [*QUESTIONS, WHOLE, couplings.QUESTION]
+
+
 def main(arguments: Sequence[str] | None = None) -> None:
     """Compute the rows that are missing."""
     options = TABLE.options(__doc__, arguments)
-    Filling(TABLE, options.out, lambda one: one.question).fill(list(QUESTIONS), row)
+    Filling(TABLE, options.out, lambda one: one.question).fill(asked(), row)
 
 
 if __name__ == "__main__":
