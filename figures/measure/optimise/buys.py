@@ -196,12 +196,11 @@ def places() -> Iterator[Place]:
     for size in SIZES:
         for level in BY_ADJOINT:
             yield from (Place(sheet, size, FEW, level) for sheet in SHEETS)
+    for level in BY_ADJOINT:
+        yield from (Place(sheet, "largest", MORE, level) for sheet in SHEETS)
     for size in SIZES:
         for level in reversed(LEVELS[2:]):
             yield from (Place(sheet, size, FEW, level) for sheet in SHEETS)
-        if size == "largest":
-            for level in BY_ADJOINT:
-                yield from (Place(sheet, size, MORE, level) for sheet in SHEETS)
 
 
 def place_of(found: Row) -> Place:

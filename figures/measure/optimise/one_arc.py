@@ -42,7 +42,7 @@ def wave_of_one_arc(harmonics: int) -> TravellingWave:
     >>> from figures.measure.optimise.one_arc import wave_of_one_arc
     >>> wave = wave_of_one_arc(2)
     >>> print(round(abs(wave.profile(0.0)), 2), wave.cosine.round(2))  # a dent in the middle
-    0.88 [ 1.   -0.44]
+    0.78 [ 0.89 -0.44]
     """
     cosine = _program(harmonics).x[:-1]
     cosine = cosine / abs(_profile(cosine)).max()
