@@ -64,11 +64,11 @@ alpha, so that the gain grows as alpha falls. On viscous ground, and where frict
 direction, the sine is nearly as good as any: {viscous} and {directional} times.
 
 The closed form of a strip is enough for a long sheet and worth having on any dry one: its wave keeps
-{kept}\N{NO-BREAK SPACE}% of the best speed known of the paper's sheet and {kept_wide}\N{NO-BREAK SPACE}% of that of the wide one. It is
+{kept} % of the best speed known of the paper's sheet and {kept_wide} % of that of the wide one. It is
 not safe: with directed friction its wave is slower than the sine ({wrong} times), while the strip
 claims more. It needs the check by a higher level, which `optimise` makes unless it is told not to.
 First order costs seconds and is right about its own waves to some percent; climbing from there on the
-nonlinear sheet itself brings {more}\N{NO-BREAK SPACE}% more for the paper's sheet, within the errors, at {price} times
+nonlinear sheet itself brings {more} % more for the paper's sheet, within the errors, at {price} times
 the cost. It may rank waves wrongly where V is of order alpha²: on viscous ground at a given mean square
 its wave gains {misled}, that of the strip, which is exact in alpha, {exact} times."""
 
@@ -193,7 +193,8 @@ def _verdict(rows: Sequence[Row]) -> Lines:
         exact=f"{by(rows, 'viscous', 'strip', 'mean_square'):.2f}",
     )
     for paragraph in words.strip().split("\n\n"):
-        yield textwrap.fill(" ".join(paragraph.split()), 104)
+        unbroken = paragraph.replace("\n", " ").replace(" %", "\N{NO-BREAK SPACE}%")
+        yield textwrap.fill(unbroken, 104)
         yield ""
 
 
