@@ -53,6 +53,7 @@ figures: $(STAMP)
 	$(RUN) -m figures.draw.directional $(FIGURE_OUT)
 	$(RUN) -m figures.draw.energy $(FIGURE_OUT)
 	$(RUN) -m figures.draw.saddle $(FIGURE_OUT)
+	$(RUN) -m figures.draw.optimise.best_waves $(FIGURE_OUT)
 	$(RUN) -m figures.draw.excitable $(FIGURE_OUT)
 	$(RUN) -m figures.draw.fig2 $(FIGURE_OUT)
 	$(RUN) -m figures.draw.fig4 $(FIGURE_OUT)
@@ -106,6 +107,9 @@ tables: $(STAMP)
 	$(RUN) -m figures.measure.regimes
 	$(RUN) -m figures.measure.directional
 	$(RUN) -m figures.measure.optimise.line
+	$(RUN) -m figures.measure.optimise.scan
+	$(RUN) -m figures.measure.optimise.buys
+	$(RUN) -m figures.draw.optimise.page
 	$(RUN) -m figures.measure.gradient
 	$(RUN) -m figures.measure.energy.gaits
 	$(RUN) -m figures.measure.energy.errors

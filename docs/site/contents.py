@@ -55,6 +55,7 @@ REFERENCE = {
     "equations": "Equations of the paper",
     "saddle": "V in growth and curvature",
     "hard_cases": "Hard cases",
+    "optimisation": "What optimisation buys",
     "gaits": "The paper's gaits",
     "sweeps": "Sweeps: kills and overhead",
 }

@@ -190,10 +190,13 @@ def _optimise(
         Path | None, Parameter(help="For the answers; NAME.answers.jsonl here unless given.")
     ] = None,
     out: Annotated[Path | None, Parameter(help="Write the best scene, .toml.")] = None,
+    movie: Annotated[
+        Path | None, Parameter(help="Film the given scene and the best one, .gif or .mp4.")
+    ] = None,
 ) -> int:
     from fem_check.command.actions.optimise import optimise
 
-    return optimise(file, kept, out)
+    return optimise(file, kept, out, movie)
 
 
 @app.command(name="explore", help=EXPLORE_HELP)

@@ -203,4 +203,3 @@ def test_optimise_has_the_gradient_of_a_sheet_that_bends():
     want = speed_gradient(scene, ["growth.curvature_coupling", "sheet.thickness"], order=2, rtol=1e-3)
     assert found.gradient == pytest.approx(want.values * [0.6, 0.03], rel=1e-6)
     assert Adjoint.of(unknowns, Speed(), 1e-3, "first order") is None
-    assert Adjoint.of(unknowns, Speed(), 1e-3, "cycle") is None

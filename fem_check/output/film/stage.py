@@ -1,6 +1,6 @@
 """The frames of a film: the sheet on ruled ground, its path, the time, the direction of the wave."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from functools import partial
 from typing import Any
 
@@ -57,13 +57,21 @@ class Stage:
     """The frames of one film as pictures.
 
     periods: of `frames` frames each; width: in pixels; exaggerate: factor on the displacement within
-    the sheet.
+    the sheet; name: of the motion, if it has to be told from another one.
     """
 
     def __init__(
-        self, moving: Moving, units: Units, periods: int, frames: int, width: int, exaggerate: float
+        self,
+        moving: Moving,
+        units: Units,
+        periods: int,
+        frames: int,
+        width: int,
+        exaggerate: float,
+        name: str = "",
     ) -> None:
         self._moving, self._units, self._exaggerate = moving, units, exaggerate
+        self._title = name
         self._points, self._triangles = moving.covering()
         self._again = partial(moving.frames, periods=periods, samples=frames)
         self._frames, self._total = self._again(self._points), periods * frames
@@ -76,17 +84,32 @@ class Stage:
         self._low, self._high = self._extent()
         self._width = width - width % 2
 
+    @staticmethod
+    def joined(stages: "Sequence[Stage]") -> None:
+        """Give stages that have not been drawn yet one extent, and one scale of what colours them."""
+        low = np.min([one._low for one in stages], axis=0)
+        high = np.max([one._high for one in stages], axis=0)
+        alike = len({one._tint.label for one in stages}) == 1
+        most = max(one._tint.most for one in stages)
+        for one in stages:
+            one._low, one._high = low, high
+            if alike:
+                one._tint = one._tint._replace(most=most)
+
     def __len__(self) -> int:
         return self._total
 
-    def pictures(self) -> Iterator[Pixels]:
-        """RGB pictures (height, width, 3); width and height are even, as encoders require."""
+    def pictures(self, order: Iterable[int] | None = None) -> Iterator[Pixels]:
+        """RGB pictures (height, width, 3); width and height are even, as encoders require.
+
+        order: of the frames; each once, as they come, by default.
+        """
         with styled():
             canvas, axes = self._set_up()
             canvas.draw()
         ground = canvas.copy_from_bbox(canvas.figure.bbox)
         trail = []
-        for k in range(self._total):
+        for k in range(self._total) if order is None else order:
             frame = self._shown(self._frames[k])
             trail.append(self._spot(frame))
             canvas.restore_region(ground)
@@ -146,7 +169,8 @@ class Stage:
         span = self._moving.period * units.time_factor
         decimals = max(0, 2 - int(np.floor(np.log10(span))))
         way = round(way, digits) + 0.0  # no minus before 0.0
-        words = f"t = {time:.{decimals}f} {units.time}    way {way:+.{digits}f} {units.length}"
+        title = f"{self._title}    " if self._title else ""
+        words = f"{title}t = {time:.{decimals}f} {units.time}    way {way:+.{digits}f} {units.length}"
         return words.replace("-", "\N{MINUS SIGN}")
 
     def _shown(self, frame: Frame) -> Frame:

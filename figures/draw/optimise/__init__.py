@@ -1,0 +1,1 @@
+"""The figure of best waves, and the page on what optimisation buys."""
