@@ -9,6 +9,9 @@ from typing import Any, Protocol
 
 from linear_theory import Estimate
 
+ROUNDOFF = 1e-13
+"""Relative error of a closed form."""
+
 SCENES = Path(__file__).parent / "scenes"
 """Scene files of comparisons that are scenes."""
 
@@ -109,6 +112,26 @@ class ByRefinement:
     def inputs(self) -> str:
         """See Calculation."""
         return _named(self.function, (dict(self.shared), dict(self.fine), dict(self.coarse)))
+
+
+@dataclass(frozen=True)
+class Closed:
+    """A closed form, exact but for roundoff."""
+
+    function: Callable[[], Sequence[float]]
+
+    def full(self) -> Sequence[Estimate]:
+        """See Calculation."""
+        return [Estimate(float(v), ROUNDOFF * abs(v)) for v in self.function()]
+
+    def cheap(self) -> Sequence[Estimate]:
+        """See Calculation."""
+        return self.full()
+
+    @property
+    def inputs(self) -> str:
+        """See Calculation."""
+        return _named(self.function, ())
 
 
 @dataclass(frozen=True)

@@ -111,7 +111,13 @@ def linear_response(
     sheet: Discretisation, supports: Supports, material: Material, load: DeadLoad
 ) -> Array:
     """State per unit of a load so small that the answer is linear: one Newton step from the rest."""
-    potential = Potential(sheet, (*koiter(material), load), grown_state(sheet.interior))
+    effects = (*koiter(material), load)
+    return first_step(supports, Potential(sheet, effects, grown_state(sheet.interior)))
+
+
+def first_step(supports: Supports, potential: Potential) -> Array:
+    """Newton's first step from the undeformed sheet, which is the linear answer."""
+    sheet = supports.discretisation
     minimiser = Minimiser(supports)
     factorised = minimiser.factorised(potential, sheet.zeros(), 0.0)
     assert factorised.shift == 0

@@ -118,7 +118,7 @@ def scordelis_lo(element: str, n: int) -> float:
     return -displacement(sheet, state, (angle, 0))[2]
 
 
-def hemisphere(n: int, shares: tuple[float, ...]) -> tuple[float, ...]:
+def hemisphere(element: str, n: int, shares: tuple[float, ...]) -> tuple[float, ...]:
     """Inward and outward deflection at shares of the full load, one after the other.
 
     Radius 10, h 0.04, E 6.825e7, nu 0.3, with an 18 degree hole at the pole, free edges; radial loads
@@ -126,7 +126,7 @@ def hemisphere(n: int, shares: tuple[float, ...]) -> tuple[float, ...]:
     which are of one longitude and latitude each.
     """
     top = np.deg2rad(72)
-    sheet = shell("bfs", (0, np.pi / 2, n), (0, top, n), SpherePart(10.0))
+    sheet = shell(element, (0, np.pi / 2, n), (0, top, n), SpherePart(10.0))
     places = {"out": (0.0, 0.0), "in": (np.pi / 2, 0.0)}
     # the pole is the axis y, xi_1 = 0 in the plane x = 0, xi_1 = pi/2 in the plane z = 0
     supports = Supports(sheet).symmetric(at(0, 0), 0).symmetric(at(0, np.pi / 2), 2)
