@@ -118,6 +118,8 @@ tables: $(STAMP)
 	$(RUN) -m figures.measure.self_contact
 	$(RUN) -m figures.measure.turning
 	$(RUN) -m figures.measure.excitable
+	$(RUN) -m figures.measure.validation
+	$(RUN) -m figures.draw.validation_page
 	$(RUN) -m tests.robust.hard_cases_page
 	$(RUN) -m paper.numbers.shell
 	$(RUN) -m paper.derive

@@ -55,6 +55,7 @@ REFERENCE = {
     "equations": "Equations of the paper",
     "saddle": "V in growth and curvature",
     "hard_cases": "Hard cases",
+    "validation": "Checked against others",
     "gaits": "The paper's gaits",
     "sweeps": "Sweeps: kills and overhead",
 }

@@ -136,7 +136,6 @@ COMPARISONS = (
         VISCOUS,
         (Number("V T/L = I0(2 alpha)/I0(alpha) - I0(alpha)", 0.03137291332, 5e-12),),
         ByTolerance(exponential, shared={"load": "current"}),
-        scene="viscous_sine.toml",
     ),
     Comparison(
         "viscous friction per mass",
@@ -181,7 +180,6 @@ COMPARISONS = (
             Number("V/alpha as alpha -> 0: sin(pi r/2)", np.sin(np.pi / 4), 1e-15),
         ),
         ByTolerance(directional_sine),
-        scene="directional_sine.toml",
     ),
     Comparison(
         "directional crawler, breathing",

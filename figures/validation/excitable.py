@@ -91,6 +91,5 @@ COMPARISONS = (
         NUMERICS,
         (Number("speed", 0.02517, 5e-6), Number("period", 39.73, 5e-3)),
         ByTolerance(train),
-        scene="wave_train.toml",
     ),
 )

@@ -72,15 +72,14 @@ COMPARISONS = (
                 f"alpha W^2/h^2, nu = {nu:g}",
                 value,
                 5e-4,
-                why="near the ends of a finite strip the edges are not compressed; a trial gave "
-                f"{trial}",
+                why=f"of a finite strip, whose ends are not compressed; a trial gave {trial}",
             )
             for nu, value, trial in ((0.5, 4.547, "4.560"), (0.0, 6.275, "6.312"))
         ),
         ByRefinement(
             edge_growth,
             {"aspect": 32.0},
-            {"aspect": 8.0},
+            {"aspect": 16.0},
             {"poissons": (0.5, 0.0), "n": 4},
         ),
     ),

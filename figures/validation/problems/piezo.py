@@ -103,4 +103,6 @@ def pose_heights(elements: int, stiffness: float) -> tuple[float, float]:
     """Height of the middle and of the ends above the ground, cm, at `VOLTAGES`."""
     shape = pose(VOLTAGES, elements, stiffness)
     lowest = float(shape.height.min())
-    return tuple(100 * LENGTH * (z - lowest) for z in (shape.height[0], shape.height[-1]))  # type: ignore[return-value]
+
+    middle, end = float(shape.height[0]), float(shape.height[-1])
+    return 100 * LENGTH * (middle - lowest), 100 * LENGTH * (end - lowest)

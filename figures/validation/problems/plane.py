@@ -75,9 +75,9 @@ def curved_beam(n: int) -> tuple[float, float]:
     return tip, tip
 
 
-def heated_strip(rtol: float) -> tuple[float]:
-    """Strain along a strip of length 6 W in its middle, growth c = 1 - (2 x/W)^2."""
-    sheet = Sheet(length=6.0, width=1.0, poisson=0.3)
+def heated_strip(length: float, size: float) -> tuple[float]:
+    """Strain along a strip of width 1 in its middle, growth c = 1 - (2 x)^2."""
+    sheet = Sheet(length=length, width=1.0, poisson=0.3)
     wave = FieldWave(lambda x, y, t: (1 - (2 * x) ** 2) * np.cos(2 * np.pi * t) + 0 * y, period=1.0)
-    field = plane_stress_field(sheet, wave, rtol=rtol)
+    field = plane_stress_field(sheet, wave, size=size)
     return (float(field.strain(0.0, 0.0, 0.0)[1]),)

@@ -16,7 +16,7 @@ from fem_check.shell.material import Material
 from fem_check.shell.statics.newton import Minimiser
 from fem_check.shell.statics.potential import Potential
 from fem_check.shell.statics.ramp import ramp
-from figures.validation.problems.sheets import affine, at, koiter, shell
+from figures.validation.problems.sheets import affine, at, is_minimum, koiter, shell
 
 Array = NDArray[np.float64]
 
@@ -165,7 +165,7 @@ def greenhill(elements: int, steps: int = 24) -> tuple[float]:
         weight = DeadLoad((-ratio * material.bending, 0.0, 0.0))
         potential = Potential(sheet, (*koiter(material), weight), rest)
         straight = minimiser.minimise(potential, sheet.zeros())
-        return not straight.buckled
+        return is_minimum(minimiser, potential, straight.state)
 
     low, high = 4.0, 16.0
     for _ in range(steps):
