@@ -1,6 +1,7 @@
 """A published result and the calculation that is compared with it."""
 
 import hashlib
+import tomllib
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import Enum
@@ -152,11 +153,20 @@ class Comparison:
     slow: bool = False
 
     @property
+    def files(self) -> tuple[Path, ...]:
+        """The scene file, and a table of samples that it reads."""
+        if not self.scene:
+            return ()
+        path = SCENES / self.scene
+        samples = tomllib.loads(path.read_text(encoding="utf-8"))["wave"].get("csv")
+        return (path, SCENES / samples) if samples else (path,)
+
+    @property
     def identity(self) -> str:
-        """Changes with the numbers, the inputs of the calculation, and the scene file."""
+        """Changes with the numbers, the inputs of the calculation, and the files of the scene."""
         text = f"{self.calculation.inputs} {[(n.value, n.accuracy) for n in self.numbers]}"
-        if self.scene:
-            text += (SCENES / self.scene).read_text(encoding="utf-8")
+        for place in self.files:
+            text += place.read_text(encoding="utf-8")
         return hashlib.sha256(text.encode()).hexdigest()[:12]
 
 
