@@ -119,7 +119,7 @@ tables: $(STAMP)
 	$(RUN) -m figures.measure.turning
 	$(RUN) -m figures.measure.excitable
 	$(RUN) -m figures.measure.validation
-	$(RUN) -m figures.draw.validation_page
+	$(RUN) -m figures.validation.page
 	$(RUN) -m tests.robust.hard_cases_page
 	$(RUN) -m paper.numbers.shell
 	$(RUN) -m paper.derive

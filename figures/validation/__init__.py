@@ -2,5 +2,5 @@
 
 A `Comparison` belongs to one subject and has one module per subject: `crawlers`, `ground`, `growing`,
 `excitable`, `shells`, `plates` and `plane_stress`; `catalogue` lists all. `figures.measure.validation`
-computes the table, `figures.draw.validation_page` draws the page.
+computes the table, `page` draws the page.
 """

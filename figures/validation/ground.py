@@ -194,8 +194,8 @@ COMPARISONS = (
         Source(
             ZHENG,
             Confirmed.READ,
-            "speed about 1 cm/s; friction coefficient 0.3 here, 2.5 there; the two meshes here, 10 and 20 "
-            "elements along, are too coarse for more than the order of magnitude",
+            "speed about 1 cm/s; friction coefficient 0.3 here, 2.5 there; the two meshes here, 10 and "
+            "20 elements along, are too coarse for more than the order of magnitude",
         ),
         (
             Number(
@@ -203,7 +203,8 @@ COMPARISONS = (
                 1.0,
                 0.5,
                 why="not explained: the period there could not be read; without inertia V is "
-                "a distance per period, and the 0.1 cm of this one give 1 cm/s at some 10 Hz, where inertia acts",
+                "a distance per period, and its 0.1 cm are 1 cm/s at some 10 Hz, where inertia "
+                "acts",
             ),
         ),
         ByRefinement(

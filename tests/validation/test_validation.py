@@ -9,9 +9,9 @@ import pytest
 from scipy.special import ellipe, ellipeinc, ellipk, ellipkinc, i0
 
 from fem_check.command.program import main
-from figures.draw import validation_page
 from figures.measure import validation
 from figures.validation import crawlers, plates, shells
+from figures.validation import page as validation_page
 from figures.validation.catalogue import COMPARISONS, SUBJECTS
 from figures.validation.comparison import SCENES, ByRefinement, Confirmed, agree
 from figures.validation.problems import piezo

@@ -1,6 +1,6 @@
 """The page on results that others published, docs/validation.md, from its table.
 
-python -m figures.draw.validation_page [--out FILE]
+python -m figures.validation.page [--out FILE]
 """
 
 import math
@@ -16,7 +16,7 @@ from linear_theory.common.shown import with_error
 
 ROOT = Path(__file__).parents[2]
 PAGE = ROOT / "docs" / "validation.md"
-COMMAND = "python -m figures.draw.validation_page"
+COMMAND = "python -m figures.validation.page"
 
 UNEXPLAINED = "not explained"
 """First words of a number whose difference nobody could explain."""
@@ -25,7 +25,7 @@ MARKS = {Confirmed.READ: "R", Confirmed.DERIVED: "D", Confirmed.MEMORY: "M"}
 
 HEAD = """# Checked against results that others wrote
 
-Made by `python -m figures.draw.validation_page` from figures/data/validation.csv, which
+Made by `python -m figures.validation.page` from figures/data/validation.csv, which
 `python -m figures.measure.validation` fills; each comparison is a few lines in figures/validation.
 
 *There* is the published number with its own accuracy, mostly half of its last digit; *here* is

@@ -101,7 +101,3 @@ def main(arguments: Sequence[str] | None = None) -> None:
         raise SystemExit(f"--only {options.only!r}: must be one of {', '.join(COMPARISONS)}")
     wanted = [key for key in keys() if options.only in ("", key[0])]
     Filling(TABLE, options.out, lambda r: (r.comparison, r.number), fresh).fill(wanted, row)
-
-
-if __name__ == "__main__":
-    main()
