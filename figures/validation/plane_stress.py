@@ -22,7 +22,7 @@ COMPARISONS = (
         "a cantilever 6 x 0.2 x 0.1, end force 1, E = 1e7, nu = 0.3",
         Source(MACNEAL, Confirmed.DERIVED, "beam theory with shear"),
         (Number("extension", 3e-5, 5e-7), Number("deflection", 0.1081, 5e-5)),
-        ByRefinement(straight_beam, {"n": 8}, {"n": 2}),
+        ByRefinement(straight_beam, {"n": 8}, {"n": 4}),
     ),
     Comparison(
         "curved beam in its plane",
@@ -45,7 +45,7 @@ COMPARISONS = (
                 why="of a solid, held otherwise at its foot",
             ),
         ),
-        ByRefinement(curved_beam, {"n": 6}, {"n": 2}),
+        ByRefinement(curved_beam, {"n": 12}, {"n": 4}),
     ),
     Comparison(
         "strip that grows in its middle",

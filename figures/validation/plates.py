@@ -74,8 +74,8 @@ COMPARISONS = (
                 f"mode {k}, Hz",
                 f,
                 5e-4,
-                why="there an upper bound; the value here is 3.471 (D/(rho h))^(1/2)/a^2 in mode 1, as "
-                "in later tables of Leissa's",
+                why="there mode 1 is 3.494 (D/(rho h))^(1/2)/a^2, an upper bound of Rayleigh and Ritz "
+                "(from memory: D. Young, 1950); here 3.471",
             )
             for k, f in enumerate(HELD, 1)
         ),

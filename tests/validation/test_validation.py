@@ -119,9 +119,11 @@ def test_supported_plates_by_navier(aspect: float, value: float) -> None:
     assert series == pytest.approx(value, abs=5e-6)
 
 
-@pytest.mark.parametrize("ratio", shells.RATIOS)
-def test_mattiasson_by_elliptic_integrals(ratio: float) -> None:
-    """P L^2/B = (K(m) - F(phi, m))^2, sin(phi) = (2 m)^(-1/2), m = (1 + sin(theta_0))/2."""
+def elastica(ratio: float) -> tuple[float, float]:
+    """w/L and u/L of the tip.
+
+    P L^2/B = (K(m) - F(phi, m))^2, sin(phi) = (2 m)^(-1/2), m = (1 + sin(theta_0))/2.
+    """
 
     def turned(angle: float) -> tuple[float, float]:
         m = (1 + math.sin(angle)) / 2
@@ -135,8 +137,22 @@ def test_mattiasson_by_elliptic_integrals(ratio: float) -> None:
     root = math.sqrt(ratio)
     w = 1 - 2 * (ellipe(m) - ellipeinc(phi, m)) / root
     u = 1 - math.sqrt(2 * math.sin(angle)) / root
+    return w, u
+
+
+@pytest.mark.parametrize("ratio", shells.RATIOS)
+def test_mattiasson_by_elliptic_integrals(ratio: float) -> None:
     index = 2 * shells.RATIOS.index(ratio)
-    assert (w, u) == pytest.approx(shells.MATTIASSON[index : index + 2], abs=6e-6)
+    assert elastica(ratio) == pytest.approx(shells.MATTIASSON[index : index + 2], abs=6e-6)
+
+
+def test_end_shear_is_that_of_the_elastica() -> None:
+    """P L^2/B = 4 at the full load, L = 10: what the words for Sze's table say."""
+    w, u = elastica(4.0)
+    assert (10 * w, 10 * u) == pytest.approx((6.6996, 3.2894), abs=5e-4)
+    for k, exact in ((6, 10 * u), (7, 10 * w)):
+        row = ROWS["cantilever under end shear", k]
+        assert abs(row.here - exact) <= row.error + 1e-4
 
 
 def test_the_pose_of_the_piezo_robot_by_collocation() -> None:
