@@ -34,7 +34,7 @@ VISCOUS = Source(
     "A. DeSimone, A. Tatone, Eur. Phys. J. E 35:85 (2012); D. Agostinelli, F. Alouges, A. DeSimone, "
     "Front. Robot. AI 5:99 (2018), doi:10.3389/frobt.2018.00099",
     Confirmed.DERIVED,
-    "the formula Var(lambda)/(<lambda> n T) in their setting",
+    "the formula Var(lambda)/(mean(lambda) n T) in their setting",
 )
 
 NOSELLI = Source(
@@ -152,7 +152,7 @@ COMPARISONS = (
         "single pulse, dry",
         "one pulse passes through a body whose outside is always heavier than its inside",
         Source(
-            "setting of P. Gidoni, G. Noselli, A. DeSimone, Int. J. Non-Linear Mech. 61:65 (2014), "
+            "Setting of P. Gidoni, G. Noselli, A. DeSimone, Int. J. Non-Linear Mech. 61:65 (2014), "
             "doi:10.1016/j.ijnonlinmec.2014.01.012",
             Confirmed.DERIVED,
         ),
@@ -163,11 +163,11 @@ COMPARISONS = (
         "pulses with gaps, dry",
         "a periodic train of cos^2 pulses a third of a wavelength long with gaps between them",
         Source(
-            "setting of P. Gidoni, G. Noselli, A. DeSimone, Int. J. Non-Linear Mech. 61:65 (2014), "
+            "Setting of P. Gidoni, G. Noselli, A. DeSimone, Int. J. Non-Linear Mech. 61:65 (2014), "
             "doi:10.1016/j.ijnonlinmec.2014.01.012",
             Confirmed.DERIVED,
         ),
-        (Number("V = -(<lambda> - 1)/(nT), L/T", -0.5 / (2 * np.pi), 1e-15),),
+        (Number("V = -(mean lambda - 1)/(nT), L/T", -0.5 / (2 * np.pi), 1e-15),),
         ByRefinement(pulses_with_gaps, {"points": 1024}, {"points": 256}),
     ),
     Comparison(

@@ -18,7 +18,7 @@ from figures.validation.comparison import (
 from linear_theory import Estimate, Sheet
 
 NUMERICS = Source(
-    "travelling waves by Fourier series and Newton's method, in the regime of P. Carter, A. Scheel, "
+    "Travelling waves by Fourier series and Newton's method, in the regime of P. Carter, A. Scheel, "
     "Nonlinearity 31:5536 (2018), arXiv:1712.10296",
     Confirmed.DERIVED,
 )
@@ -84,6 +84,7 @@ COMPARISONS = (
             Number("speed, a = 0.139, epsilon = 0.008, kappa = 2.54", 0.3998512, 5e-8),
         ),
         ByRefinement(pulses, {"size": 0.9}, {"size": 1.25}),
+        slow=True,
     ),
     Comparison(
         "wave train",

@@ -24,7 +24,7 @@ from linear_theory.common.errors import ViscousRegimeWarning
 from linear_theory.deformation.plate import Foundation, plate_field
 
 HEAVY = Source(
-    "first integral of the heavy elastica; its equation: C. Y. Wang, Int. J. Mech. Sci. 28:549 (1986)",
+    "First integral of the heavy elastica; its equation: C. Y. Wang, Int. J. Mech. Sci. 28:549 (1986)",
     Confirmed.DERIVED,
     "by an own collocation solution, too; Wang's review was not read",
 )
@@ -146,7 +146,7 @@ COMPARISONS = (
     Comparison(
         "block on an incline",
         "tan(incline) = 0.3 mu, tanh law: V = -v0 artanh(tan(incline)/mu)",
-        Source("closed form of the balance", Confirmed.DERIVED),
+        Source("Closed form of the balance", Confirmed.DERIVED),
         (Number("V/v0", -float(np.arctanh(0.3)), 1e-9),),
         ByRefinement(incline, {"steps": 40}, {"steps": 20}),
         scene="block_on_incline.toml",
@@ -171,7 +171,7 @@ COMPARISONS = (
         "piezo foil: pose",
         "the robot at 520, 520, -1500, 520, 520 V on a ground into which it sinks 0.01 mm, no friction",
         Source(
-            "an own collocation solution of the heavy elastica with the voltages of zhiwuz/sfers",
+            "An own collocation solution of the heavy elastica with the voltages of zhiwuz/sfers",
             Confirmed.DERIVED,
             "the papers show their shapes in figures, without numbers",
         ),

@@ -48,18 +48,16 @@ def page(rows: Sequence[Row]) -> str:
 
 
 def _grades() -> Iterator[str]:
-    for grade, mark in MARKS.items():
-        yield f"* **{mark}**: {grade.value};"
+    told = [f"* **{mark}**: {grade.value}" for grade, mark in MARKS.items()]
+    yield ";\n".join(told) + "."
 
 
 def _summary(found: Mapping[tuple[str, int], Row]) -> Iterator[str]:
-    agreeing = sum(row.agrees for row in found.values())
-    unexplained = [
-        name for name, c in COMPARISONS.items() for n in c.numbers if n.why.startswith(UNEXPLAINED)
-    ]
+    apart = [row for row in found.values() if not row.agrees]
+    unexplained = [row for row in apart if _why(row).startswith(UNEXPLAINED)]
     yield (
-        f"**{len(found)} numbers of {len(COMPARISONS)} comparisons: {agreeing} agree within errors, "
-        f"{len(found) - agreeing} differ, of which {len(unexplained)} without explanation.**"
+        f"**{len(found)} numbers of {len(COMPARISONS)} comparisons: {len(found) - len(apart)} agree "
+        f"within errors, {len(apart)} differ, of which {len(unexplained)} are not explained.**"
     )
 
 
@@ -67,6 +65,7 @@ def _table(comparisons: Sequence[Comparison], found: Mapping[tuple[str, int], Ro
     yield "| comparison | number | there | here | verdict | cost |"
     yield "| --- " * 6 + "|"
     for comparison in comparisons:
+        said = ""
         for k, number in enumerate(comparison.numbers):
             row = found.get((comparison.name, k))
             name = f"**{comparison.name}** ({MARKS[comparison.source.confirmed]})" if k == 0 else ""
@@ -75,28 +74,37 @@ def _table(comparisons: Sequence[Comparison], found: Mapping[tuple[str, int], Ro
                 continue
             there, here = _number(row.there, row.accuracy), _number(row.here, row.error)
             cost = f"{row.seconds:.2g} s" if k == 0 else ""
-            yield f"| {name} | {number.name} | {there} | {here} | {verdict(row)} | {cost} |"
+            words = verdict(row)
+            if not row.agrees and number.why == said:
+                words = words.replace(said, "as above")
+            said = said if row.agrees else number.why
+            yield f"| {name} | {number.name} | {there} | {here} | {words} | {cost} |"
 
 
 def verdict(row: Row) -> str:
     """In words, from the numbers of the row."""
     if row.agrees:
         return "agrees within errors"
-    why = COMPARISONS[row.comparison].numbers[row.number].why
+    why = _why(row)
     if row.there == 0:
         return f"differs by {row.here:.2g}: {why}"
     return f"differs by {100 * abs(row.here / row.there - 1):.2g} %: {why}"
 
 
+def _why(row: Row) -> str:
+    return COMPARISONS[row.comparison].numbers[row.number].why
+
+
 def _number(value: float, error: float) -> str:
-    """With its error; to ten digits where that is roundoff."""
-    if value == 0 and error == 0:
-        return "0"
+    """With its error; to nine digits where that is roundoff."""
     if not error > 1e-9 * abs(value):
-        return f"{value:.9g}".replace("-", "\N{MINUS SIGN}")
-    if math.isnan(value):
-        return "unknown"
-    return with_error(value, error).replace("-", "\N{MINUS SIGN}")
+        text = f"{value:.9g}"
+    elif abs(value) >= 1e-3 or value == 0:
+        decimals = max(0, 1 - math.floor(math.log10(error)))
+        text = f"{value:.{decimals}f} ± {error:.2g}"
+    else:
+        text = with_error(value, error)
+    return text.replace("-", "\N{MINUS SIGN}")
 
 
 def _sources(comparisons: Sequence[Comparison]) -> Iterator[str]:
