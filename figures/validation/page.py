@@ -114,7 +114,7 @@ def _sources(comparisons: Sequence[Comparison]) -> Iterator[str]:
         scene = ""
         if comparison.scene:
             place = (SCENES / comparison.scene).relative_to(ROOT).as_posix()
-            scene = f" Scene file: [{comparison.scene}](../{place})."
+            scene = f" Scene file: `{place}`."
         yield f"* **{comparison.name}**: {comparison.problem}. {source.text}{remark}.{scene}"
 
 
