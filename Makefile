@@ -122,6 +122,8 @@ tables: $(STAMP)
 	$(RUN) -m figures.measure.self_contact
 	$(RUN) -m figures.measure.turning
 	$(RUN) -m figures.measure.excitable
+	$(RUN) -m figures.measure.validation
+	$(RUN) -m figures.validation.page
 	$(RUN) -m tests.robust.hard_cases_page
 	$(RUN) -m paper.numbers.shell
 	$(RUN) -m paper.derive

@@ -56,6 +56,7 @@ REFERENCE = {
     "saddle": "V in growth and curvature",
     "hard_cases": "Hard cases",
     "optimisation": "What optimisation buys",
+    "validation": "Checked against others",
     "gaits": "The paper's gaits",
     "sweeps": "Sweeps: kills and overhead",
 }

@@ -13,26 +13,17 @@ So the end leaves the ground, z = 0, at B kappa^2 = 4 q d/3, and on rigid ground
 B kappa^2/(2 q). For small slopes the strip is then off the ground over the length sqrt(2 B kappa/q).
 """
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import NDArray
 from scipy.integrate import solve_bvp
 from scipy.optimize import brentq
 
-from fem_check.shell.effects.gravity import Gravity
-from fem_check.shell.effects.ground import Ground
-from fem_check.shell.kinematics.rest_state import tensor_state
-from fem_check.shell.kinematics.supports import Supports
-from fem_check.shell.material import Material
-from fem_check.shell.statics.newton import Minimiser
-from fem_check.shell.statics.potential import Potential
-from fem_check.shell.statics.ramp import ramp
-from tests.shell.shell_cases import affine, at, koiter, shell
+from figures.validation.problems.strips import HeavyStrip, Shape, uniform_strip
 
 Array = NDArray[np.float64]
 
-THICKNESS, WEIGHT, HALF, WIDTH = 0.03, 2.5e-4, 0.5, 0.02
+THICKNESS, WEIGHT, HALF, WIDTH = 0.03, 2.5e-4, 0.5, 0.02  # those of `uniform_strip`
+assert HeavyStrip(HALF, WIDTH, THICKNESS, WEIGHT) == HeavyStrip()
 BENDING = THICKNESS**3 / 12
 
 
@@ -48,46 +39,9 @@ def rise(curvature: float, stiffness: float) -> float:
     return float(brentq(lambda x: WEIGHT / d * x**2 * (1 - x / (3 * d)) - work, 0, d))
 
 
-@dataclass(frozen=True)
-class Shape:
-    """Half of a strip: heights (points,) over the material coordinate, (points,), the end last."""
-
-    along: Array
-    height: Array
-
-    @property
-    def rise(self) -> float:
-        """Of the end above the middle."""
-        return float(self.height[-1] - self.height[0])
-
-    @property
-    def free(self) -> float:
-        """Length off the ground."""
-        start = int(np.flatnonzero(self.height < 0)[-1])
-        low, high = self.height[start : start + 2]
-        share = -low / (high - low)
-        return float(HALF - self.along[start] - share * (self.along[start + 1] - self.along[start]))
-
-
 def strip(curvature: float, stiffness: float, elements: int = 20) -> Shape:
     """Of the nonlinear shell, nu = 0, with that rest curvature along the strip."""
-    sheet = shell("bfs", (0, HALF, elements), (0, WIDTH / 2, 1))  # a quarter of it
-    supports = Supports(sheet).symmetric(at(0, 0), 0).symmetric(at(1, 0), 1)
-    effects = (*koiter(Material(THICKNESS, 0.0)), Gravity(WEIGHT), Ground(stiffness))
-
-    def problem(share: float) -> Potential:
-        rest = tensor_state(sheet.interior, [1, 1, 0], [share * curvature, 0, 0])
-        return Potential(sheet, effects, rest)
-
-    lying = affine(sheet, np.zeros((3, 2)), np.array([0, 0, -depth(stiffness)]))
-    found = ramp(Minimiser(supports, iterations=100), problem, lying, first=0.5)
-    assert not found.buckled
-    inside = sheet.interior
-    along = np.append(inside.parameters.reshape(2, -1)[0], HALF)
-    end = sheet.point((HALF, 0.0)).position(found.state, (0,))[0, 2]
-    height = np.append(inside.position(found.state, (0,))[0, 2], end)
-    order = np.argsort(along, kind="stable")
-    return Shape(along[order], height[order])
+    return uniform_strip(curvature, stiffness, elements)
 
 
 def elastica(curvature: float, stiffness: float) -> Shape:

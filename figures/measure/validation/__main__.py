@@ -1,0 +1,5 @@
+"""python -m figures.measure.validation."""
+
+from figures.measure.validation import main
+
+main()

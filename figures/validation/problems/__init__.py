@@ -1,0 +1,1 @@
+"""Problems of sheets, shells and plates that others solved, as functions of the mesh."""

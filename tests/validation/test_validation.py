@@ -1,0 +1,174 @@
+"""The validation page: its table is complete and fresh, its verdicts follow, its numbers come again."""
+
+import math
+from dataclasses import replace
+
+import mpmath as mp
+import numpy as np
+import pytest
+from scipy.special import ellipe, ellipeinc, ellipk, ellipkinc, i0
+
+from fem_check.command.program import main
+from figures.measure import validation
+from figures.validation import crawlers, plates, shells
+from figures.validation import page as validation_page
+from figures.validation.catalogue import COMPARISONS, SUBJECTS
+from figures.validation.comparison import SCENES, ByRefinement, Confirmed, agree
+from figures.validation.problems import piezo
+from tests.shell.test_shell_tables import koiter_circle
+from tests.validation.reference_pose import heights
+
+ROWS = {(row.comparison, row.number): row for row in validation.TABLE.read()}
+CHEAP = [name for name, comparison in COMPARISONS.items() if not comparison.slow]
+
+
+def test_the_table_is_complete_and_fresh() -> None:
+    assert set(ROWS) == set(validation.keys())
+    assert [key for key, row in ROWS.items() if not validation.fresh(row)] == []
+    for (name, k), row in ROWS.items():
+        number = COMPARISONS[name].numbers[k]
+        assert row.there == pytest.approx(number.value, rel=1e-9)
+        rounded = 1e-9 * abs(row.here)  # digits of the table
+        assert row.agrees == agree(number.value, number.accuracy + rounded, row.here, row.error)
+        assert math.isfinite(row.here)
+        assert math.isfinite(row.error)
+        assert row.seconds >= 0
+
+
+def test_the_page_is_that_of_the_table() -> None:
+    rows = validation.TABLE.read()
+    assert validation_page.PAGE.read_text(encoding="utf-8") == validation_page.page(rows)
+
+
+def test_a_number_that_differs_has_words() -> None:
+    for (name, k), row in ROWS.items():
+        if not row.agrees:
+            assert COMPARISONS[name].numbers[k].why, (name, k)
+            assert "differs by" in validation_page.verdict(row)
+    row = next(iter(ROWS.values()))
+    assert validation_page.verdict(replace(row, agrees=1)) == "agrees within errors"
+
+
+def test_errors_are_small_enough_to_tell_something() -> None:
+    """A number agrees within errors for its closeness, not for a wide error."""
+    for key, row in ROWS.items():
+        if row.there and row.agrees:
+            assert row.error + row.accuracy < 0.04 * abs(row.there), key
+
+
+def test_names_are_unique_and_sources_named() -> None:
+    assert len(COMPARISONS) == sum(len(group) for group in SUBJECTS.values())
+    for comparison in COMPARISONS.values():
+        assert len(comparison.source.text) > 10
+        assert isinstance(comparison.source.confirmed, Confirmed)
+
+
+@pytest.mark.parametrize("name", CHEAP)
+def test_numbers_come_again(name: str) -> None:
+    """The cheap form differs from the table by both errors at most."""
+    found = COMPARISONS[name].calculation.cheap()
+    assert len(found) == len(COMPARISONS[name].numbers)
+    for k, cheap in enumerate(found):
+        row = ROWS[name, k]
+        allowed = (cheap.error + row.error) * (1 + 1e-6) + 2e-9 * abs(row.here)
+        assert abs(cheap.value - row.here) <= allowed
+
+
+def test_a_change_of_inputs_makes_a_row_stale() -> None:
+    comparison = COMPARISONS["Cook's membrane"]
+    finer = replace(comparison.calculation, fine={"n": 64})
+    assert isinstance(finer, ByRefinement)
+    assert replace(comparison, calculation=finer).identity != comparison.identity
+    other = (replace(comparison.numbers[0], value=24.0),)
+    assert replace(comparison, numbers=other).identity != comparison.identity
+
+
+def test_one_comparison_by_name(tmp_path: object) -> None:
+    out = tmp_path / "some.csv"  # type: ignore[operator]
+    validation.main(["--only", "piezo foil: numbers", "--out", str(out)])
+    assert len(validation.TABLE.read(out)) == 8
+    with pytest.raises(SystemExit, match="must be one of"):
+        validation.main(["--only", "nothing", "--out", str(out)])
+
+
+@pytest.mark.parametrize("path", sorted(SCENES.glob("*.toml")), ids=lambda path: path.stem)
+def test_scene_files_are_used_and_checked(path: object, capsys: pytest.CaptureFixture[str]) -> None:
+    assert path.name in {comparison.scene for comparison in COMPARISONS.values()}  # type: ignore[attr-defined]
+    with pytest.raises(SystemExit) as ended:
+        main(["check", str(path)])
+    assert ended.value.code in (0, None)
+    assert "next" in capsys.readouterr().out
+
+
+def test_published_numbers_by_other_means() -> None:
+    """Those that are marked as derived, from formulas of their own."""
+    sine = COMPARISONS["viscous sine of any strain"].numbers[0]
+    assert sine.value == pytest.approx(i0(0.5) / i0(0.25) - i0(0.25), abs=sine.accuracy)
+    zero = mp.findroot(lambda x: mp.besselj(-mp.mpf(1) / 3, x), 1.87)
+    column = COMPARISONS["column under its own weight"].numbers[0]
+    assert column.value == pytest.approx(float(9 * zero**2 / 4), abs=column.accuracy)
+    s, area = np.linspace(-1, 1, 2001), 0.1 * 16 / 15
+    y = 0.1 * s - 0.8 + 1.6 * 0.5
+    assert np.trapezoid(crawlers.pulse(y, 0.5), y) == pytest.approx(area, rel=1e-4)
+
+
+@pytest.mark.parametrize(("aspect", "value"), plates.SUPPORTED.items())
+def test_supported_plates_by_navier(aspect: float, value: float) -> None:
+    m = np.arange(1, 200, 2)[:, None]
+    n = m.T
+    signs = np.sin(m * np.pi / 2) * np.sin(n * np.pi / 2)
+    series = 16 / np.pi**6 * (signs / (m * n * (m**2 + (n / aspect) ** 2) ** 2)).sum()
+    assert series == pytest.approx(value, abs=5e-6)
+
+
+def elastica(ratio: float) -> tuple[float, float]:
+    """w/L and u/L of the tip.
+
+    P L^2/B = (K(m) - F(phi, m))^2, sin(phi) = (2 m)^(-1/2), m = (1 + sin(theta_0))/2.
+    """
+
+    def turned(angle: float) -> tuple[float, float]:
+        m = (1 + math.sin(angle)) / 2
+        return m, math.asin(1 / math.sqrt(2 * m))
+
+    low, high = 1e-9, math.pi / 2 - 1e-9
+    for _ in range(100):
+        angle = (low + high) / 2
+        m, phi = turned(angle)
+        low, high = (angle, high) if (ellipk(m) - ellipkinc(phi, m)) ** 2 < ratio else (low, angle)
+    root = math.sqrt(ratio)
+    w = 1 - 2 * (ellipe(m) - ellipeinc(phi, m)) / root
+    u = 1 - math.sqrt(2 * math.sin(angle)) / root
+    return w, u
+
+
+@pytest.mark.parametrize("ratio", shells.RATIOS)
+def test_mattiasson_by_elliptic_integrals(ratio: float) -> None:
+    index = 2 * shells.RATIOS.index(ratio)
+    assert elastica(ratio) == pytest.approx(shells.MATTIASSON[index : index + 2], abs=6e-6)
+
+
+def test_end_shear_is_that_of_the_elastica() -> None:
+    """P L^2/B = 4 at the full load, L = 10: what the words for Sze's table say."""
+    w, u = elastica(4.0)
+    assert (10 * w, 10 * u) == pytest.approx((6.6996, 3.2894), abs=5e-4)
+    for k, exact in ((6, 10 * u), (7, 10 * w)):
+        row = ROWS["cantilever under end shear", k]
+        assert abs(row.here - exact) <= row.error + 1e-4
+
+
+def test_end_moment_is_that_of_the_energy() -> None:
+    """A circle that stretches a little, exact for the energy of eq. 1: what the words for it say."""
+    for k in range(8):
+        row = ROWS["cantilever under end moment", k]
+        assert abs(row.here - koiter_circle(0.25 * (k // 2 + 1))[k % 2]) <= 2 * row.error + 1e-5
+
+
+def test_the_pose_of_the_piezo_robot_by_collocation() -> None:
+    thickness, modulus = piezo.as_strip()
+    weight = piezo.FOIL.areal_density * piezo.GRAVITY / modulus
+    per_volt = piezo.FOIL.curvature * piezo.LENGTH
+    inner, outer = (per_volt * v for v in piezo.VOLTAGES[2:4])
+    found = heights(inner, outer, thickness**3 / 12 / weight, 0.5 / weight)
+    for height, number in zip(found, COMPARISONS["piezo foil: pose"].numbers, strict=True):
+        assert 100 * piezo.LENGTH * height == pytest.approx(number.value, abs=3e-5)
