@@ -2,7 +2,7 @@
 
 At a fixed point of a fixed grid of the square (see `shapes`) a parameter changes place, area, velocity,
 dilation and growth. These changes are smooth in it: they are central differences of the deformation
-alone, two solutions per parameter. What they change in V is the adjoint of the balance
+alone, one solve per parameter with the kept factor. What they change in V is the adjoint of the balance
 (`linear_theory.gradient.adjoint`), one linear solve for all of them:
 
     dV = alpha mean over the period of int psi_v . dv + psi_e de + psi_A d(log A).
@@ -11,14 +11,14 @@ Motion, grid and outline are mirror symmetric in x: moment arms do not matter.
 """
 
 import time
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from fem_check.outlines.field import Cells, HalfField, half_field
+from fem_check.outlines.field import Cells, HalfField, Setting
 from fem_check.outlines.shapes import Shape
 from linear_theory.balance.balance import RigidMotion
 from linear_theory.balance.course import Course
@@ -169,16 +169,21 @@ class Problem(NamedTuple):
             raise ValueError(f"wave = {validation.shown(wave)}: must not depend on x")
         return made
 
-    def field(self, shape: Shape | None = None, coarse: bool = False) -> HalfField:
-        """Of this or of another shape."""
-        return half_field(shape or self.shape, self.wave, self.poisson, self.cells, coarse)
+    @property
+    def setting(self) -> Setting:
+        """What the deformation depends on beside the outline."""
+        return Setting(self.wave, self.poisson, self.cells)
 
-    def beside(self, name: str, coarse: bool) -> tuple[HalfField, HalfField, float]:
-        """Deformations on either side of a parameter, and by how much it differs."""
+    def field(self) -> HalfField:
+        """The deformation."""
+        return self.setting.field(self.shape)
+
+    def beside(self, name: str) -> tuple[Shape, Shape, float]:
+        """Outlines on either side of a parameter, and by how much it differs."""
         value = self.shape.parameters[name]
-        step = STEP * (abs(value) if value and "." not in name else 1.0)
+        step = STEP * (1.0 if "." in name else abs(value) or 1.0)
         ahead, behind = (self.shape.changed(name, value + sign * step) for sign in (1, -1))
-        return self.field(ahead, coarse), self.field(behind, coarse), 2 * step
+        return ahead, behind, 2 * step
 
 
 def _means(problem: Problem, course: Course, names: tuple[str, ...]) -> tuple[Array, Array, bool]:
@@ -188,33 +193,37 @@ def _means(problem: Problem, course: Course, names: tuple[str, ...]) -> tuple[Ar
     change at three times.
     """
     crawl, times, motion = course.crawl, course.grid.times, course.motion
-    fine = _Frozen.of(problem, crawl, names)
-    values, flat = fine.derivatives(times, motion)
+    pairs = [problem.beside(name) for name in names]
+    values, flat = _Frozen(crawl, problem.setting, pairs).derivatives(times, motion)
     means, errors = course.grid.means(values)
     some = np.unique((np.array(CHECKED) * times.size).astype(int))
-    rough = replace(crawl, field=problem.field(coarse=True), resolution=crawl.resolution.finer())
+    coarse = problem.setting._replace(coarse=True)
+    rough = replace(crawl, field=coarse.field(problem.shape), resolution=crawl.resolution.finer())
     part = motion._replace(leading=motion.leading[some], remainder=motion.remainder[some])
-    other, _ = _Frozen.of(problem, rough, names, True).derivatives(times[some], part)
+    other, _ = _Frozen(rough, coarse, pairs).derivatives(times[some], part)
     change = abs(other - values[:, some]).max(1)
     return crawl.alpha * means, abs(crawl.alpha) * (errors + change), flat
 
 
-class _Frozen(NamedTuple):
-    """A crawling sheet and its neighbours along each parameter, on one grid.
+class _Frozen:
+    """A crawling sheet and its neighbours along each parameter, on one grid."""
 
-    near: whether motions are only near the balance, so that a Newton step is due.
-    """
+    def __init__(
+        self, crawl: Crawl, setting: Setting, pairs: Sequence[tuple[Shape, Shape, float]]
+    ) -> None:
+        self.crawl, self.setting, self.pairs = crawl, setting, pairs
+        self._kept: list[tuple[HalfField, HalfField, float]] = []
 
-    crawl: Crawl
-    beside: tuple[tuple[HalfField, HalfField, float], ...]
-    near: bool
-
-    @classmethod
-    def of(
-        cls, problem: Problem, crawl: Crawl, names: tuple[str, ...], coarse: bool = False
-    ) -> "_Frozen":
-        """For parameters by name."""
-        return cls(crawl, tuple(problem.beside(name, coarse) for name in names), coarse)
+    def _beside(self, times: Array) -> list[tuple[HalfField, HalfField, float]]:
+        """Deformations of the neighbours; those of a wave that is a series serve all times."""
+        field = self.crawl.field
+        assert isinstance(field, HalfField)
+        if not self._kept or field.drive.series is None:
+            self._kept = [
+                (*self.setting.beside(field, times, ahead, behind), apart)
+                for ahead, behind, apart in self.pairs
+            ]
+        return self._kept
 
     def derivatives(self, times: Array, motion: RigidMotion) -> tuple[Array, bool]:
         """Of q at times (T,), (parameters, T); of q - q_0 where q_0 has no mean, by symmetry."""
@@ -229,7 +238,7 @@ class _Frozen(NamedTuple):
     def _batch(self, times: Array, motion: RigidMotion, some: slice) -> tuple[Array, bool]:
         crawl = self.crawl
         balance = crawl.balance_of(AdjointBalance, times)
-        changes = [self._change(one, times) for one in self.beside]
+        changes = [self._change(one, times) for one in self._beside(times)]
         leading, remainder = motion.leading[some], motion.remainder[some]
         whole = leading + crawl.alpha * remainder
         found, flat = self._along(balance, whole, crawl.alpha, changes)
@@ -241,7 +250,7 @@ class _Frozen(NamedTuple):
         self, balance: AdjointBalance, q: Array, alpha: float, changes: list[Motion]
     ) -> tuple[Array, bool]:
         """Derivatives of a motion q (T, 3) with the load 1 + alpha e, (parameters, T)."""
-        q = balance.polished(q, alpha) if self.near else q
+        q = balance.polished(q, alpha) if self.setting.coarse else q
         at = balance.weights(q, alpha, [ALONG], maps=True)
         assert at.area is not None
         rows = []
