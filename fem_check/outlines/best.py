@@ -26,8 +26,11 @@ Array = NDArray[np.float64]
 SLIM = 0.2
 """Least width of a `LegendreShape` over its mean, by default."""
 
-CHANGE = 1e-5
+CHANGE = 1e-4
 """Of the speed, relative, at which a climb ends: gradients are known to about 1e-3."""
+
+FEW = 3
+"""Parameters up to which second derivatives are computed, two gradients for each."""
 
 
 class NoOutline(SheetcrawlError):
@@ -132,7 +135,8 @@ def best_outline(
     if climbed.found is None:
         raise NoOutline(f"no outline has a speed; {climbed.words}")
     first, best = known(space.point(shape)), climbed.found
-    proof = certificate(known, region, climbed.point, space.names)
+    few = len(space.names) <= FEW
+    proof = certificate(known, region, climbed.point, space.names, few)
     return BestOutline(
         shape=space.shape(climbed.point),
         speed=Estimate(best.value, best.error),

@@ -95,7 +95,7 @@ class Setting(NamedTuple):
             own.append(((sheet, wave, mesh, degree, gain, solver, cases), works))
         change = near._solver.response((own[0][1] - own[1][1]) / 2)
         one, other = (
-            NearField(*parts, near._solution + sign * change)
+            NearField(*parts, parts[5].centred(near._solution + sign * change))
             for sign, (parts, _) in zip((1, -1), own, strict=True)
         )
         return one, other

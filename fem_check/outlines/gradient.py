@@ -34,10 +34,12 @@ from linear_theory.gradient.means import CHECKED
 from linear_theory.gradient.quantity import ALONG
 from linear_theory.gradient.result import kinks_of
 from linear_theory.motion.motion import Motion
+from linear_theory.sheet.rectangle import Sheet
 from linear_theory.speed.crawl import speed_of
 from linear_theory.speed.result import CrawlSpeed
 from linear_theory.wave import arguments
 from linear_theory.wave.protocol import Wave
+from linear_theory.wave.sampled import drive
 
 Array = NDArray[np.float64]
 
@@ -164,10 +166,10 @@ class Problem(NamedTuple):
         chosen = CELLS if shape.sides == 1 else Cells(1, 1)
         if cells is not None:
             chosen = Cells(*(validation.integer("cells", count, 1) for count in cells))
-        made = cls(shape, wave, alpha, contact, validation.poisson(poisson), chosen)
-        if not (drive := made.field().drive).mirrored or drive.depends_on_x:
-            raise ValueError(f"wave = {validation.shown(wave)}: must not depend on x")
-        return made
+        box = Sheet(shape.length, float(shape.widths().max()), poisson)
+        if not (driven := drive(wave, box)).mirrored or driven.depends_on_x:
+            raise ValueError(f"wave = {validation.shown(wave)}: must be known not to depend on x")
+        return cls(shape, wave, alpha, contact, box.poisson, chosen)
 
     @property
     def setting(self) -> Setting:

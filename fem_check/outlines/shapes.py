@@ -23,7 +23,7 @@ from linear_theory.common.shown import Value
 
 Array = NDArray[np.float64]
 
-SIDES = 16
+SIDES = 8
 """Of the polygon of a curved outline, from its rear to its front."""
 
 NARROWEST = 0.01

@@ -92,6 +92,10 @@ class PlaneStressSolver:
         free, factor = self._factor
         solution = np.zeros_like(works)
         solution[:, free] = factor.solve(works[:, free].T).T
+        return self.centred(solution)
+
+    def centred(self, solution: Array) -> Array:
+        """Nodal displacements (cases, unknowns) without their mean and mean rotation."""
         modes, means = self._rigid_motions
         return np.asarray(solution - np.linalg.solve(means @ modes.T, means @ solution.T).T @ modes)
 

@@ -4,8 +4,8 @@
 
 Writes figures/data/best_outlines.csv, one row at a time; it goes on where the file ends. The sheet of
 the paper, area L^2/2, alpha = 0.1, is a trapezoid or a sum of four Legendre polynomials, nowhere
-narrower than a fifth of its mean. Of two starts the better end is kept. The rectangle and the best
-outline are then asked of the nonlinear sheet, by a cycle of its shapes.
+narrower than a fifth of its mean. The rectangle and the best outline are then asked of the nonlinear
+sheet, by a cycle of its shapes.
 """
 
 import time
@@ -16,11 +16,13 @@ import numpy as np
 
 from fem_check import Material, Membrane, Scene, cycle_speed
 from fem_check.outlines.best import BestOutline, best_outline
+from fem_check.outlines.gradient import outline_gradient
 from fem_check.outlines.shapes import LegendreShape, Shape
 from figures.common.filling import Filling
 from figures.common.folders import DATA
 from figures.common.records import Table
 from linear_theory import Contact, Sheet, SineWave, Tanh, TravellingWave
+from linear_theory.friction.law import FrictionLaw
 from linear_theory.speed.result import CrawlSpeed
 from linear_theory.wave.protocol import Wave
 
@@ -32,7 +34,7 @@ WAVES: dict[str, Wave] = {
     "pulse": TravellingWave(np.array([1.0, 0.3]), np.array([0.0, 0.0])),
 }
 
-FRICTIONS = {"viscous": "viscous", "tanh": Tanh(0.02), "dry": "coulomb"}
+FRICTIONS: dict[str, FrictionLaw | str] = {"viscous": "viscous", "tanh": Tanh(0.02), "dry": "coulomb"}
 """Slip speed in L/T."""
 
 TRAPEZOID, GENERAL = 1, 4
@@ -41,17 +43,16 @@ TRAPEZOID, GENERAL = 1, 4
 PLACES = (
     ("sine", "viscous", GENERAL),
     ("sine", "tanh", GENERAL),
-    ("sine", "viscous", TRAPEZOID),
-    ("sine", "tanh", TRAPEZOID),
     ("pulse", "tanh", GENERAL),
-    ("sine", "dry", GENERAL),
-    ("pulse", "viscous", GENERAL),
+    ("sine", "tanh", TRAPEZOID),
     ("sine", "dry", TRAPEZOID),
+    ("sine", "dry", GENERAL),
 )
 
-STARTS = ((0.0, 0.0, 0.0, 0.0), (0.3, -0.2, 0.1, 0.1))
+START = (0.2, -0.1, 0.1, 0.1)
+"""No outline with the symmetries of the rectangle, which may be a saddle."""
 
-RTOL = 2e-3
+RTOL = 3e-3
 
 
 @dataclass(frozen=True)
@@ -59,9 +60,8 @@ class Row:
     """A best outline. Speeds are towards +y or -y, the way of the rectangle, over alpha^2 L/T.
 
     coefficients: how many; a1 to a4: of it, see `LegendreShape`; rectangle, best: by theory, error: of
-    the latter; left: percent that the certificate leaves; other: the worse end of the starts;
-    sheet_rectangle, sheet_best: of the nonlinear sheet, sheet_error: of the latter; evaluations;
-    seconds of the processor.
+    the latter; left: percent that the certificate leaves; sheet_rectangle, sheet_best: of the nonlinear
+    sheet, sheet_error: of the latter; evaluations; seconds of the processor.
     """
 
     wave: str
@@ -75,7 +75,6 @@ class Row:
     best: float
     error: float
     left: float
-    other: float
     sheet_rectangle: float
     sheet_best: float
     sheet_error: float
@@ -87,8 +86,8 @@ TABLE = Table(
     DATA / "best_outlines.csv",
     Row,
     "python -m figures.measure.optimise.outlines",
-    f"area L^2/2, length L, alpha = {ALPHA:g}; speeds over alpha^2 L/T, left in percent, seconds of the "
-    "processor",
+    f"area L^2/2, length L, alpha = {ALPHA:g}; speeds over alpha^2 L/T, left in percent, seconds of one "
+    "core",
     5,
 )
 
@@ -106,7 +105,7 @@ def searched(wave: str, friction: str, count: int, start: Sequence[float]) -> Be
     return best_outline(shape, WAVES[wave], ALPHA, over, contact, towards=towards, rtol=RTOL)
 
 
-def law(friction: str) -> object:
+def law(friction: str) -> FrictionLaw | str:
     """By its name in the table."""
     return FRICTIONS[friction]
 
@@ -116,33 +115,36 @@ def by_sheet(shape: Shape, wave: str, friction: str) -> CrawlSpeed:
     sheet = Sheet(shape.length, float(shape.widths().max()))
     stretching = Membrane(Material(sheet.thickness, sheet.poisson))
     scene = Scene(sheet, WAVES[wave], ALPHA, effects=[stretching], mesh=shape.mesh(1, 1))
-    return cycle_speed(scene, friction=law(friction), rtol=5e-3)
+    return cycle_speed(scene, friction=law(friction), rtol=2e-2)
 
 
 def row(place: tuple[str, str, int]) -> Row:
     """Of a wave, a friction and a number of coefficients."""
     begin, (wave, friction, count) = time.process_time(), place
-    ends = [searched(wave, friction, count, start[:count]) for start in STARTS]
-    best = max(ends, key=lambda one: one.speed.value)
+    best = searched(wave, friction, count, START[:count])
     assert isinstance(best.shape, LegendreShape)
     rectangle = LegendreShape(SHEET.width, SHEET.length, [0.0])
     flat, shaped = (by_sheet(shape, wave, friction) for shape in (rectangle, best.shape))
-    unit, sign = ALPHA**2, np.sign(flat.mean)
-    numbers = (*best.shape.coefficients, 0.0, 0.0, 0.0)[:GENERAL]
+    contact = Contact(friction=law(friction))
+    plain = outline_gradient(rectangle, WAVES[wave], ALPHA, ["length"], contact, rtol=RTOL).speed
+    unit, sign = ALPHA**2, float(np.sign(flat.mean))
+    a1, a2, a3, a4 = (*best.shape.coefficients, 0.0, 0.0, 0.0)[:GENERAL]
     return Row(
-        wave,
-        friction,
-        count,
-        *numbers,
-        rectangle=ends[0].start.value / unit,
+        wave=wave,
+        friction=friction,
+        coefficients=count,
+        a1=a1,
+        a2=a2,
+        a3=a3,
+        a4=a4,
+        rectangle=abs(plain.mean) / unit,
         best=best.speed.value / unit,
         error=best.speed.error / unit,
         left=100 * best.certificate.gain / abs(best.speed.value),
-        other=min(one.speed.value for one in ends) / unit,
         sheet_rectangle=sign * flat.mean / unit,
         sheet_best=sign * shaped.mean / unit,
         sheet_error=shaped.error / unit,
-        evaluations=sum(one.evaluations for one in ends),
+        evaluations=best.evaluations,
         seconds=time.process_time() - begin,
     )
 

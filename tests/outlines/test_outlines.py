@@ -1,0 +1,158 @@
+"""Outlines with parameters: their gradients against differences, the best of them against scans."""
+
+import numpy as np
+import pytest
+
+from fem_check.mesh.outline import Outline
+from fem_check.outlines.best import best_outline
+from fem_check.outlines.field import Cells, Setting
+from fem_check.outlines.gradient import Problem as OutlineProblem
+from fem_check.outlines.gradient import _Frozen, outline_gradient
+from fem_check.outlines.shapes import LegendreShape, Trapezoid
+from fem_check.plane_stress.field import plane_stress_field
+from linear_theory import (
+    Contact,
+    Coulomb,
+    Directional,
+    FieldWave,
+    GivenMap,
+    Mapped,
+    SineWave,
+    Tanh,
+    TravellingWave,
+    field_speed,
+)
+from linear_theory.balance.crawl import Crawl, Resolution
+
+PULSE = TravellingWave(np.array([1.0, 0.2]), np.array([0.0, 0.3]))
+TRAPEZOID = Trapezoid(rear=0.6, front=0.35, length=1.1)
+CURVED = LegendreShape(0.5, 1.0, [0.3, -0.2])
+VISCOUS, TANH = Contact(friction="viscous"), Contact("grown", Tanh(0.02))
+COARSE = Cells(1, 2)
+
+
+def test_an_outline_is_its_polygon_and_its_mesh_covers_it():
+    lens = LegendreShape(0.4, 1.2, [0.2, -0.3, 0.1])
+    for shape in (lens, TRAPEZOID):
+        mesh, outline = shape.mesh(2, 1), shape.outline()
+        (a, b), (c, d) = (mesh.p[:, mesh.t[i]] - mesh.p[:, mesh.t[0]] for i in (1, 2))
+        twice = abs(a * d - b * c)
+        assert (twice > 0).all()
+        assert twice.sum() / 2 == pytest.approx(outline.area, rel=1e-12)
+        assert shape.area == pytest.approx(outline.area, rel=1e-12)
+    assert lens.area == pytest.approx(0.4 * 1.2, rel=1e-12)
+    same = Outline.trapezoid(0.6, 0.35, 1.1)
+    assert TRAPEZOID.outline().area == pytest.approx(same.area, rel=1e-12)
+
+
+@pytest.mark.parametrize("friction", ["viscous", "coulomb"])
+def test_half_of_an_outline_moves_as_the_whole(friction):
+    """The half that is balanced over a whole period, against all of it with three unknowns."""
+    whole = plane_stress_field(TRAPEZOID.outline(), PULSE, size=0.2)
+    other = field_speed(whole, 0.1, friction=friction, rtol=3e-3)
+    contact = Contact(friction=friction)
+    found = outline_gradient(TRAPEZOID, PULSE, 0.1, ["rear"], contact, rtol=3e-3, cells=COARSE).speed
+    assert abs(found.mean - other.mean) <= found.error + other.error
+    assert abs(found.mean - other.mean) <= 3e-3 * abs(other.mean)
+
+
+def frozen(shape, wave, contact, times):
+    """A crawl on a grid of cells that are not halved, and its exact motion."""
+    problem = OutlineProblem.of(shape, wave, 0.15, contact, 0.4, COARSE)
+    resolution = Resolution(4.0, 5, 0, 1e-12)
+    crawl = Crawl(problem.field(), 0.15, problem.contact, resolution)
+    return problem, crawl, crawl.balance(times)
+
+
+@pytest.mark.parametrize(
+    "shape", [TRAPEZOID, LegendreShape(0.5, 1.0, [0.3, -0.2])], ids=["straight", "curved"]
+)
+@pytest.mark.parametrize("contact", [VISCOUS, TANH], ids=["viscous", "tanh"])
+def test_gradient_on_a_frozen_grid(shape, contact):
+    """Against differences of motions of other outlines, each solved anew, by the same cells."""
+    times = np.array([0.11, 0.37, 0.83])
+    problem, crawl, motion = frozen(shape, PULSE, contact, times)
+    names = list(shape.parameters)
+    pairs = [problem.beside(name) for name in names]
+    found, flat = _Frozen(crawl, problem.setting, pairs).derivatives(times, motion)
+    assert not flat
+    for name, row in zip(names, found, strict=True):
+        value, step, moved = shape.parameters[name], 1e-3, {}
+        for k in (-2, -1, 1, 2):
+            at = shape.changed(name, value + k * step)
+            other = frozen(at, PULSE, contact, times)[2]
+            moved[k] = (other.leading + 0.15 * other.remainder)[:, 1]
+        slope = (8 * (moved[1] - moved[-1]) - moved[2] + moved[-2]) / (12 * step)
+        assert row == pytest.approx(slope, rel=1e-6, abs=1e-6 * abs(found).max())
+
+
+@pytest.mark.parametrize("contact", [VISCOUS, Contact()], ids=["viscous", "dry"])
+def test_gradient_is_within_its_error_of_differences_of_speeds(contact):
+    rng = np.random.default_rng(5)
+    shape = LegendreShape(0.5, 1.0, rng.uniform(-0.25, 0.25, 3))
+    options = {"contact": contact, "rtol": 1e-4, "cells": (1, 1)}
+    names = ["length", "coefficients.0"]
+    found = outline_gradient(shape, SineWave(), 0.2, names, **options)
+    for name, value, error in zip(names, found.values, found.errors, strict=True):
+        step, at = 1e-2, shape.parameters[name]
+        ends = [
+            outline_gradient(shape.changed(name, at + k * step), SineWave(), 0.2, [name], **options)
+            for k in (1, -1)
+        ]
+        slope = (ends[0].speed.mean - ends[1].speed.mean) / (2 * step)
+        doubt = sum(end.speed.error for end in ends) / (2 * step)
+        assert abs(value - slope) <= error + doubt + step**2
+        assert error <= 0.05 * abs(found.values).max()
+
+
+def test_best_trapezoid_is_the_top_of_a_scan():
+    """Of trapezoids of one area and length: the optimiser against fifteen speeds."""
+    start, contact = LegendreShape(0.5, 1.0, [0.35]), Contact(friction=Tanh(0.05))
+    over = {"coefficients.0": (-0.6, 0.6)}
+    best = best_outline(start, SineWave(), 0.1, over, contact, rtol=2e-3)
+    places = np.linspace(-0.6, 0.6, 7)
+    scan = [
+        outline_gradient(
+            LegendreShape(0.5, 1.0, [a]), SineWave(), 0.1, ["coefficients.0"], contact, rtol=2e-3
+        ).speed.mean
+        for a in places
+    ]
+    assert best.converged, best
+    assert best.speed.value >= max(scan) - best.speed.error
+    assert abs(best.shape.coefficients[0] - places[np.argmax(scan)]) <= 0.2
+    assert best.gain > 1
+
+
+def test_bad_input_is_refused_by_name():
+    wave, contact = SineWave(), VISCOUS
+    with pytest.raises(ValueError, match="alpha = 0"):
+        outline_gradient(TRAPEZOID, wave, 0.0)
+    with pytest.raises(ValueError, match="over = 'width'"):
+        outline_gradient(TRAPEZOID, wave, 0.1, ["width"])
+    with pytest.raises(ValueError, match="named twice"):
+        outline_gradient(TRAPEZOID, wave, 0.1, ["rear", "rear"])
+    with pytest.raises(ValueError, match="over = \\[\\]"):
+        outline_gradient(TRAPEZOID, wave, 0.1, [])
+    oblique = FieldWave(lambda x, y, t: np.sin(2 * np.pi * (x + y - t)), 1.0)
+    with pytest.raises(ValueError, match="not to depend on x"):
+        outline_gradient(TRAPEZOID, oblique, 0.1)
+    mapped = Mapped(Coulomb(), GivenMap(lambda x, y: 1 + y**2, mirrored=True))
+    turned = Directional(0.5, 1.5, heading=0.3, form=Coulomb())
+    for law in (mapped, turned):
+        with pytest.raises(ValueError, match=r"contact = .*must be level"):
+            outline_gradient(TRAPEZOID, wave, 0.1, contact=Contact(friction=law))
+    with pytest.raises(ValueError, match="rear = -1"):
+        Trapezoid(-1.0, 0.3, 1.0)
+    with pytest.raises(ValueError, match=r"width = .* at y = .*must be >"):
+        LegendreShape(0.5, 1.0, [1.2])
+    for over, words in (
+        ({}, "over"),
+        ({"rear": (0.7, 0.8)}, "shape: rear"),
+        ({"rear": (0.8, 0.3)}, "low < high"),
+        ({"slope": (0, 1)}, "over = 'slope'"),
+    ):
+        with pytest.raises(ValueError, match=words):
+            best_outline(TRAPEZOID, wave, 0.1, over, contact)
+    with pytest.raises(ValueError, match="towards = 0"):
+        best_outline(TRAPEZOID, wave, 0.1, {"rear": (0.3, 0.8)}, contact, towards=0)
+    assert Setting(wave, 0.5, COARSE).field(TRAPEZOID).mirrored
