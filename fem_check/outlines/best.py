@@ -23,8 +23,8 @@ from linear_theory.wave.protocol import Wave
 
 Array = NDArray[np.float64]
 
-SLIM = 0.2
-"""Least width of a `LegendreShape` over its mean, by default."""
+SLIM, STOUT = 0.2, 2.0
+"""Least and largest width of a `LegendreShape` over its mean, by default."""
 
 CHANGE = 1e-4
 """Of the speed, relative, at which a climb ends: gradients are known to about 1e-3."""
@@ -90,6 +90,7 @@ def best_outline(
     *,
     towards: int = 1,
     slim: float = SLIM,
+    stout: float = STOUT,
     rtol: float = 1e-3,
     cells: tuple[int, int] | None = None,
     how: Ascent | None = None,
@@ -97,7 +98,8 @@ def best_outline(
     """The outline of largest V (towards = 1) or -V (towards = -1) in small-strain theory.
 
     shape: the outline to begin with, between the bounds; over: parameters by name, each between two
-    bounds. slim: least width of a `LegendreShape` over its mean. The others as for `outline_gradient`.
+    bounds. slim, stout: least and largest width of a `LegendreShape` over its mean. The others as for
+    `outline_gradient`.
     Dry friction may have kinks where part of the sheet is at rest: then the certificate does not hold.
 
     Raises ValueError for bad input, by name; `NoOutline` where no outline has a speed.
@@ -114,7 +116,7 @@ def best_outline(
         raise ValueError(f"towards = {validation.shown(towards)}: must be 1 or -1")
     Problem.of(shape, wave, alpha, contact, poisson, cells)
     validation.positive("rtol", rtol)
-    space = Space.of(shape, over, slim)
+    space = Space.of(shape, over, slim, stout)
 
     def objective(point: Array) -> Evaluation:
         try:
@@ -172,15 +174,18 @@ class Space(Shown):
     low: Array
     ranges: Array
     slim: float
+    stout: float
 
     @classmethod
-    def of(cls, shape: Shape, over: Any, slim: float) -> "Space":
+    def of(cls, shape: Shape, over: Any, slim: float, stout: float) -> "Space":
         """Checked. Raises ValueError, by name, for bounds that are no pairs, out of order, or without
         the shape that is given."""
         if not isinstance(over, Mapping) or not over:
             raise ValueError(f"over = {validation.shown(over)}: must map parameters to bounds")
         if not 0 < validation.real("slim", slim) < 1:
             raise ValueError(f"slim = {slim:g}: must be in (0, 1)")
+        if not validation.real("stout", stout) > 1:
+            raise ValueError(f"stout = {stout:g}: must be > 1")
         known, lows, highs = shape.parameters, [], []
         for name, bounds in over.items():
             validation.choice("over", name, known)
@@ -194,7 +199,7 @@ class Space(Shown):
                 raise ValueError(f"shape: {name} = {known[name]:g}: must be in [{low:g}, {high:g}]")
             lows.append(low)
             highs.append(high)
-        return cls(shape, tuple(over), np.array(lows), np.array(highs) - np.array(lows), slim)
+        return cls(shape, tuple(over), np.array(lows), np.array(highs) - np.array(lows), slim, stout)
 
     def shape(self, point: Array) -> Shape:
         """At a point. Raises ValueError where there is none."""
@@ -209,24 +214,26 @@ class Space(Shown):
         return np.asarray((values - self.low) / self.ranges)
 
     def region(self) -> Region:
-        """Between the bounds, and nowhere too slim."""
+        """Between the bounds, and nowhere too slim or too stout."""
         count = len(self.names)
-        constraints = (self._nowhere_slim(),) if isinstance(self.start, LegendreShape) else ()
+        constraints = self._widths() if isinstance(self.start, LegendreShape) else ()
         ends = np.zeros(count), np.ones(count)
         return Region(*ends, self.point(self.start), np.full(count, 0.25), constraints)
 
-    def _nowhere_slim(self) -> Linear:
-        """Of the sum of Legendre's polynomials, which is linear in their coefficients."""
+    def _widths(self) -> tuple[Linear, Linear]:
+        """Bounds of the sum of Legendre's polynomials, which is linear in their coefficients."""
         shape = self.start
         assert isinstance(shape, LegendreShape)
         eta = np.linspace(-1, 1, shape.sides + 1)
         columns = np.polynomial.legendre.legvander(eta, len(shape.coefficients))[:, 1:]
         free = {n: int(n.partition(".")[2]) for n in self.names if n.startswith("coefficients.")}
-        rows, fixed = np.zeros((eta.size, len(self.names))), columns @ shape.coefficients
-        least = fixed.copy()
+        rows, fixed = np.zeros((eta.size, len(self.names))), 1 + columns @ shape.coefficients
         for place, name in enumerate(self.names):
             if name in free:
                 column = columns[:, free[name]]
-                rows[:, place] = -column * self.ranges[place]
-                least += column * (self.low[place] - shape.coefficients[free[name]])
-        return Linear(f"width >= {self.slim:g} of its mean", rows, 1 + least - self.slim)
+                rows[:, place] = column * self.ranges[place]
+                fixed += column * (self.low[place] - shape.coefficients[free[name]])
+        return (
+            Linear(f"width >= {self.slim:g} of its mean", -rows, fixed - self.slim),
+            Linear(f"width <= {self.stout:g} of its mean", rows, self.stout - fixed),
+        )

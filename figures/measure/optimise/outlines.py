@@ -4,7 +4,7 @@
 
 Writes figures/data/best_outlines.csv, one row at a time; it goes on where the file ends. The sheet of
 the paper, area L^2/2, alpha = 0.1, is a trapezoid or a sum of four Legendre polynomials, nowhere
-narrower than a fifth of its mean. The rectangle and the best outline are then asked of the nonlinear
+narrower than a fifth of its mean, nor wider than twice that. The rectangle and the best outline are then asked of the nonlinear
 sheet, by a cycle of its shapes.
 """
 
@@ -86,8 +86,8 @@ TABLE = Table(
     DATA / "best_outlines.csv",
     Row,
     "python -m figures.measure.optimise.outlines",
-    f"area L^2/2, length L, alpha = {ALPHA:g}; speeds over alpha^2 L/T, left in percent, seconds of one "
-    "core",
+    f"area L^2/2, length L, alpha = {ALPHA:g}; speeds over alpha^2 L/T, left in percent, seconds of "
+    "one core",
     5,
 )
 
@@ -99,7 +99,7 @@ def shape_of(row: Row) -> LegendreShape:
 
 def searched(wave: str, friction: str, count: int, start: Sequence[float]) -> BestOutline:
     """From one start. Away from +y where the rectangle goes that way."""
-    over = {f"coefficients.{i}": (-1.0, 1.0) for i in range(count)}
+    over = {f"coefficients.{i}": (-2.0, 2.0) for i in range(count)}
     shape, contact = LegendreShape(SHEET.width, SHEET.length, start), Contact(friction=law(friction))
     towards = -1 if (wave, friction) == ("pulse", "tanh") else 1
     return best_outline(shape, WAVES[wave], ALPHA, over, contact, towards=towards, rtol=RTOL)
