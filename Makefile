@@ -52,6 +52,7 @@ figures: $(STAMP)
 	$(RUN) -m figures.draw.regimes $(FIGURE_OUT)
 	$(RUN) -m figures.draw.directional $(FIGURE_OUT)
 	$(RUN) -m figures.draw.energy $(FIGURE_OUT)
+	$(RUN) -m figures.draw.best.outlines $(FIGURE_OUT)
 	$(RUN) -m figures.draw.saddle $(FIGURE_OUT)
 	$(RUN) -m figures.draw.excitable $(FIGURE_OUT)
 	$(RUN) -m figures.draw.fig2 $(FIGURE_OUT)
@@ -106,6 +107,7 @@ tables: $(STAMP)
 	$(RUN) -m figures.measure.regimes
 	$(RUN) -m figures.measure.directional
 	$(RUN) -m figures.measure.optimise.line
+	$(RUN) -m figures.measure.optimise.outlines
 	$(RUN) -m figures.measure.gradient
 	$(RUN) -m figures.measure.energy.gaits
 	$(RUN) -m figures.measure.energy.errors

@@ -4,8 +4,8 @@
 
 Writes figures/data/best_outlines.csv, one row at a time; it goes on where the file ends. The sheet of
 the paper, area L^2/2, alpha = 0.1, is a trapezoid or a sum of four Legendre polynomials, nowhere
-narrower than a fifth of its mean, nor wider than twice that. The rectangle and the best outline are then asked of the nonlinear
-sheet, by a cycle of its shapes.
+narrower than a fifth of its mean, nor wider than twice that. The rectangle and the best outline are
+then asked of the nonlinear sheet, by a cycle of its shapes.
 """
 
 import time
