@@ -38,6 +38,12 @@ class HalfField(PlaneStressField):
 
     mirrored = True
 
+    @property
+    def rectangular(self) -> bool:
+        """Taken as no rectangle even if it is one: its neighbours are none, and unlike it may move
+        otherwise in the other half of the period."""
+        return False
+
     def _on_cells(self, grid: CellGrid, order: int) -> tuple[Array, Array, Array, Array]:
         if self._kept is None or self._kept[0] != order:
             position, area, displacements, dilations = super()._on_cells(grid, order)

@@ -90,8 +90,8 @@ def test_gradient_on_a_frozen_grid(shape, contact):
 def test_gradient_is_within_its_error_of_differences_of_speeds(contact):
     rng = np.random.default_rng(5)
     shape = LegendreShape(0.5, 1.0, rng.uniform(-0.25, 0.25, 3))
-    options = {"contact": contact, "rtol": 1e-4, "cells": (1, 1)}
-    names = ["length", "coefficients.0"]
+    options = {"contact": contact, "rtol": 1e-3, "cells": (1, 1)}
+    names = ["coefficients.0"]
     found = outline_gradient(shape, SineWave(), 0.2, names, **options)
     for name, value, error in zip(names, found.values, found.errors, strict=True):
         step, at = 1e-2, shape.parameters[name]
@@ -102,24 +102,27 @@ def test_gradient_is_within_its_error_of_differences_of_speeds(contact):
         slope = (ends[0].speed.mean - ends[1].speed.mean) / (2 * step)
         doubt = sum(end.speed.error for end in ends) / (2 * step)
         assert abs(value - slope) <= error + doubt + step**2
-        assert error <= 0.05 * abs(found.values).max()
+        assert error <= 0.1 * abs(slope)
 
 
 def test_best_trapezoid_is_the_top_of_a_scan():
-    """Of trapezoids of one area and length: the optimiser against fifteen speeds."""
-    start, contact = LegendreShape(0.5, 1.0, [0.35]), Contact(friction=Tanh(0.05))
-    over = {"coefficients.0": (-0.6, 0.6)}
-    best = best_outline(start, SineWave(), 0.1, over, contact, rtol=2e-3)
-    places = np.linspace(-0.6, 0.6, 7)
-    scan = [
-        outline_gradient(
-            LegendreShape(0.5, 1.0, [a]), SineWave(), 0.1, ["coefficients.0"], contact, rtol=2e-3
-        ).speed.mean
-        for a in places
-    ]
+    """Of trapezoids of one area and length. A sine turned about t and y is itself: V(-a) = V(a)."""
+    contact, over = Contact(friction=Tanh(0.05)), {"coefficients.0": (-0.6, 0.6)}
+
+    def at(a):
+        shape = LegendreShape(0.5, 1.0, [a])
+        return outline_gradient(shape, SineWave(), 0.1, list(over), contact, rtol=5e-3)
+
+    start = LegendreShape(0.5, 1.0, [0.35])
+    best = best_outline(start, SineWave(), 0.1, over, contact, rtol=5e-3)
+    scan = {a: at(a) for a in (-0.35, 0.0, 0.2)}
+    turned = scan[-0.35].speed
+    assert abs(turned.mean - best.start.value) <= turned.error + best.start.error
+    assert abs(scan[0.0].values[0]) <= scan[0.0].errors[0]
+    top = max(one.speed.mean for one in scan.values())
     assert best.converged, best
-    assert best.speed.value >= max(scan) - best.speed.error
-    assert abs(best.shape.coefficients[0] - places[np.argmax(scan)]) <= 0.2
+    assert best.speed.value >= top - best.speed.error
+    assert abs(best.shape.coefficients[0]) <= 0.05
     assert best.gain > 1
 
 
