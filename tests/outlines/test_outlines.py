@@ -65,44 +65,42 @@ def frozen(shape, wave, contact, times):
 
 
 @pytest.mark.parametrize(
-    "shape", [TRAPEZOID, LegendreShape(0.5, 1.0, [0.3, -0.2])], ids=["straight", "curved"]
+    ("shape", "contact", "names"),
+    [
+        (TRAPEZOID, VISCOUS, ["rear", "front", "length"]),
+        (CURVED, TANH, ["length", "coefficients.1"]),
+    ],
+    ids=["straight, viscous", "curved, tanh"],
 )
-@pytest.mark.parametrize("contact", [VISCOUS, TANH], ids=["viscous", "tanh"])
-def test_gradient_on_a_frozen_grid(shape, contact):
+def test_gradient_on_a_frozen_grid(shape, contact, names):
     """Against differences of motions of other outlines, each solved anew, by the same cells."""
     times = np.array([0.11, 0.37, 0.83])
     problem, crawl, motion = frozen(shape, PULSE, contact, times)
-    names = list(shape.parameters)
     pairs = [problem.beside(name) for name in names]
     found, flat = _Frozen(crawl, problem.setting, pairs).derivatives(times, motion)
     assert not flat
     for name, row in zip(names, found, strict=True):
-        value, step, moved = shape.parameters[name], 1e-3, {}
-        for k in (-2, -1, 1, 2):
-            at = shape.changed(name, value + k * step)
-            other = frozen(at, PULSE, contact, times)[2]
-            moved[k] = (other.leading + 0.15 * other.remainder)[:, 1]
-        slope = (8 * (moved[1] - moved[-1]) - moved[2] + moved[-2]) / (12 * step)
+        value, step, ends = shape.parameters[name], 3e-4, []
+        for sign in (1, -1):
+            other = frozen(shape.changed(name, value + sign * step), PULSE, contact, times)[2]
+            ends.append((other.leading + 0.15 * other.remainder)[:, 1])
+        slope = (ends[0] - ends[1]) / (2 * step)
         assert row == pytest.approx(slope, rel=1e-6, abs=1e-6 * abs(found).max())
 
 
-@pytest.mark.parametrize("contact", [VISCOUS, Contact()], ids=["viscous", "dry"])
-def test_gradient_is_within_its_error_of_differences_of_speeds(contact):
-    rng = np.random.default_rng(5)
-    shape = LegendreShape(0.5, 1.0, rng.uniform(-0.25, 0.25, 3))
-    options = {"contact": contact, "rtol": 1e-3, "cells": (1, 1)}
-    names = ["coefficients.0"]
-    found = outline_gradient(shape, SineWave(), 0.2, names, **options)
-    for name, value, error in zip(names, found.values, found.errors, strict=True):
-        step, at = 1e-2, shape.parameters[name]
-        ends = [
-            outline_gradient(shape.changed(name, at + k * step), SineWave(), 0.2, [name], **options)
-            for k in (1, -1)
-        ]
-        slope = (ends[0].speed.mean - ends[1].speed.mean) / (2 * step)
-        doubt = sum(end.speed.error for end in ends) / (2 * step)
-        assert abs(value - slope) <= error + doubt + step**2
-        assert error <= 0.1 * abs(slope)
+def test_gradient_of_dry_friction_is_within_its_error_of_a_difference():
+    """Cells and times of the two other speeds are their own."""
+    shape, name, step = LegendreShape(0.5, 1.0, [0.2, -0.15, 0.1]), "coefficients.1", 1e-2
+    options = {"over": [name], "contact": Contact(), "rtol": 2e-3}
+    found = outline_gradient(shape, SineWave(), 0.2, **options)
+    ends = [
+        outline_gradient(shape.changed(name, -0.15 + k * step), SineWave(), 0.2, **options).speed.mean
+        for k in (1, -1)
+    ]
+    slope = (ends[0] - ends[1]) / (2 * step)
+    rounding = 2 * step**2 * found.speed.mean  # of the difference, and of its cells
+    assert abs(found[name] - slope) <= found.errors[0] + rounding
+    assert found.errors[0] + rounding <= 0.05 * abs(slope)
 
 
 def test_best_trapezoid_is_the_top_of_a_scan():
@@ -111,11 +109,11 @@ def test_best_trapezoid_is_the_top_of_a_scan():
 
     def at(a):
         shape = LegendreShape(0.5, 1.0, [a])
-        return outline_gradient(shape, SineWave(), 0.1, list(over), contact, rtol=5e-3)
+        return outline_gradient(shape, SineWave(), 0.1, list(over), contact, rtol=1e-2)
 
     start = LegendreShape(0.5, 1.0, [0.35])
-    best = best_outline(start, SineWave(), 0.1, over, contact, rtol=5e-3)
-    scan = {a: at(a) for a in (-0.35, 0.0, 0.2)}
+    best = best_outline(start, SineWave(), 0.1, over, contact, rtol=1e-2)
+    scan = {a: at(a) for a in (-0.35, 0.0)}
     turned = scan[-0.35].speed
     assert abs(turned.mean - best.start.value) <= turned.error + best.start.error
     assert abs(scan[0.0].values[0]) <= scan[0.0].errors[0]
