@@ -4,7 +4,8 @@
 
 From the table of `figures.measure.optimise.outlines`. Filled: the best outline of each wave and
 friction; dotted: the rectangle of the same area and length. Below: V over that of the rectangle, by the
-theory of small strain, in which the outline was sought, and by the nonlinear sheet.
+theory of small strain, in which the outline was sought, and by the nonlinear sheet. The wave runs
+towards +y.
 """
 
 from collections.abc import Sequence
@@ -17,14 +18,14 @@ from matplotlib.figure import Figure
 from figures.common import output, style
 from figures.measure.optimise.outlines import GENERAL, SHEET, TABLE, Row, shape_of
 
-NAMES = {"viscous": "viscous", "tanh": "tanh, $v_0=0.02$", "dry": "dry"}
-
 FACES = {"sine": style.COLORS["sky"], "pulse": style.COLORS["orange"]}
 
 
 def chosen(rows: Sequence[Row]) -> list[Row]:
     """The general outlines. Raises ValueError, naming the command of the table, if there are none."""
-    found = [row for row in rows if row.coefficients == GENERAL]
+    found = sorted(
+        (row for row in rows if row.coefficients == GENERAL), key=lambda row: row.wave, reverse=True
+    )
     if not found:
         raise ValueError(f"no best outlines in the table; `{TABLE.command}` makes them")
     return found
@@ -38,7 +39,7 @@ def gains(row: Row) -> tuple[float, float]:
 def draw(rows: Sequence[Row]) -> Figure:
     """One panel for each wave and friction."""
     kept = chosen(rows)
-    fig = style.figure(width=style.COLUMN_CM, height=6.4)
+    fig = style.figure(width=style.COLUMN_CM, height=3.6)
     axes = fig.subplots(1, len(kept), sharex=True, sharey=True, squeeze=False)[0]
     for ax, row in zip(axes, kept, strict=True):
         _draw_outline(ax, row)
@@ -52,7 +53,7 @@ def _draw_outline(ax: Axes, row: Row) -> None:
     x, y = SHEET.width / 2, SHEET.length / 2
     ax.plot([-x, x, x, -x, -x], [-y, -y, y, y, -y], ":", color="black", linewidth=0.9)
     way = "$-y$" if (row.wave, row.friction) == ("pulse", "tanh") else "$+y$"
-    ax.set_title(f"{row.wave}\n{NAMES[row.friction]}\n$V$ towards {way}", fontsize=7)
+    ax.set_title(f"{row.wave}, {row.friction}\n$V$ towards {way}", fontsize=7)
     theory, sheet = gains(row)
     ax.set_xlabel(f"$\\times${theory:.2f} theory\n$\\times${sheet:.2f} sheet", fontsize=7)
     ax.set(aspect="equal", xlim=(-0.62, 0.62), ylim=(-0.56, 0.56), xticks=[])
