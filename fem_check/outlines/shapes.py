@@ -146,7 +146,7 @@ class LegendreShape(Shape):
     >>> from fem_check.outlines.shapes import LegendreShape
     >>> lens = LegendreShape(mean_width=0.5, length=1.0, coefficients=(0.0, -0.4))
     >>> print(f"area {lens.area:.6f} L^2, {lens.widths().max():.3f} L wide")
-    area 0.500000 L^2, 0.601 L wide
+    area 0.500000 L^2, 0.604 L wide
     """
 
     mean_width: float
