@@ -52,6 +52,7 @@ figures: $(STAMP)
 	$(RUN) -m figures.draw.regimes $(FIGURE_OUT)
 	$(RUN) -m figures.draw.directional $(FIGURE_OUT)
 	$(RUN) -m figures.draw.energy $(FIGURE_OUT)
+	$(RUN) -m figures.draw.optimise.best_outlines $(FIGURE_OUT)
 	$(RUN) -m figures.draw.saddle $(FIGURE_OUT)
 	$(RUN) -m figures.draw.optimise.best_waves $(FIGURE_OUT)
 	$(RUN) -m figures.draw.excitable $(FIGURE_OUT)
@@ -110,6 +111,7 @@ tables: $(STAMP)
 	$(RUN) -m figures.measure.optimise.scan
 	$(RUN) -m figures.measure.optimise.buys
 	$(RUN) -m figures.draw.optimise.page
+	$(RUN) -m figures.measure.optimise.outlines
 	$(RUN) -m figures.measure.gradient
 	$(RUN) -m figures.measure.energy.gaits
 	$(RUN) -m figures.measure.energy.errors

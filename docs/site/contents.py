@@ -43,6 +43,7 @@ HOWTO = {
     "energy": "What crawling costs",
     "scene_file": "A scene in a file",
     "run": "A run with all its pictures",
+    "best_outlines": "The best outline",
     "bending": "A sheet that bends",
     "movie": "A movie",
     "explorer": "A page with sliders",

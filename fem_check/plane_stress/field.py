@@ -151,13 +151,14 @@ class PlaneStressField(LinearField):
         gain: float,
         solver: PlaneStressSolver | None = None,
         cases: LoadCases | None = None,
+        solution: Array | None = None,
     ) -> None:
         start = time.perf_counter()
         self.sheet, self.wave, self.degree = sheet, wave, degree
         self._coarse, self._gain = coarse, gain
         self._solver = solver or PlaneStressSolver(coarse.refined(), degree, sheet.poisson)
         self._cases = cases or load_cases(self.drive)
-        self._solution = self._solved(self._solver)
+        self._solution = self._solved(self._solver) if solution is None else solution
         self.seconds = time.perf_counter() - start
 
     def _settings(self) -> Mapping[str, Any]:

@@ -38,6 +38,12 @@ def growth_work(v: Any, w: Any) -> Any:
 
 
 @LinearForm  # type: ignore[untyped-decorator]
+def pull(v: Any, w: Any) -> Any:
+    """Work of a stress w.stress in the strain of v."""
+    return ddot(w.stress, sym_grad(v))
+
+
+@LinearForm  # type: ignore[untyped-decorator]
 def shift(v: Any, w: Any) -> Any:
     """Displacement along the direction w.along."""
     return v[w.along]
@@ -68,9 +74,28 @@ class PlaneStressSolver:
         Their mean and mean rotation over the area are zero.
         """
         works = [growth_work.assemble(self._basis, growth=g, poisson=self.poisson) for g in growths]
+        return self.response(np.stack(works))
+
+    def residual(self, solution: Array, growths: Array) -> Array:
+        """Works of growths in every displacement less those of the stress of a solution, (cases,
+        unknowns): 0 for the solution of these growths."""
+        nu, found = self.poisson, []
+        for u, growth in zip(solution, growths, strict=True):
+            strain = sym_grad(self._basis.interpolate(u))
+            spread = growth / (1 - nu) - nu / (1 - nu**2) * trace(strain)
+            stress = eye(spread, 2) - strain / (1 + nu)
+            found.append(pull.assemble(self._basis, stress=stress))
+        return np.stack(found)
+
+    def response(self, works: Array) -> Array:
+        """Displacements of balanced works (cases, unknowns), without mean and mean rotation."""
         free, factor = self._factor
-        solution = np.zeros((len(works), self._basis.N))
-        solution[:, free] = factor.solve(np.stack(works, axis=1)[free]).T
+        solution = np.zeros_like(works)
+        solution[:, free] = factor.solve(works[:, free].T).T
+        return self.centred(solution)
+
+    def centred(self, solution: Array) -> Array:
+        """Nodal displacements (cases, unknowns) without their mean and mean rotation."""
         modes, means = self._rigid_motions
         return np.asarray(solution - np.linalg.solve(means @ modes.T, means @ solution.T).T @ modes)
 

@@ -161,8 +161,11 @@ class Crawl:
 
     @property
     def reversal_time(self) -> float | None:
-        """t_0 with V(t_0 - t) = V(t), where the wave and the sheet have that symmetry."""
-        alike = self.mirrored and self.contact.friction.map is None
+        """t_0 with V(t_0 - t) = V(t), where the wave and the sheet have that symmetry.
+
+        A sheet that is no rectangle need not be the same under y -> -y.
+        """
+        alike = self.mirrored and self.field.rectangular and self.contact.friction.map is None
         return self.drive.reversal_time if alike else None
 
     @cached_property

@@ -22,7 +22,8 @@ LAYERS = (
     *(f"linear_theory.{part}" for part in ("friction", "motion", "deformation", "energy", "scene")),
     *(f"linear_theory.{part}" for part in ("balance", "speed", "gradient", "line", "optimisation")),
     "linear_theory",
-    *(f"fem_check.{part}" for part in ("version", "scene", "mesh", "plane_stress", "excitable")),
+    *(f"fem_check.{part}" for part in ("version", "scene", "mesh", "plane_stress", "outlines")),
+    "fem_check.excitable",
     *(f"fem_check.shell.{part}" for part in ("material", "kinematics", "effects", "statics")),
     *(
         f"fem_check.shell.{part}"
