@@ -1,11 +1,14 @@
-"""Gradients by an adjoint: of small-strain theory, and of the cycle of shapes.
+"""Gradients by an adjoint: of small-strain theory, of second order for sheets that bend, and of the
+cycle of shapes.
 
 A gradient there costs about as much as the speed, for any number of unknowns. It is asked for by the
 names of the unknowns, of fields as in scene files, of harmonics "wave.cosine.0" for cos phi and so on.
 """
 
+import math
 from collections.abc import Callable, Mapping
-from typing import Any, NamedTuple
+from functools import partial
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,10 +16,9 @@ from numpy.typing import NDArray
 from fem_check.optimisation.objectives import CostOfTransport, Objective
 from fem_check.optimisation.unknowns import Unknowns
 from fem_check.shell.cycle.gradient import cycle_gradient
-from fem_check.shell.cycle.gradient.parameters import OfScene, cycle_parameters
 from linear_theory.common.errors import SheetcrawlError
 from linear_theory.common.estimate import Estimate
-from linear_theory.gradient import Gradient, Parameter, cost_gradient, parameters, speed_gradient
+from linear_theory.gradient import Gradient, cost_gradient, parameters, speed_gradient
 from linear_theory.optimisation.problem import Evaluation, Unusable
 
 Array = NDArray[np.float64]
@@ -25,17 +27,32 @@ SMALL = 1e-4
 """Change of an unknown over which the number of a field is differentiated: its scenes cost nothing."""
 
 
-class Way(NamedTuple):
-    """How a level is differentiated: parameters by names, gradients of speed and, if any, of cost."""
+NUMBERS = (
+    *("growth.alpha", "growth.curvature_coupling", "gravity.weight", "ground.stiffness"),
+    *("sheet.width", "sheet.poisson", "sheet.thickness"),
+)
+"""Of a sheet that bends. One that changes with a field other than its own, as the weight of a given
+density does with the thickness, leaves derivatives to differences."""
 
-    parameters: Callable[[Any], tuple[Parameter, ...]]
+SAME = 1e-9
+"""Relative change of a number that is none."""
+
+
+class Way(NamedTuple):
+    """How a level is differentiated: gradients of speed and, if any, of cost.
+
+    planar: of sheets in the plane alone (True), of sheets that bend alone (False), or of both (None).
+    """
+
     speed: Callable[..., Gradient]
     cost: Callable[..., Gradient] | None = None
+    planar: bool | None = None
 
 
 WAYS: Mapping[str, Way] = {
-    "first order": Way(parameters, speed_gradient, cost_gradient),
-    "cycle": Way(cycle_parameters, cycle_gradient),
+    "first order": Way(speed_gradient, cost_gradient, True),
+    "second order": Way(partial(speed_gradient, order=2), partial(cost_gradient, order=2), False),
+    "cycle": Way(cycle_gradient),
 }
 """Of the levels that have an adjoint."""
 
@@ -50,7 +67,7 @@ class Adjoint:
         harmonics = unknowns.harmonics
         waves = [] if harmonics is None else [_renamed(name) for name in harmonics.names]
         self._names = [*(field.name for field in unknowns.fields), *waves]
-        self._parameters = way.parameters(self._names)
+        self._parameters = parameters(self._names)
         self._check()
 
     @classmethod
@@ -59,7 +76,7 @@ class Adjoint:
     ) -> "Adjoint | None":
         """None where there is no gradient of these unknowns, of this objective, or at this level."""
         way, is_cost = WAYS.get(level), isinstance(objective, CostOfTransport)
-        if way is None or unknowns.scene.alpha == 0:
+        if way is None or unknowns.scene.alpha == 0 or way.planar not in (None, unknowns.scene.planar):
             return None
         if (way.cost if is_cost else objective.slope(unknowns.scene)) is None:
             return None
@@ -76,14 +93,14 @@ class Adjoint:
         unknowns = self._unknowns
         for one in self._parameters:
             one.direction(unknowns.scene)
-        centre = unknowns.region.centre
+        if unknowns.scene.planar:
+            return
+        centre, numbers = unknowns.region.centre, parameters(NUMBERS)
         for place, field in enumerate(unknowns.fields):
-            one = self._parameters[place]
-            if not isinstance(one, OfScene):
-                continue
             move = SMALL * np.eye(centre.size)[place]
-            here, there = unknowns.scene_at(centre), unknowns.scene_at(centre + move)
-            if one.changed(here, one.value(there)) != there:
+            ends = [unknowns.scene_at(centre + sign * move) for sign in (1, -1)]
+            others = [one for one in numbers if one.name != field.name]
+            if not all(math.isclose(*map(one.value, ends), rel_tol=SAME) for one in others):
                 raise ValueError(f"over = {field.name!r}: changes more of the scene than itself")
 
     def __call__(self, point: Array) -> Evaluation:

@@ -82,7 +82,8 @@ class Direction:
 
     harmonics, growth: c, of which the first is for scenes with a `TravellingWave`; alpha: the growth
     coupling; slip, period, width: the logarithms of the slip speed, of the period and of the width of
-    the sheet; poisson: Poisson's ratio; law, map: friction.
+    the sheet; poisson: Poisson's ratio; law, map: friction. bending: whether it is one that a sheet has
+    that bends on its ground alone, see `parameters.bending`.
     """
 
     harmonics: tuple[Harmonic, ...] = ()
@@ -94,6 +95,13 @@ class Direction:
     poisson: float = 0.0
     law: LawsAside | None = None
     map: MapsAside | None = None
+    bending: bool = False
+
+    @property
+    def deforms(self) -> bool:
+        """Whether it changes the deformation of a sheet that bends, or the ratio of its couplings."""
+        couplings = bool(self.alpha) or self.bending
+        return couplings or bool(self.harmonics or self.growth or self.width or self.poisson)
 
     @property
     def highest(self) -> int:

@@ -28,6 +28,7 @@ from linear_theory.common.progress import Report, watched
 from linear_theory.common.threads import one_blas_thread
 from linear_theory.common.tolerance import Tolerance
 from linear_theory.deformation.ritz import ritz_field
+from linear_theory.gradient.bending.speed import bent_cost_gradient, bent_speed_gradient
 from linear_theory.gradient.direction import Direction
 from linear_theory.gradient.means import Derivatives, Means
 from linear_theory.gradient.parameters.names import parameters
@@ -35,7 +36,7 @@ from linear_theory.gradient.parameters.parameter import Parameter
 from linear_theory.gradient.quantity import ACROSS, ALONG, WORK, Quantity
 from linear_theory.gradient.result import CostGradient, SpeedGradient, kinks_of
 from linear_theory.gradient.second import order_gradients
-from linear_theory.scene.level import THEORY
+from linear_theory.scene.level import PLATE, THEORY
 from linear_theory.scene.scene import Scene
 from linear_theory.speed.crawl import ORDERS, completed, speed_of, theory_speed
 from linear_theory.speed.result import CrawlSpeed
@@ -67,11 +68,14 @@ def speed_gradient(
     "wave.cosine.0" (the amplitude of cos phi), "wave.sine.0", "wave.amplitude.0", "wave.phase.0", ...,
     also of harmonics that the wave does not have yet, "wave.mean", "wave.period" and "wave.count" (as a
     real number, see `FractionalWave`); of friction "friction.slip_speed", "friction.forward",
-    "friction.backward", "friction.sideways", "friction.heading", "friction.map.mu.0". Other waves have
-    parameters by `WaveFamily`. order: of the theory, as for `crawl_speed`; 2 for motions that are
-    mirror symmetric, at the cost of two deformations per parameter (see `gradient.second`). rtol: of
-    the speed; the errors of the derivatives follow from it and are estimated each. progress: True
-    prints on stderr, a function is called with a `progress.Progress`.
+    "friction.backward", "friction.sideways", "friction.heading", "friction.map.mu.0"; of a sheet that
+    bends "growth.curvature_coupling", "sheet.thickness" (at fixed weight per area), "gravity.weight"
+    and "ground.stiffness". Other waves have parameters by `WaveFamily`. order: of the theory, as for
+    `crawl_speed`; 2 for motions that are mirror symmetric, at the cost of two deformations per
+    parameter (see `gradient.second`); for sheets that bend on their ground, without friction on the
+    lower face, likewise, but for harmonics of a travelling wave, which cost as one (see
+    `gradient.bending`). rtol: of the speed; the errors of the derivatives follow from it and are
+    estimated each. progress: True prints on stderr, a function is called with a `progress.Progress`.
 
     Where V has a kink, as where part of the sheet is at rest under dry friction, the result is a
     subgradient, and `kinks` says why. Errors do not count that of a measured wave.
@@ -88,10 +92,14 @@ def speed_gradient(
     sheet.width    -0.008
     wave.cosine.1   0.135
     """
-    if validation.integer("order", order) not in ORDERS:
-        raise ValueError(f"order = {order}: must be one of {', '.join(map(str, ORDERS))}")
+    _check_order(order)
     with watched(progress, "speed_gradient"):
         return (_first if order == 1 else _second)(scene, over, rtol)
+
+
+def _check_order(order: int) -> None:
+    if validation.integer("order", order) not in ORDERS:
+        raise ValueError(f"order = {order}: must be one of {', '.join(map(str, ORDERS))}")
 
 
 def _first(scene: Scene, over: Any, rtol: float) -> SpeedGradient:
@@ -109,21 +117,35 @@ def _first(scene: Scene, over: Any, rtol: float) -> SpeedGradient:
 
 @one_blas_thread
 def cost_gradient(
-    scene: Scene, over: Any, rtol: float = 1e-4, *, progress: bool | Report | None = None
+    scene: Scene,
+    over: Any,
+    order: int = 1,
+    rtol: float = 1e-4,
+    *,
+    progress: bool | Report | None = None,
 ) -> CostGradient:
     """Derivatives of the cost of transport (`CrawlSpeed.cost_of_transport`, over mu), likewise.
 
     With P the power of friction and D the speed in any direction, d(P/D) = dP/D - P dD/D^2. Arguments
-    as for `speed_gradient`. Raises ValueError as it does, and where the cost is infinite as no distance
-    is resolved.
+    as for `speed_gradient`; order = 2 for sheets that bend alone. Raises ValueError as it does, and
+    where the cost is infinite as no distance is resolved.
 
     >>> from linear_theory import Contact, Scene, Sheet, SineWave, Tanh, cost_gradient
     >>> scene = Scene(Sheet(), SineWave(), alpha=0.2, contact=Contact("current", Tanh(0.05)))
     >>> print(f"{cost_gradient(scene, 'alpha', rtol=1e-3)['growth.alpha']:.1f}")
     -12.8
     """
+    _check_order(order)
     with watched(progress, "cost_gradient"):
-        return _cost(scene, over, rtol)
+        return (_cost if order == 1 else _second_cost)(scene, over, rtol)
+
+
+def _second_cost(scene: Scene, over: Any, rtol: float) -> CostGradient:
+    """Of order 2."""
+    chosen, directions = _asked(scene, over, 2)
+    if scene.planar:
+        raise ValueError("order = 2: must be 1 for the cost of a sheet that does not bend")
+    return bent_cost_gradient(scene, chosen, directions, rtol)
 
 
 def _cost(scene: Scene, over: Any, rtol: float) -> CostGradient:
@@ -153,7 +175,9 @@ def _cost(scene: Scene, over: Any, rtol: float) -> CostGradient:
 
 def _second(scene: Scene, over: Any, rtol: float) -> SpeedGradient:
     """Of order 2."""
-    chosen, directions = _asked(scene, over)
+    chosen, directions = _asked(scene, over, 2)
+    if not scene.planar:
+        return bent_speed_gradient(scene, chosen, directions, rtol)
     speed = theory_speed(scene, Tolerance(rtol), 2)
     start, alpha = time.perf_counter(), scene.alpha
     first, second = speed.first_order, speed.second_order
@@ -171,10 +195,10 @@ def _second(scene: Scene, over: Any, rtol: float) -> SpeedGradient:
     )
 
 
-def _asked(scene: Any, over: Any) -> tuple[tuple[Parameter, ...], list[Direction]]:
+def _asked(scene: Any, over: Any, order: int = 1) -> tuple[tuple[Parameter, ...], list[Direction]]:
     """Parameters and their directions. Raises ValueError as `speed_gradient` does."""
     scene = validation.instance("scene", scene, Scene)
-    THEORY.require(scene)
+    (PLATE if order == 2 and not scene.planar else THEORY).require(scene)
     if scene.alpha == 0:
         raise ValueError(
             "alpha = 0: must not be 0, where V = 0 whatever the wave; second_order gives V/alpha"

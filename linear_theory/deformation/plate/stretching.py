@@ -45,12 +45,16 @@ class BendingSource(QuadraticSource):
 
     def _work(self, grid: GaussGrid, w: Array, c: Array) -> Array:
         """(2, degree x + 1, degree y + 1) for w_x, w_y, w_xx, w_yy, w_xy (5, ...) and c at points."""
+        stress, turning = self.fluxes(w, c)
+        return self._against_first(grid, stress) + self._against_second(grid, turning)
+
+    def fluxes(self, w: Array, c: Array) -> tuple[Array, Array]:
+        """-C : grad(w) grad(w)/2 (xx, yy, xy) and M_ab w_c (ab: xx, yy, xy; c: x, y) at points."""
         nu = self.plate.sheet.poisson
         slope, bent = w[:2], w[2:] + np.stack([c, c, np.zeros_like(c)])
         strain = np.stack([slope[0] ** 2, slope[1] ** 2, slope[0] * slope[1]]) / 2
         stress = -hooke.stress(strain, np.zeros_like(c), nu)
-        turning = self._against_second(grid, bending_moments(bent, nu), slope)
-        return self._against_first(grid, stress) + turning
+        return stress, bending_moments(bent, nu)[:, None] * slope
 
     def _against_first(self, grid: GaussGrid, stress: Array) -> Array:
         """int P_kj dv_k/dx_j for a symmetric P (xx, yy, xy)."""
@@ -61,16 +65,21 @@ class BendingSource(QuadraticSource):
         by_y = slopes(values(np.stack([xy, yy]), 1), 2) * half_x
         return np.asarray(by_x + by_y)
 
-    def _against_second(self, grid: GaussGrid, moment: Array, slope: Array) -> Array:
+    def _against_second(self, grid: GaussGrid, turning: Array) -> Array:
         """D/(E h) int M_ab w_c v_c,ab, with the second derivatives of the test functions."""
         half_x, half_y = self._halves
         values, slopes = legendre.against_values, legendre.against_slopes
-        xx, yy, xy = self._cut(grid.moments(moment[:, None] * slope[None]))
+        xx, yy, xy = self._cut(grid.moments(turning))
         by_xx = values(_against_curvatures(xx, 1), 2) * (half_y / half_x)
         by_yy = _against_curvatures(values(yy, 1), 2) * (half_x / half_y)
         by_xy = 2 * slopes(slopes(xy, 1), 2)
+        return np.asarray(self.turning_share * (by_xx + by_yy + by_xy))
+
+    @property
+    def turning_share(self) -> float:
+        """D/(E h), length^2."""
         sheet = self.plate.sheet
-        return np.asarray(sheet.thickness**2 / 12 / (1 - sheet.poisson**2) * (by_xx + by_yy + by_xy))
+        return sheet.thickness**2 / 12 / (1 - sheet.poisson**2)
 
     @property
     def _halves(self) -> tuple[float, float]:

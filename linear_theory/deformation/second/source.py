@@ -117,8 +117,18 @@ class GaussGrid:
 
     def moments(self, values: Array) -> Array:
         """Integrals of values at the points times p_i(x) p_j(y)."""
-        across, along = self._across * self._weight_x[:, None], self._along * self._weight_y[:, None]
+        across, along = self._weighted
         return np.asarray(across.T @ values @ along)
+
+    def weighted(self, coefficients: Array) -> Array:
+        """Values of polynomials times the weights of the points: the transpose of `moments`."""
+        across, along = self._weighted
+        nx, ny = coefficients.shape[-2:]
+        return np.asarray(across[:, :nx] @ coefficients @ along[:, :ny].T)
+
+    @property
+    def _weighted(self) -> tuple[Array, Array]:
+        return self._across * self._weight_x[:, None], self._along * self._weight_y[:, None]
 
 
 def at_each_time(amplitudes: Array, fields: Array) -> Iterator[Array]:

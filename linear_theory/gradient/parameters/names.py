@@ -5,6 +5,12 @@ from collections.abc import Iterable
 from typing import Any
 
 from linear_theory.common.validation import shown
+from linear_theory.gradient.parameters.bending import (
+    CurvatureCoupling,
+    Stiffness,
+    Thickness,
+    Weight,
+)
 from linear_theory.gradient.parameters.friction import (
     Backward,
     Forward,
@@ -30,6 +36,7 @@ SINGLE: dict[str, Parameter] = {
     one.name: one
     for one in (
         *(Alpha(), Width(), Poisson(), Mean(), Period(), Count()),
+        *(CurvatureCoupling(), Thickness(), Weight(), Stiffness()),
         *(SlipSpeed(), Forward(), Backward(), Sideways(), Heading()),
     )
 }

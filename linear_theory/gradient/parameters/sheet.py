@@ -61,8 +61,20 @@ class Poisson(Parameter):
 
     def changed(self, scene: Scene, value: float) -> Scene:
         """See Parameter."""
-        return scene.but(sheet=replace(scene.sheet, poisson=value))
+        return with_sheet(scene, poisson=value)
 
     def direction(self, scene: Scene) -> Direction:
         """See Parameter."""
         return Direction(poisson=1.0)
+
+
+def with_sheet(scene: Scene, **changes: float) -> Scene:
+    """The scene with another thickness or Poisson ratio of the sheet, and of the material of its
+    effects."""
+    effects = [
+        replace(effect, material=replace(effect.material, **changes))
+        if hasattr(effect, "material")
+        else effect
+        for effect in scene.effects
+    ]
+    return scene.but(sheet=replace(scene.sheet, **changes), effects=effects)

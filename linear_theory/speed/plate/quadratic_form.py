@@ -2,12 +2,24 @@
 
 import math
 from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
 
 from linear_theory.common import validation
 from linear_theory.common.shown import Shown
 from linear_theory.speed.result import Estimate
 
 NOTHING = Estimate(0.0, 0.0)
+
+
+class BestCouplings(NamedTuple):
+    """alpha >= 0 and beta, 1/length, of the largest V, and that, length/time; -alpha, -beta are as
+    good."""
+
+    alpha: float
+    beta: float
+    speed: Estimate
 
 
 @dataclass(frozen=True)
@@ -49,6 +61,44 @@ class QuadraticForm(Shown):
         parts = (self.alpha, self.alpha_alpha, self.alpha_beta, self.beta_beta)
         value = sum(p * e.value for p, e in zip(powers, parts, strict=True))
         return Estimate(value, sum(abs(p) * e.error for p, e in zip(powers, parts, strict=True)))
+
+    def best(self, alpha: float, beta: float, towards: int = 1) -> "BestCouplings":
+        """The couplings of the largest V in a budget (alpha/alpha_0)^2 + (beta/beta_0)^2 = 1.
+
+        alpha, beta: alpha_0 and beta_0 > 0 (1/length); towards: 1 for +y, -1 for the largest speed
+        towards -y. V is then the largest eigenvalue of the form in units of the budget, and the
+        couplings its eigenvector, or the opposite one. Raises ValueError for other numbers, a form that
+        has a part of first degree (c(t + T/2) != -c(t)) or coefficients that are not known, and
+        couplings at which the sheet lifts off: the budget must be smaller then.
+
+        >>> from linear_theory.speed.plate.quadratic_form import QuadraticForm
+        >>> from linear_theory import Estimate
+        >>> nothing, mixed = Estimate(0, 0), Estimate(-0.2, 0)
+        >>> best = QuadraticForm(nothing, Estimate(1.5, 0), mixed).best(alpha=0.1, beta=0.5)
+        >>> print(f"{best.alpha:.4f} {best.beta:.4f} {best.speed.value:.4f}")
+        0.0957 -0.1449 0.0165
+        """
+        alpha, beta = validation.positive("alpha", alpha), validation.positive("beta", beta)
+        if towards not in (1, -1):
+            raise ValueError(f"towards = {validation.shown(towards)}: must be 1 or -1")
+        if self.alpha != NOTHING:
+            raise ValueError(
+                "alpha: the form has a part of first degree in alpha, by which V is no quadratic form; "
+                "only waves with c(t + T/2) = -c(t) have none"
+            )
+        parts = self.alpha_alpha, self.alpha_beta, self.beta_beta
+        if not all(math.isfinite(part.error) for part in parts):
+            raise ValueError("coefficients: must be known, which they are not where V is no such form")
+        units = np.array([alpha**2, alpha * beta, beta**2])
+        (aa, ab, bb), (e_aa, e_ab, e_bb) = (
+            units * [getattr(part, name) for part in parts] for name in ("value", "error")
+        )
+        values, vectors = np.linalg.eigh(towards * np.array([[aa, ab / 2], [ab / 2, bb]]))
+        doubt = float(np.linalg.norm([[e_aa, e_ab / 2], [e_ab / 2, e_bb]], 2))
+        share = vectors[:, 1] * np.sign(vectors[0, 1] or 1.0)
+        found = Estimate(float(towards * values[1]), doubt)
+        check_contact(float(beta * share[1]), self.lift_off, "beta")
+        return BestCouplings(float(alpha * share[0]), float(beta * share[1]), found)
 
 
 def check_contact(beta: float, lift_off: tuple[float, float], name: str = "curvature_coupling") -> None:

@@ -19,8 +19,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from linear_theory.balance.course import Course
 from linear_theory.balance.crawl import first_resolution
-from linear_theory.balance.period import Period, average
+from linear_theory.balance.period import Period, Resolved, average, resolved
 from linear_theory.common import validation
 from linear_theory.common.tolerance import Tolerance
 from linear_theory.deformation.plate.lower_face import LowerFace
@@ -86,19 +87,25 @@ def mixed_coefficients(
     return found[0], found[1]
 
 
-def average_of(
-    terms: PlateTerms, weights: Weights, contact: Contact, rtol: float, coupling: float = 0.0
-) -> Period:
+def average_of(terms: PlateTerms, weights: Weights, contact: Contact, rtol: float) -> Period:
     """A period of motion at TINY_ALPHA with weighted sources of second order."""
+    return resolved_at(terms, weights, contact, rtol).period()
+
+
+def resolved_at(
+    terms: PlateTerms, weights: Weights, contact: Contact, rtol: float, coupling: float = 0.0
+) -> Resolved:
+    """The motion of that period."""
     plane = terms.plane
     fine = cells(rtol, plane, contact, coupling)
     crawl = PlateCoefficients(plane, TINY_ALPHA, tiny(contact), fine, terms, weights, coupling=coupling)
-    return average(crawl, of_second(rtol, plane))
+    return resolved(crawl, of_second(rtol, plane))
 
 
 class _Motion(NamedTuple):
     """Rigid motion at the couplings of a scene: over the period (3, T), mean and error (3,); size: the
-    alpha, or beta^2, that its period counts per unit of."""
+    alpha, or beta^2, that its period counts per unit of; course: of `PlateCoefficients`, if that is how
+    it was found."""
 
     period: Period
     size: float
@@ -108,6 +115,16 @@ class _Motion(NamedTuple):
     fastest: float
     first: float
     second: float
+    course: Course | None = None
+
+
+class PlateMotion(NamedTuple):
+    """The speed of a bending scene, its deformation and, of growth and friction on the mid-surface, its
+    course; else None."""
+
+    speed: CrawlSpeed
+    terms: PlateTerms
+    course: Course | None
 
 
 def plate_speed(scene: Scene, tolerance: Tolerance) -> CrawlSpeed:
@@ -115,6 +132,11 @@ def plate_speed(scene: Scene, tolerance: Tolerance) -> CrawlSpeed:
 
     Raises ValueError for a curvature coupling at which the sheet lifts off.
     """
+    return plate_motion(scene, tolerance).speed
+
+
+def plate_motion(scene: Scene, tolerance: Tolerance) -> PlateMotion:
+    """`plate_speed` with the motion that it is of."""
     start, law = time.perf_counter(), scene.contact.friction
     scene.growth.law.check(scene.alpha, scene.extremes)
     unit = max(abs(scene.alpha), abs(scene.curvature_coupling) * scene.sheet.length)
@@ -140,7 +162,8 @@ def plate_speed(scene: Scene, tolerance: Tolerance) -> CrawlSpeed:
     places = (p.ravel() for p in np.broadcast_arrays(*terms.plane.places(POINTS)))
     beyond = too_large_growth(scene.drive, scene.alpha, *places)
     term = scene.alpha**2 * found.second if scene.alpha else 0.0
-    return judged(speed, beyond or too_large_term(term, found.fastest))
+    speed = judged(speed, beyond or too_large_term(term, found.fastest))
+    return PlateMotion(speed, terms, found.course)
 
 
 def _fine_enough(scene: Scene, tolerance: Tolerance) -> tuple[PlateTerms, _Motion, RigidNorm]:
@@ -165,7 +188,8 @@ def _grown(terms: PlateTerms, scene: Scene, contact: Contact, tolerance: Toleran
     contact = replace(contact, friction=contact.friction.per(alpha))
     weights = Weights(1.0, ratio, ratio**2)
     coupling = 0.0 if contact.friction.reversible else alpha
-    period = average_of(terms, weights, contact, tolerance.rtol, coupling)
+    motion = resolved_at(terms, weights, contact, tolerance.rtol, coupling)
+    period = motion.period()
     turning = at_coupling(alpha, period)
     if not coupling:
         turning = _from_orders(terms, weights, contact, alpha, period)
@@ -178,6 +202,7 @@ def _grown(terms: PlateTerms, scene: Scene, contact: Contact, tolerance: Toleran
         fastest=abs(alpha) * period.fastest / TINY_ALPHA,
         first=float(period.means[0, 1]),
         second=math.nan if period.sticks else float(period.means[1, 1]),
+        course=motion.course,
     )
 
 
