@@ -40,7 +40,7 @@ Array = NDArray[np.float64]
 MEAN, COARSE, SINGLE = 0, 1, 2
 """Rows of the rule in time: the mean over the period, that by a coarser rule; then single times."""
 
-LEAST_SHARE = 0.25
+LEAST_SHARE = 0.5
 """Of the relative error of the speed, below which that of a derivative by the mesh is not believed: the
 difference to another mesh may vanish by accident."""
 
