@@ -1,4 +1,5 @@
-"""Gradients by an adjoint: of small-strain theory, of sheets that bend at second order, and of cycles.
+"""Gradients by an adjoint: of small-strain theory, of second order for sheets that bend, and of the
+cycle of shapes.
 
 A gradient there costs about as much as the speed, for any number of unknowns. It is asked for by the
 names of the unknowns, of fields as in scene files, of harmonics "wave.cosine.0" for cos phi and so on.
@@ -7,7 +8,7 @@ names of the unknowns, of fields as in scene files, of harmonics "wave.cosine.0"
 import math
 from collections.abc import Callable, Mapping
 from functools import partial
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,10 +16,9 @@ from numpy.typing import NDArray
 from fem_check.optimisation.objectives import CostOfTransport, Objective
 from fem_check.optimisation.unknowns import Unknowns
 from fem_check.shell.cycle.gradient import cycle_gradient
-from fem_check.shell.cycle.gradient.parameters import OfScene, cycle_parameters
 from linear_theory.common.errors import SheetcrawlError
 from linear_theory.common.estimate import Estimate
-from linear_theory.gradient import Gradient, Parameter, cost_gradient, parameters, speed_gradient
+from linear_theory.gradient import Gradient, cost_gradient, parameters, speed_gradient
 from linear_theory.optimisation.problem import Evaluation, Unusable
 
 Array = NDArray[np.float64]
@@ -27,9 +27,6 @@ SMALL = 1e-4
 """Change of an unknown over which the number of a field is differentiated: its scenes cost nothing."""
 
 
-SAME = 1e-9
-"""Relative change of a number that is none."""
-
 NUMBERS = (
     *("growth.alpha", "growth.curvature_coupling", "gravity.weight", "ground.stiffness"),
     *("sheet.width", "sheet.poisson", "sheet.thickness"),
@@ -37,25 +34,25 @@ NUMBERS = (
 """Of a sheet that bends. One that changes with a field other than its own, as the weight of a given
 density does with the thickness, leaves derivatives to differences."""
 
+SAME = 1e-9
+"""Relative change of a number that is none."""
+
 
 class Way(NamedTuple):
-    """How a level is differentiated: parameters by names, gradients of speed and, if any, of cost.
+    """How a level is differentiated: gradients of speed and, if any, of cost.
 
-    planar: whether of flat sheets alone, or of those that bend alone; None for both.
+    planar: of sheets in the plane alone (True), of sheets that bend alone (False), or of both (None).
     """
 
-    parameters: Callable[[Any], tuple[Parameter, ...]]
     speed: Callable[..., Gradient]
     cost: Callable[..., Gradient] | None = None
     planar: bool | None = None
 
 
 WAYS: Mapping[str, Way] = {
-    "first order": Way(parameters, speed_gradient, cost_gradient, planar=True),
-    "second order": Way(
-        parameters, partial(speed_gradient, order=2), partial(cost_gradient, order=2), planar=False
-    ),
-    "cycle": Way(cycle_parameters, cycle_gradient),
+    "first order": Way(speed_gradient, cost_gradient, True),
+    "second order": Way(partial(speed_gradient, order=2), partial(cost_gradient, order=2), False),
+    "cycle": Way(cycle_gradient),
 }
 """Of the levels that have an adjoint."""
 
@@ -70,10 +67,8 @@ class Adjoint:
         harmonics = unknowns.harmonics
         waves = [] if harmonics is None else [_renamed(name) for name in harmonics.names]
         self._names = [*(field.name for field in unknowns.fields), *waves]
-        self._parameters = way.parameters(self._names)
+        self._parameters = parameters(self._names)
         self._check()
-        if way.planar is False:
-            self._check_numbers()
 
     @classmethod
     def of(
@@ -81,7 +76,7 @@ class Adjoint:
     ) -> "Adjoint | None":
         """None where there is no gradient of these unknowns, of this objective, or at this level."""
         way, is_cost = WAYS.get(level), isinstance(objective, CostOfTransport)
-        if way is None or way.planar not in (None, unknowns.scene.planar) or unknowns.scene.alpha == 0:
+        if way is None or unknowns.scene.alpha == 0 or way.planar not in (None, unknowns.scene.planar):
             return None
         if (way.cost if is_cost else objective.slope(unknowns.scene)) is None:
             return None
@@ -98,20 +93,9 @@ class Adjoint:
         unknowns = self._unknowns
         for one in self._parameters:
             one.direction(unknowns.scene)
-        centre = unknowns.region.centre
-        for place, field in enumerate(unknowns.fields):
-            one = self._parameters[place]
-            if not isinstance(one, OfScene):
-                continue
-            move = SMALL * np.eye(centre.size)[place]
-            here, there = unknowns.scene_at(centre), unknowns.scene_at(centre + move)
-            if one.changed(here, one.value(there)) != there:
-                raise ValueError(f"over = {field.name!r}: changes more of the scene than itself")
-
-    def _check_numbers(self) -> None:
-        """Raise ValueError where a field changes a number of the scene that is not its own."""
-        unknowns, numbers = self._unknowns, parameters(NUMBERS)
-        centre = unknowns.region.centre
+        if unknowns.scene.planar:
+            return
+        centre, numbers = unknowns.region.centre, parameters(NUMBERS)
         for place, field in enumerate(unknowns.fields):
             move = SMALL * np.eye(centre.size)[place]
             ends = [unknowns.scene_at(centre + sign * move) for sign in (1, -1)]

@@ -23,7 +23,6 @@ from fem_check.optimisation.objectives import objective_of
 from fem_check.optimisation.optimise_file import read
 from fem_check.shell.cycle.balance import CycleBalance
 from fem_check.shell.cycle.gradient.changes import Changes
-from fem_check.shell.cycle.gradient.parameters import cycle_parameters
 from fem_check.shell.cycle.gradient.statics import StaticAdjoint
 from fem_check.shell.cycle.gradient.sums import FrictionAdjoint
 from fem_check.shell.cycle.shapes import Shapes, cycle_of_shapes, minimiser_of, phases, working_effects
@@ -43,7 +42,7 @@ from linear_theory import (
     Viscous,
     speed_gradient,
 )
-from linear_theory.gradient import WaveFamily
+from linear_theory.gradient import WaveFamily, parameters
 
 PULSE = TravellingWave([0.5, 0.2], [0.3, -0.1], 1, 1.0, 0.1)
 WAVE = ["wave.cosine.0", "wave.sine.1", "wave.cosine.2", "wave.mean"]
@@ -122,7 +121,7 @@ def test_the_adjoint_is_the_derivative_on_a_frozen_grid(name):
 
     Towards smaller values where Poisson's ratio is at its bound.
     """
-    scene, over = FROZEN[name][0], cycle_parameters(FROZEN[name][1])
+    scene, over = FROZEN[name][0], parameters(FROZEN[name][1])
     frozen, random = Frozen(scene), np.random.default_rng(5)
     sizes = np.array([abs(one.value(scene)) or 1.0 for one in over])
     direction = random.uniform(0.3, 1.0, len(over)) * sizes
@@ -159,7 +158,7 @@ def test_stated_errors_are_not_smaller_than_true_ones(found):
 
 
 def test_whole_evaluations_differ_as_the_gradient_says(found):
-    step, one = 2e-2, cycle_parameters("wave.sine.1")[0]
+    step, one = 2e-2, parameters("wave.sine.1")[0]
     ends = [
         cycle_speed(one.changed(FLAT, one.value(FLAT) + sign * step), rtol=1e-2) for sign in (1, -1)
     ]
@@ -214,7 +213,7 @@ def test_a_sheet_that_sticks_has_a_subgradient(monkeypatch):
     [
         ({"alpha": 0.0}, "alpha", "alpha = 0: must not be 0"),
         ({}, "wave.cosine.70", r"wave\.cosine\.70.*is harmonic 71, must be at most 60"),
-        ({}, "ground.stiffness", "must have the effect Ground"),
+        ({}, "ground.stiffness", "must have a sheet that bends"),
         ({}, "sheet.thicknes", "no parameter"),
         ({"contact": Contact("current", Coulomb())}, "friction.slip_speed", "slip speed"),
     ],

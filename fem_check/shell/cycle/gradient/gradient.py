@@ -17,7 +17,6 @@ from numpy.typing import NDArray
 
 from fem_check.shell.cycle.balance import CycleBalance, PairedPeriod
 from fem_check.shell.cycle.gradient.changes import Changes
-from fem_check.shell.cycle.gradient.parameters import cycle_parameters
 from fem_check.shell.cycle.gradient.statics import StaticAdjoint
 from fem_check.shell.cycle.gradient.sums import FrictionAdjoint, Sums
 from fem_check.shell.cycle.shapes import Shapes, phases
@@ -29,6 +28,7 @@ from linear_theory.common.threads import one_blas_thread
 from linear_theory.common.tolerance import Tolerance
 from linear_theory.gradient.direction import Direction
 from linear_theory.gradient.means import CHECKED, PER_HARMONIC, SAFETY
+from linear_theory.gradient.parameters.names import parameters
 from linear_theory.gradient.parameters.parameter import Parameter
 from linear_theory.gradient.result import SpeedGradient, kinks_of
 from linear_theory.scene.scene import Scene
@@ -40,7 +40,7 @@ Array = NDArray[np.float64]
 MEAN, COARSE, SINGLE = 0, 1, 2
 """Rows of the rule in time: the mean over the period, that by a coarser rule; then single times."""
 
-LEAST_SHARE = 0.25
+LEAST_SHARE = 0.5
 """Of the relative error of the speed, below which that of a derivative by the mesh is not believed: the
 difference to another mesh may vanish by accident."""
 
@@ -83,7 +83,7 @@ def cycle_gradient(
     scene = validation.instance("scene", scene, Scene, hint)
     if scene.alpha == 0 and (scene.planar or scene.curvature_coupling == 0):
         raise ValueError("alpha = 0: must not be 0, where V = 0 whatever the wave")
-    chosen = cycle_parameters(over)
+    chosen = parameters(over)
     directions = [one.direction(scene) for one in chosen]
     _check_harmonics(chosen, directions)
     with watched(progress, "cycle_gradient"):
