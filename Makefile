@@ -3,6 +3,8 @@
 #   make figures   all figures and the film of the README (options: OUT=folder RTOL=1e-6): a minute
 #   make test      lint, types, tests: ten minutes on two cores
 #   make test-browser  the pages in a real browser (Debian: chromium, chromium-driver): a minute
+#   make test-dist  wheel and source distribution, installed and used in clean environments: two minutes
+#   make test-oldest  the tests with the oldest versions of all that it needs: twelve minutes
 #   make paper     the write-up as a PDF, paper/out/sheetcrawl.pdf, with its figures
 #   make docs      the documentation as one site, build/docs/index.html: a minute
 #   make cost      error against time of every level, the price of each effect: four minutes
@@ -12,7 +14,7 @@
 #   make gaits     bending gaits: the map of figure 4, an hour and a half; trapezoids and terrain, an
 #                  hour; 300 at random, hours
 #   make movies    movies 1 to 4 of the paper into figures/out: five minutes
-#   make lock      rewrite requirements.lock after a change of dependencies
+#   make lock      rewrite requirements.lock, and the oldest versions, after a change of dependencies
 #   make clean     remove figures and caches; `make distclean` also the environment
 #
 # Another interpreter: make test PYTHON=python3.13
@@ -29,6 +31,9 @@ RUN := $(VENV)/bin/python
 # Beside the environment and not in it: the tool that writes the lock is not part of the lock.
 LOCK_VENV := build/lock-venv
 PIP_TOOLS := pip-tools==7.6.2
+# pip-tools does not know the lowest versions that are allowed.
+UV := uv==0.13.9
+OLDEST_VENV := build/oldest-venv
 
 # One BLAS thread per process: test workers do not fight for the cores, and sums are taken in
 # the same order on every run, so figures keep their bytes.
@@ -39,7 +44,7 @@ export MKL_NUM_THREADS := 1
 FIGURE_OUT = $(if $(OUT),--out "$(OUT)")
 FIGURE_RTOL = $(if $(RTOL),--rtol $(RTOL))
 
-.PHONY: figures test test-browser paper docs cost bench-shell bench-threads gaits movies tables lock clean distclean
+.PHONY: figures test test-browser test-dist test-oldest dist paper docs cost bench-shell bench-threads gaits movies tables lock clean distclean
 .DEFAULT_GOAL := figures
 .DELETE_ON_ERROR:
 
@@ -73,6 +78,16 @@ BROWSER = /usr/bin/chromium /usr/bin/chromedriver
 test-browser: $(STAMP)
 	@if [ -n "$(CI_BROWSER)" ] || ls $(BROWSER) > /dev/null 2>&1; then $(RUN) -m pytest tests/browser; \
 	else echo "make test-browser: skipped, needs $(BROWSER) (apt-get install chromium chromium-driver)"; fi
+
+dist: $(STAMP)
+	$(RUN) -m build --no-isolation
+
+test-dist: $(STAMP)
+	$(RUN) -m tests.release.clean_install
+
+# The figures are compared with their pictures by the newest matplotlib only.
+test-oldest: $(OLDEST_VENV)/.installed
+	$(OLDEST_VENV)/bin/python -m pytest -n $(WORKERS) --dist loadfile -p no:cacheprovider
 
 cost: $(STAMP)
 	$(RUN) -m figures.measure.cost
@@ -157,6 +172,18 @@ lock:
 	    --extra test --extra paper --extra docs --build-deps-for editable --allow-unsafe --strip-extras \
 	    --no-emit-index-url --no-emit-find-links --no-emit-trusted-host \
 	    $(LOCKFLAGS) --output-file requirements.lock pyproject.toml
+
+	$(LOCK_VENV)/bin/python -m pip install --disable-pip-version-check --quiet $(UV)
+	$(LOCK_VENV)/bin/uv pip compile --quiet --resolution lowest-direct --python-version 3.11 \
+	    --extra test --extra paper --extra docs --no-annotate --no-emit-index-url \
+	    --custom-compile-command "make lock" --output-file requirements-oldest.lock pyproject.toml
+
+$(OLDEST_VENV)/.installed: requirements-oldest.lock pyproject.toml
+	@$(PYTHON) -c 'import sys; sys.exit("make test-oldest needs Python 3.11: make test-oldest PYTHON=python3.11" if sys.version_info[:2] != (3, 11) else 0)'
+	test -x $(OLDEST_VENV)/bin/pip || $(PYTHON) -m venv $(OLDEST_VENV)
+	$(OLDEST_VENV)/bin/python -m pip install --disable-pip-version-check -r requirements-oldest.lock
+	$(OLDEST_VENV)/bin/python -m pip install --disable-pip-version-check --no-build-isolation --no-deps -e .
+	@touch $@
 
 clean:
 	rm -rf figures/out paper/out build dist .mypy_cache .ruff_cache .pytest_cache .hypothesis

@@ -146,7 +146,8 @@ def _unit(text: str) -> "pint.Unit | None":
     """The unit of that name; None where there is none."""
     if len(text) > LONGEST or ENDLESS.search(text):
         return None
+    units = registry()  # outside of the try: a pint that is broken is no unknown unit
     try:
-        return registry().parse_units(text.replace("%", "percent"))
+        return units.parse_units(text.replace("%", "percent"))
     except Exception:  # pint fails on text in many ways: "mmm", "m/0", "1/", "m m ("
         return None

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from linear_theory import Sheet, SineWave, crawl_speed
-from tests.robust.random_trials import FAMILIES, outcome
+from tests.robust.trials.families import FAMILIES, outcome
 
 SEED = 1
 COUNTS = {"speed": 16, "line": 30, "prediction": 4, "command": 40}
