@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from fem_check.answer.rounding import measured, plain
 from linear_theory.common.estimate import Estimate
-from linear_theory.speed.result import CrawlSpeed
+from linear_theory.speed.result import ENERGIES, CrawlSpeed
 
 if TYPE_CHECKING:
     from fem_check.choice.result import Prediction
@@ -46,6 +46,30 @@ def with_model_errors(speed: CrawlSpeed) -> CrawlSpeed:
     more, own = (0.0 if math.isnan(e) else e for e in (speed.model_error, speed.energy.model_error))
     estimate = Estimate(speed.mean, speed.error + more)
     return replace(speed, estimate=estimate, energy=speed.energy.in_doubt(own))
+
+
+def measure(found: "Prediction", name: str) -> Estimate:
+    """One of ENERGIES, its error with the distance of the level to the nonlinear sheet.
+
+    The error is NaN where that distance is not known, as that of the speed is, and of what is not
+    finite. Of a level that is not compared with the sheet (see `Prediction.not_in_error`) it is
+    numerical.
+    """
+    known: Estimate = getattr(with_model_errors(found.speed), name)
+    own = found.speed.energy
+    distances = [] if own is None else [own.model_error]
+    if name != "power":
+        distances.append(found.speed.model_error)
+    unknown = not found.not_in_error and any(map(math.isnan, distances))
+    return Estimate(known.value, math.nan) if unknown or not math.isfinite(known.value) else known
+
+
+def energies(found: "Prediction") -> dict[str, float]:
+    """Power, cost of transport and efficiency with their errors by name; none if not known."""
+    numbers: dict[str, float] = {}
+    for name in ENERGIES if found.speed.energy is not None else ():
+        numbers[name], numbers[f"{name}_error"] = measure(found, name)
+    return numbers
 
 
 def _known(found: "Prediction", cost: Estimate) -> str:

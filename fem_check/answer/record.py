@@ -3,7 +3,7 @@
 import math
 from typing import TYPE_CHECKING, Any
 
-from fem_check.answer.energy import energy
+from fem_check.answer.energy import energies, energy
 from fem_check.answer.units import Units
 from linear_theory.common.shown import flat
 
@@ -56,7 +56,7 @@ def row(found: "Prediction") -> dict[str, Any]:
 
 
 def numbers_of(found: "Prediction") -> dict[str, float | None]:
-    """The speed and its errors by name, None where unknown."""
+    """The speed and the energy with their errors by name, None where unknown."""
     speed = found.speed
     numbers = {
         "mean": found.mean,
@@ -65,6 +65,6 @@ def numbers_of(found: "Prediction") -> dict[str, float | None]:
         "wave_error": speed.wave_error,
         "model_error": speed.model_error,
         "slip_ratio": speed.slip_ratio,
-        **speed.energies(),
+        **energies(found),
     }
     return {name: float(value) if math.isfinite(value) else None for name, value in numbers.items()}

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 from fem_check.answer.block import block
-from fem_check.answer.energy import with_model_errors
+from fem_check.answer.energy import measure
 from fem_check.answer.record import row
 from fem_check.choice.levels import TARGET
 from linear_theory.common.drawable import Drawable
@@ -83,7 +83,9 @@ class Prediction(Drawable, Shown):
 
     @property
     def power(self) -> Estimate:
-        """See `CrawlSpeed.power`; this and what is made of it with the known model errors, as printed.
+        """See `CrawlSpeed.power`; this and what is made of it with the model errors, as printed.
+
+        Their errors are NaN where that of the speed is: where a model error is not known.
 
         >>> from fem_check import predict
         >>> from linear_theory import Sheet, SineWave
@@ -91,17 +93,17 @@ class Prediction(Drawable, Shown):
         >>> print(f"{found.cost_of_transport.value:.2f} mu, efficiency {found.efficiency.value:.2f}")
         2.64 mu, efficiency 0.38
         """
-        return with_model_errors(self.speed).power
+        return measure(self, "power")
 
     @property
     def cost_of_transport(self) -> Estimate:
         """See `CrawlSpeed.cost_of_transport`."""
-        return with_model_errors(self.speed).cost_of_transport
+        return measure(self, "cost_of_transport")
 
     @property
     def efficiency(self) -> Estimate:
         """See `CrawlSpeed.efficiency`."""
-        return with_model_errors(self.speed).efficiency
+        return measure(self, "efficiency")
 
     def growth_power(self, friction_strain: float) -> GrowthPower:
         """See `CrawlSpeed.growth_power`. Raises ValueError as that does."""

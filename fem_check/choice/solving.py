@@ -10,6 +10,7 @@ from fem_check.choice.prediction import predict
 from fem_check.choice.result import Prediction
 from fem_check.choice.settings import RTOL, RunSettings
 from fem_check.choice.ways import METHODS, way_of
+from fem_check.shell.cycle.wrinkling import WRINKLES
 from fem_check.shell.statics.meter import Meter, metered
 from fem_check.shell.stepping.further.progress import FIRST
 from fem_check.shell.stepping.further.progress import Progress as Steps
@@ -112,6 +113,8 @@ def _unsound(motion: Trajectory) -> str:
     """What is wrong with the motion itself."""
     if motion.crossed is not None and motion.crossed.any():
         return CROSSES
+    if motion.wrinkled.any():
+        return f"the sheet is {WRINKLES}; a sheet that bends buckles instead: name Bending"
     if motion.snaps:
         lower = ": the error is a lower bound" if math.isnan(motion.errors.snaps) else ""
         return f"the sheet snaps over in the last period, where its path depends on the steps{lower}"

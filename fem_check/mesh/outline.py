@@ -30,6 +30,9 @@ is no thin sheet anyway, as the thickness is about 1e-2."""
 SAME = 1e-12
 """Distance below which two corners coincide, relative to the extent of the outline."""
 
+SMALLEST, LARGEST = 1e-70, 1e70
+"""Extents of an outline or a hole whose fourth powers, second moments of area, are floats."""
+
 
 @dataclass(frozen=True, eq=False)
 class Outline(Shown):
@@ -193,7 +196,13 @@ def _loop(name: str, corners: ArrayLike) -> Array:
     loop = validation.real_array(name, corners)
     if loop.ndim != 2 or loop.shape[1] != 2 or len(loop) < 3:
         raise ValueError(f"{name} has shape {loop.shape}: must be (n, 2) with n >= 3")
-    extent = float(np.ptp(loop, axis=0).max())
+    with np.errstate(over="ignore"):
+        extent = float(np.ptp(loop, axis=0).max())
+    if extent and not SMALLEST <= extent <= LARGEST:
+        raise ValueError(
+            f"{name} has the extent {extent:g}: must be {SMALLEST:g} to {LARGEST:g}, so that areas and "
+            "moments are numbers; take another unit of length"
+        )
     roundoff = SAME * extent + 4 * np.finfo(float).eps * float(np.abs(loop).max())
     while len(loop) and (same := _sides(loop) <= roundoff).any():
         loop = loop[~same]

@@ -6,12 +6,15 @@
 One process writes a table at a time; a second one that wants to is refused.
 """
 
+import os
 import signal
 from collections.abc import Callable, Hashable, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, ProcessPoolExecutor, wait
 from dataclasses import dataclass
-from multiprocessing import get_context
+from multiprocessing import get_context, parent_process
+from multiprocessing.process import BaseProcess
 from pathlib import Path
+from threading import Thread
 from typing import Any, Generic, TypeVar
 
 from fem_check.runs.lock import claimed
@@ -70,7 +73,7 @@ def _computed(keys: Sequence[Any], compute: Callable[[Any], Row], workers: int) 
     if workers == 1:
         yield from map(compute, keys)
         return
-    pool = ProcessPoolExecutor(workers, get_context("spawn"), _leave_interrupts_to_the_first)
+    pool = ProcessPoolExecutor(workers, get_context("spawn"), _begin_worker)
     try:
         pending = {pool.submit(compute, key) for key in keys}
         while pending:
@@ -80,6 +83,17 @@ def _computed(keys: Sequence[Any], compute: Callable[[Any], Row], workers: int) 
         pool.shutdown(wait=False, cancel_futures=True)
 
 
-def _leave_interrupts_to_the_first() -> None:
-    """Ctrl-C reaches all processes of a terminal: only the one that writes acts on it."""
+def _begin_worker() -> None:
+    """Ctrl-C reaches all processes of a terminal: only the one that writes acts on it.
+
+    One that is killed takes its workers along: their rows would be written by nobody.
+    """
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    Thread(target=_end_with, args=(parent_process(),), daemon=True).start()
+
+
+def _end_with(first: BaseProcess | None) -> None:
+    """Wait until the first process has ended, then end this one, in the midst of a row."""
+    if first is not None:
+        first.join()
+        os._exit(1)

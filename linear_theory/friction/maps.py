@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from linear_theory.common import validation
+from linear_theory.common.functions import callable_with
 from linear_theory.common.shown import Value
 from linear_theory.friction.law import FrictionLaw
 from linear_theory.friction.wrapped import Wrapped
@@ -179,8 +180,9 @@ class GivenMap(FrictionMap):
     = mu(x, y), which halves the work for symmetric waves. A kinetic map has the period of the wave.
     creases: x and y of lines, such as those on which it jumps, that theory cuts its cells along;
     without them such a map converges slowly, and errors say so.
-    Raises ValueError for no function and for flags that are not bool; and where it is used, naming the
-    map, if the function raises or its shape is wrong, and with the place unless mu > 0.
+    Raises ValueError for no function of those arguments and for flags that are not bool; and where it
+    is used, naming the map, if the function raises or its shape is wrong, and with the place unless
+    mu > 0.
 
     >>> import numpy as np
     >>> from linear_theory import GivenMap
@@ -196,10 +198,11 @@ class GivenMap(FrictionMap):
     creases: tuple[tuple[float, ...], tuple[float, ...]] = ((), ())
 
     def __post_init__(self) -> None:
-        if not callable(self.function):
-            raise ValueError(f"function = {validation.shown(self.function)}: must be mu(x, y)")
         for name in ("kinetic", "mirrored"):
             object.__setattr__(self, name, validation.flag(name, getattr(self, name)))
+        signature, count = ("(x, y, t)", 3) if self.kinetic else ("(x, y)", 2)
+        hint = "as the map is kinetic" if self.kinetic else "and t if kinetic = True"
+        callable_with("function", self.function, signature, count, hint)
         object.__setattr__(self, "fixed_to", FixedTo.named(self.fixed_to))
         object.__setattr__(self, "creases", _lines(self.creases))
         if self.kinetic and self.fixed_to is FixedTo.GROUND:

@@ -1,17 +1,17 @@
 """Checks of sheets and waves, made first by every public function."""
 
-import inspect
 from typing import Any
 
 from linear_theory.common import validation
+from linear_theory.common.functions import callable_with
 from linear_theory.sheet.rectangle import Sheet
 from linear_theory.wave.protocol import Wave
 
 WAVE_PARTS = ("period", "value", "rate")
 """Attributes that define a wave, see `protocol.Wave`."""
 
-CALL, SIGNATURE = (0.0, 0.0, 0.0, 1.0), "(x, y, t, length=1.0)"
-"""Arguments with which solvers call value and rate."""
+SIGNATURE, MEANING = "(x, y, t, length=1.0)", "the length that of the sheet"
+"""Arguments with which solvers call value and rate, of a wave's own class."""
 
 
 def sheet(value: object, name: str = "sheet") -> Sheet:
@@ -31,7 +31,7 @@ def wave(value: Any, name: str = "wave") -> Wave:
     if _is_wave(value):
         validation.positive(f"{name}.period", value.period)
         for part in ("value", "rate"):
-            _check_signature(getattr(value, part), f"{name}.{part}")
+            callable_with(f"{name}.{part}", getattr(value, part), SIGNATURE, 4, MEANING)
         return value
     hint = "must be a SineWave, a TravellingWave or a FieldWave"
     if isinstance(value, type):
@@ -44,22 +44,6 @@ def wave(value: Any, name: str = "wave") -> Wave:
         missing = ", ".join(part for part in WAVE_PARTS if not hasattr(value, part))
         hint += f", or have their {', '.join(WAVE_PARTS)} (no {missing})"
     raise ValueError(f"{name} = {validation.shown(value)}: {hint}")
-
-
-def _check_signature(function: Any, name: str) -> None:
-    """Raise ValueError unless a function can be called as solvers do, (x, y, t, length)."""
-    if not callable(function):
-        raise ValueError(f"{name} = {validation.shown(function)}: must be a function, {SIGNATURE}")
-    try:
-        signature = inspect.signature(function)
-    except (ValueError, TypeError):  # of compiled functions there is none
-        return
-    try:
-        signature.bind(*CALL)
-    except TypeError:
-        raise ValueError(
-            f"{name} has the signature {signature}: must be {SIGNATURE}, the length that of the sheet"
-        ) from None
 
 
 def _is_wave(value: object) -> bool:

@@ -11,8 +11,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from linear_theory.common import validation
 from linear_theory.common.errors import Unidentifiable
+from linear_theory.common.functions import callable_with
 from linear_theory.common.shown import Value
-from linear_theory.common.validation import shown
 from linear_theory.identity import content_key
 from linear_theory.sheet.rectangle import Sheet
 from linear_theory.wave.places import Places
@@ -47,9 +47,9 @@ class FieldWave(Value):
     Waves are equal if their periods are equal and their functions have the same content or the same
     name; a function that cannot be identified by its content is equal only to itself.
 
-    Raises ValueError for a period that is not finite and positive, a value or rate that is not
-    callable, a name that is not text, and, when they are called, for results that are not finite, real
-    and of that shape.
+    Raises ValueError for a period that is not finite and positive, a value or rate that is no function
+    of three arguments, a name that is not text, and, when they are called, for results that are not
+    finite, real and of that shape.
 
     >>> import numpy as np
     >>> from linear_theory import FieldWave
@@ -61,8 +61,8 @@ class FieldWave(Value):
     def __init__(
         self, value: Growth, period: float, rate: Growth | None = None, *, name: str | None = None
     ) -> None:
-        self._value = _function("value", value)
-        self._rate = None if rate is None else _function("rate", rate)
+        self._value = callable_with("value", value, "(x, y, t)", 3)
+        self._rate = None if rate is None else callable_with("rate", rate, "(x, y, t)", 3)
         self._period = validation.positive("period", period)
         self._step = STEP
         self.name = None if name is None else validation.label("name", name)
@@ -149,12 +149,6 @@ class FieldDrive(SampledDrive):
     def _check_rate(self) -> None:
         if not self.wave.differenced:
             super()._check_rate()
-
-
-def _function(name: str, value: Growth) -> Growth:
-    if not callable(value):
-        raise ValueError(f"{name} = {shown(value)}: must be a function of (x, y, t)")
-    return value
 
 
 def _evaluate(name: str, function: Growth, x: ArrayLike, y: ArrayLike, t: ArrayLike) -> Array:

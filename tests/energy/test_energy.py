@@ -50,6 +50,7 @@ from linear_theory import (
 from linear_theory.energy.energy import Energy
 from linear_theory.friction.laws import friction_law
 from linear_theory.friction.mean_map import mean_map
+from linear_theory.speed.result import ENERGIES
 
 SHEET, SINE = Sheet(), SineWave()
 PULSE = TravellingWave([1.0, 0.4], [0.0, 0.3])
@@ -413,6 +414,7 @@ def test_tables_and_words_hold_the_energy():
     said = record(found, None)
     assert said["power"] == found.speed.power.value
     assert said["cost_of_transport"] == found.speed.cost_of_transport.value
+    assert said["cost_of_transport_error"] == found.cost_of_transport.error
     row = found.speed.to_row()
     assert row["efficiency_error"] == found.speed.efficiency.error
     dataset = found.speed.to_xarray()
@@ -420,6 +422,30 @@ def test_tables_and_words_hold_the_energy():
     assert dataset["power"].mean() == pytest.approx(found.speed.power.value, rel=1e-2)
     assert "cost of transport" in str(found)
     assert f"{100 * found.speed.efficiency.value:.0f}" in energy(found)
+
+
+def test_an_energy_is_as_unknown_as_the_speed():
+    """Predictions, records and rows claimed 1e-14 for strips beyond the measured distances."""
+    wide = Sheet(width=2.0)
+    for sheet, method, known in ((SHEET, "second order", True), (wide, "strip", False)):
+        found = predict(sheet, SINE, 0.1 if known else 0.3, method=method, rtol=1e-2)
+        assert math.isnan(found.error) is not known
+        row = found.to_row()
+        for name in ENERGIES:
+            assert math.isnan(getattr(found, name).error) is not known
+            assert (row[f"{name}_error"] is None) is not known
+            assert row[name] == getattr(found.speed, name).value
+    still = predict(SHEET, SINE, 0.0).to_row()
+    assert still["power"] == still["power_error"] == 0
+    assert still["cost_of_transport_error"] is None
+
+
+def test_errors_of_a_row_cover_the_nonlinear_sheet():
+    exact = predict(SHEET, SINE, 0.2, method="cycle", rtol=1e-2)
+    row = predict(SHEET, SINE, 0.2, method="second order", rtol=1e-2).to_row()
+    for name in ENERGIES:
+        known, error = getattr(exact, name)
+        assert error < abs(row[name] - known) <= row[f"{name}_error"] + error
 
 
 # efficiency under maps of friction

@@ -79,6 +79,10 @@ def test_extents_and_angles():
         ([[0, 0], [1, 0], [np.nan, 1]], "corners contains nan: must be finite"),
         ([[0, 0], [1j, 0], [0, 1]], "corners = .*: must be real numbers"),
         ([[0, 0], [1, 0], [1, 0], [0, 0]], "corners encloses the area 0"),
+        ([[0, 0], [0, 0], [0, 0]], "corners encloses the area 0"),
+        (1e200 * SQUARE, r"corners has the extent 1e\+200: must be 1e-70 to 1e\+70, .* another unit"),
+        (1.5e308 * SQUARE, "corners has the extent "),
+        (1e-200 * SQUARE, "corners has the extent 1e-200: must be 1e-70 to"),
         ([[0, 0], [1, 0], [1, 1], [0.5, -0.1], [0, 1]], r"corners: sides at x = 0.\d+, y = 0 cross"),
         ([[0, 0], [2, 0], [2, 2], [1, 0], [0, 2]], "sides at x = 1, y = 0 cross or touch"),
         (

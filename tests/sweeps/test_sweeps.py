@@ -31,6 +31,7 @@ from fem_check.sweeps.work.answering import Task, record_of
 from fem_check.sweeps.work.bound import OutOfTime, bounded
 from linear_theory import FieldWave, Sheet, SheetcrawlError, SineWave
 from linear_theory.common import extras
+from linear_theory.speed.result import ENERGIES
 from tests.sweeps import sweep_cases
 
 BASE = Scene(Sheet(), SineWave(), alpha=0.1)
@@ -54,6 +55,12 @@ def test_records_are_what_predict_says(file: Path) -> None:
         assert record is not None
         assert (record.mean, record.error, record.level) == (alone.mean, alone.error, alone.level)
         assert record.converged is alone.converged
+        for name in ENERGIES:
+            value, error = getattr(alone, name)
+            assert (getattr(record, name), getattr(record, f"{name}_error")) == (value, error)
+            nonlinear = alone.level == "cycle"  # others have a distance to it
+            assert (error > getattr(alone.speed, name).error) is not nonlinear
+        assert record.cost_of_transport == pytest.approx(record.power / abs(record.mean))  # type: ignore[operator]
         assert Scene.from_dict(json.loads(record.scene)) == alone.scene
         assert record.cpu_seconds is not None
         assert record.cpu_seconds > 0

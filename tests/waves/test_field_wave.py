@@ -32,14 +32,25 @@ def test_rate_that_is_given_is_used():
     ("arguments", "message"),
     [
         ((3, 1.0), "value = 3: must be a function"),
-        ((np.sin, 0.0), "period = 0: must be > 0"),
-        ((np.sin, np.inf), "period contains inf: must be finite"),
+        ((lambda x, y, t: x, 0.0), "period = 0: must be > 0"),
+        ((lambda x, y, t: x, np.inf), "period contains inf: must be finite"),
         ((lambda x, y, t: x, 1.0, 2), "rate = 2: must be a function"),
+        ((lambda y, t: y, 1.0), r"value has the signature \(y, t\): must be \(x, y, t\)"),
+        ((lambda a, b, c, d: a, 1.0), r"value has the signature \(a, b, c, d\): must be"),
+        ((lambda x, y, t, *, c: x, 1.0), r"value has the signature .*: must be \(x, y, t\)"),
+        ((np.sin, 1.0), "value has the signature of 1 arguments: must be"),
+        ((lambda x, y, t: x, 1.0, lambda t: t), r"rate has the signature \(t\): must be"),
     ],
 )
 def test_bad_arguments(arguments, message):
     with pytest.raises(ValueError, match=message):
         FieldWave(*arguments)
+
+
+def test_functions_that_take_more_than_they_need():
+    for function in (lambda *points: points[0], lambda x, y, t, scale=1.0: scale * x):
+        assert FieldWave(function, 1.0).value(3.0, 0, 0) == 3.0
+    assert FieldWave(np.frompyfunc(lambda x, y, t: float(x), 3, 1), 1.0).period == 1.0
 
 
 @pytest.mark.parametrize(

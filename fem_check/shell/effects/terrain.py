@@ -19,6 +19,7 @@ from fem_check.shell.effects.height_sources import (
     source,
 )
 from linear_theory.common import validation
+from linear_theory.common.functions import callable_with
 from linear_theory.common.shown import Value
 from linear_theory.common.validation import shown
 from linear_theory.scene.data import NotRestorable
@@ -90,6 +91,8 @@ class Terrain(Value):
                 f"height = {shown(self.height)}: must be a function z = f(x, y), one that returns the "
                 f"rows {', '.join(ENTRIES)}, or a sympy expression in x and y"
             )
+        else:
+            callable_with("height", self.height, "(x, y)", 2)
 
     def identified_by(self) -> object:
         """The content from which its key is computed; of symbols the names."""

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from fem_check.shell.cycle.frame import poses
+from fem_check.shell.cycle.wrinkling import wrinkled, wrinkling_words
 from fem_check.shell.kinematics.crossing import crossed, crossing_words, touching_words
 from fem_check.shell.model import ShellModel
 from fem_check.shell.stepping import columns
@@ -138,6 +139,14 @@ class Trajectory(Drawable, Tabular):
         None if that could not be found out, for lack of ipctk.
         """
         return crossed(self.model.discretisation, self.states)
+
+    @cached_property
+    def wrinkled(self) -> NDArray[np.bool_]:
+        """Whether a sheet in the plane is compressed so much at `stored_times` that it would wrinkle.
+
+        (n,), see `wrinkling`; of sheets that bend False, since they buckle instead.
+        """
+        return wrinkled(self.model, self.stored_times, self.states, self.amplitude)
 
     @cached_property
     def touching(self) -> NDArray[np.bool_]:
@@ -354,9 +363,9 @@ class Trajectory(Drawable, Tabular):
 
         error: sum of the errors of step, mesh (if requested), spread between periods, path through
         snap-throughs, feedback on the wave and the gap of SelfContact; model_error: distance to dry
-        friction, see `SpeedErrors`. The speed of a sheet that has passed through itself (`crossed`),
-        which no real sheet does, is never converged, nor is one whose error is infinite since a further
-        run failed (`SpeedErrors.failed`, also in `model`).
+        friction, see `SpeedErrors`. The speed of a sheet that has passed through itself (`crossed`) or
+        is compressed beyond stability (`wrinkled`), which no real sheet is, is never converged, nor is
+        one whose error is infinite since a further run failed (`SpeedErrors.failed`, also in `model`).
         """
         last, errors = self._last(1), self.errors
         unknown = "mesh error not estimated" if np.isnan(errors.mesh) else ""
@@ -367,7 +376,8 @@ class Trajectory(Drawable, Tabular):
         shape, scene = "Koiter shell stepped in time", self.scene
         rubs = any(effect.law for effect in self.model.effects)
         contact = scene.contact if rubs else None
-        remarks = (unknown, snapped, crossing, touching, errors.failed)
+        wrinkles = wrinkling_words(self.wrinkled, self.stored_times)
+        remarks = (unknown, snapped, crossing, wrinkles, touching, errors.failed)
         model = model_words(shape, scene.growth, contact, *remarks)
         mean = self.mean_speed
         error = float(np.nansum([e for name, e in errors._asdict().items() if name != "slip_speed"]))
@@ -376,7 +386,9 @@ class Trajectory(Drawable, Tabular):
         return CrawlSpeed(
             estimate=Estimate(mean, error),
             model_error=errors.slip_speed,
-            converged=self.rtol is not None and error <= self.rtol * abs(mean) and not crosses,
+            converged=self.rtol is not None
+            and error <= self.rtol * abs(mean)
+            and not (crosses or wrinkles),
             times=times,
             velocity=velocity,
             seconds=self.seconds,

@@ -35,9 +35,10 @@ class Record(Shown):
     what is wrong with its speed if anything is (`Prediction.caution`), or why there is no answer.
     mean: the speed V; error: numerical plus model error, of which numerical_error, wave_error and
     model_error are parts; converged: whether the tolerance is met. power, cost_of_transport,
-    efficiency: see `CrawlSpeed`, an infinite cost is None. regime: of friction. cpu_seconds: of the
-    thread that found the answer; seconds: as a clock tells them. warnings: a line each. program: its
-    version; worker: the process; ended: UTC. settings, scene: JSON.
+    efficiency: see `Prediction`, with model errors in theirs; an infinite cost is None. regime: of
+    friction. cpu_seconds: of the thread that found the answer; seconds: as a clock tells them.
+    warnings: a line each. program: its version; worker: the process; ended: UTC. settings, scene:
+    JSON.
     """
 
     key: str
