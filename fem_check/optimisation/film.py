@@ -9,7 +9,7 @@ from fem_check.choice.result import Prediction
 from fem_check.choice.settings import RTOL, RunSettings
 from fem_check.choice.solving import solved
 from fem_check.choice.ways import way_of
-from fem_check.optimisation.optimising import LADDER
+from fem_check.optimisation.finding import LADDER
 from fem_check.optimisation.result import Optimum
 from fem_check.shell.stepping.trajectory import Trajectory
 from linear_theory.common.errors import BeyondReachWarning, SheetcrawlError, ViscousRegimeWarning

@@ -25,7 +25,18 @@ SHIPPED = (".toml", ".csv", ".typed", ".pyi", ".html", ".js", ".css")
 
 PACKAGES = ("linear_theory", "fem_check")
 
-QUESTION = ("speed", "--length", "40 mm", "--width", "15 mm", "--period", "8 s", "--growth", "12 %", "--json")
+QUESTION = (
+    "speed",
+    "--length",
+    "40 mm",
+    "--width",
+    "15 mm",
+    "--period",
+    "8 s",
+    "--growth",
+    "12 %",
+    "--json",
+)
 
 SCRIPT = """
 from fem_check import predict

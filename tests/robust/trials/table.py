@@ -59,7 +59,9 @@ Key = tuple[str, int]
 
 def wanted() -> list[Key]:
     """All trials, the families mixed, so that a table that is not complete has some of each."""
-    keys = [(number / count, family, number) for family, count in COUNTS.items() for number in range(count)]
+    keys = [
+        (number / count, family, number) for family, count in COUNTS.items() for number in range(count)
+    ]
     return [(family, number) for _, family, number in sorted(keys)]
 
 

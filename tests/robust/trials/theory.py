@@ -60,9 +60,7 @@ def direction(rng: np.random.Generator) -> Outcome:
     words = f"{sheet}, {wave}, {alpha:.4g}, {law}, {load} load, rtol {rtol:.1e}"
     try:
         found = crawl_speed(sheet, wave, alpha, load=load, friction=law, rtol=rtol)
-        better = crawl_speed(
-            sheet, wave, alpha, load=load, friction=law, rtol=rtol / 10, method="ritz"
-        )
+        better = crawl_speed(sheet, wave, alpha, load=load, friction=law, rtol=rtol / 10, method="ritz")
     except REFUSALS as error:
         return refusal(words, error)
     return compared(found, better, words)
