@@ -2,9 +2,9 @@
 
     python -m tests.release.clean_install     # a minute; `make test-dist`
 
-Builds both, looks for data files and types in them, installs each into a new environment with the pinned
-versions of what it needs (no extras), and asks it from an empty folder: version, speed, scene file, run.
-With the wheel the examples are checked by `mypy --strict`, as a user's own scripts would be.
+Builds both, looks for data files and types in them, installs each into a new environment with the
+pinned versions of what it needs (no extras), and asks it from an empty folder: version, speed, scene
+file, run. With the wheel the examples are checked by `mypy --strict`, as a user's own scripts would be.
 """
 
 import os

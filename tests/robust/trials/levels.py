@@ -42,7 +42,7 @@ def prediction(rng: np.random.Generator) -> Outcome:
 
 
 def field(rng: np.random.Generator) -> Outcome:
-    """The Airy series, in the mean square over the sheet at the worst phase, against Ritz, far sharper."""
+    """The Airy series, in mean square over the sheet at the worst phase, against Ritz, far sharper."""
     sheet, wave = a_sheet(rng), a_wave(rng)
     rtol = 10.0 ** rng.uniform(-7, -2)
     words = f"{sheet}, {wave}, rtol {rtol:.1e}"

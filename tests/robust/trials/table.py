@@ -32,9 +32,9 @@ COUNTS = {
 
 @dataclass(frozen=True)
 class Row:
-    """A trial. refused: 1 if there was no answer; true, stated: errors, of the worst quantity, and their
-    ratio; seconds of the processor, the better answer included; memory: the most that the process
-    has had, MB."""
+    """A trial. refused: 1 if there was no answer; true, stated: errors, of the worst quantity, and
+    their ratio; seconds of the processor, the better answer included; memory: the most that the
+    process has had, MB."""
 
     family: str
     number: int
