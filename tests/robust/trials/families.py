@@ -15,7 +15,7 @@ from functools import cache
 
 import numpy as np
 
-from tests.robust.trials import command, levels, theory
+from tests.robust.trials import command, damaged, levels, theory
 from tests.robust.trials.outcome import Outcome
 
 Trial = Callable[[np.random.Generator], Outcome]
@@ -29,6 +29,7 @@ FAMILIES: dict[str, Trial] = {
     "bent": levels.bent,
     "prediction": levels.prediction,
     "command": command.command,
+    "damaged": damaged.damaged,
 }
 
 
