@@ -135,13 +135,17 @@ def refusals(rows: Sequence[table.Row]) -> str:
     return "\n".join(
         [
             told(
-                f"* `sheetcrawl speed` under {len(words)} random lines of one to five options, right and "
-                f"wrong: {bad[0]} ended with anything but an answer that is JSON and says whether it met its "
+                f"* `sheetcrawl speed` under {len(words)} random lines of one to five options, "
+                f"right and "
+                f"wrong: {bad[0]} ended with anything but an answer that is JSON and says whether "
+                f"it met its "
                 f"tolerance, or a refusal of status 1 or 2; the slowest took {slowest[0]:.1f} s."
             ),
             told(
-                f"* `sheetcrawl check` of {len(files)} scene files with one to three lines dropped, doubled, "
-                f"cut, or with strange values and bytes in them: {bad[1]} ended with anything but a scene, "
+                f"* `sheetcrawl check` of {len(files)} scene files with one to three lines dropped, "
+                f"doubled, "
+                f"cut, or with strange values and bytes in them: {bad[1]} ended with anything but a "
+                f"scene, "
                 f"or a refusal that says what is wrong; the slowest took {slowest[1]:.1f} s."
             ),
             "",
@@ -165,9 +169,12 @@ def kills() -> str:
     found = json.loads((ROOT / "docs" / "sweeps.json").read_text())["kills"]
     fine = sum(one["fine"] for one in found)
     return told(
-        f"Sweeps were killed by SIGKILL at a random instant {len(found)} times and gone on with: {fine} "
-        "times nothing was lost, twice there, or different in any bit ([more](sweeps.md)). A run that is "
-        "stepped in time goes on bit for bit from its last snapshot, which the suite tests by killing it."
+        f"Sweeps were killed by SIGKILL at a random instant {len(found)} times and gone on with: "
+        f"{fine} "
+        "times nothing was lost, twice there, or different in any bit ([more](sweeps.md)). A run "
+        "that is "
+        "stepped in time goes on bit for bit from its last snapshot, which the suite tests by "
+        "killing it."
     )
 
 
@@ -178,7 +185,8 @@ def page(rows: Sequence[table.Row]) -> str:
     wrong = sum(row.ratio > 1 for row in known)
     said = told(
         f"Of {len(asked)} questions drawn here {len(known)} were answered, {wrong} of them with an "
-        "understated error; the others were refused, with a reason. The process that asked them needed at most "
+        "understated error; the others were refused, with a reason. The process that asked them "
+        "needed at most "
         f"{max(row.memory for row in rows):.0f} MB."
     )
     lines = "\n".join([*answers(rows), *others()])
