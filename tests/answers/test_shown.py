@@ -283,9 +283,6 @@ MADE = {
     "Scale": lambda: linear_theory.Scale(0.04, 8.0),
     "Scene": full_scene,
     "Scene on a mesh": lambda: planar(mesh=fem_check.Outline.trapezoid(0.5, 0.5, 1.0).mesh(0.3)),
-    "BestCouplings": lambda: QuadraticForm(
-        *(linear_theory.Estimate(v, 0.01 * abs(v)) for v in (0.0, 1.5, -0.2, 0.1))
-    ).best(0.3, 0.5),
     "QuadraticForm": lambda: linear_theory.second_order(SHEET, SINE, rtol=0.1).coefficients,
     "SecondOrder": lambda: linear_theory.second_order(SHEET, SINE, rtol=0.1),
     "SecondOrderField": lambda: field("SecondOrderField"),
