@@ -58,7 +58,6 @@ REFERENCE = {
     "hard_cases": "Hard cases",
     "optimisation": "What optimisation buys",
     "validation": "Checked against others",
-    "reliability": "Reliability in figures",
     "gaits": "The paper's gaits",
     "sweeps": "Sweeps: kills and overhead",
 }

@@ -5,7 +5,7 @@
 asks COUNT questions of one of the FAMILIES and prints every trial whose error is understated and the
 largest true error over the stated one. A trial is drawn from (seed, number) alone, so that one that
 failed can be asked again. The suite asks the first few of each family (`test_random_trials`), and
-`tests.robust.reliability_page` thousands.
+`tests.robust.trials.table` thousands.
 """
 
 import sys
