@@ -33,7 +33,8 @@ NotPeriodicError and UnresolvedError in `fem_check.shell.cycle`, SnapshotError i
 `linear_theory.scene.data`, Refused, RefusedScenes, StoreError, LostScheduler and WrongWorkers in
 `fem_check.sweeps`, NotWrittenError in `fem_check.runs.errors`, KeptError, NothingFound and NoFilm in
 `fem_check.optimisation`, NoOutline in `fem_check.outlines.best`, Unusable in
-`linear_theory.optimisation.problem`, Fault in `linear_theory.friction.trial`, all others here. Bad arguments are a plain ValueError.
+`linear_theory.optimisation.problem`, Fault in `linear_theory.friction.trial`, all others here. Bad
+arguments are a plain ValueError.
 """
 
 from collections.abc import Callable
