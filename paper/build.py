@@ -35,11 +35,26 @@ COMMANDS = {
     "figures/data/reach.csv": "python -m figures.measure.reach",
     "figures/data/turning.csv": "python -m figures.measure.turning",
     "figures/data/cost.csv": "make cost",
+    "figures/data/saddle.csv": "python -m figures.measure.saddle",
+    "figures/data/saddle_range.csv": "python -m figures.measure.plate.saddle_range",
+    "figures/data/lower_face.csv": "python -m figures.measure.plate.lower_face",
+    "figures/data/excitable.csv": "python -m figures.measure.excitable",
+    "figures/data/gait_map.csv": "python -m figures.measure.paper.gait_map",
+    "figures/data/decisive.csv": "python -m figures.measure.paper.decisive",
+    "figures/data/trapezoids.csv": "python -m figures.measure.paper.trapezoids",
+    "figures/data/terrain.csv": "make gaits",
+    "figures/data/energy_gaits.csv": "python -m figures.measure.energy.gaits",
+    "figures/data/energy_error.csv": "python -m figures.measure.energy.errors",
+    "figures/data/gradients.csv": "python -m figures.measure.gradient",
+    "figures/data/best_waves.csv": "python -m figures.measure.optimise.line",
+    "figures/data/optimisation_buys.csv": "python -m figures.measure.optimise.buys",
+    "figures/data/validation.csv": "python -m figures.measure.validation",
+    "docs/validation.md": "python -m figures.validation.page",
 }
 """What makes the files that the text reads; `make figures` makes those of FIGURES."""
 
 INCLUDE = re.compile(r'^[ \t]*#(?:include|import) "([^"]+)"', re.MULTILINE)
-DATA = re.compile(r'"/((?:paper|figures|docs|linear_theory)/[^"]+\.(?:json|csv))"')
+DATA = re.compile(r'"/((?:paper|figures|docs|linear_theory)/[^"]+\.(?:json|csv|md))"')
 IMAGE = re.compile(r'sys\.inputs\.figures \+ "/([^"]+)"')
 
 

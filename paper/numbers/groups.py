@@ -13,6 +13,7 @@ from pathlib import Path
 
 from figures.common import output
 from figures.common.command import parser
+from paper.numbers import effects as numbers_effects
 from paper.numbers import field as numbers_field
 from paper.numbers import limits as numbers_limits
 from paper.numbers import original as numbers_print
@@ -40,6 +41,9 @@ GROUPS: dict[str, Callable[[], Numbers]] = {
     "step": numbers_speed.stepping,
     "ground": numbers_print.ground,
     "reaction": numbers_print.reaction,
+    "wave": numbers_effects.oscillation,
+    "direction": numbers_effects.direction,
+    "best": numbers_effects.best,
 }
 
 

@@ -13,13 +13,17 @@ Array = NDArray[np.float64]
 
 
 def ground() -> Numbers:
-    """How far the original paper's sheet sinks into its ground (F5) and how its bilayer bends (F7)."""
+    """How far the original sheet sinks into its ground (F5, F13), and how its bilayer bends (F7)."""
     weight, stiffness = 2.5e-4, 0.5
     depth = math.sqrt(weight / stiffness)
     couplings = bilayer(0.2, SHEET.thickness)
+    stiffness_of_plate = SHEET.thickness**3 / (12 * (1 - SHEET.poisson**2))
     return {
         "ground.depth": Number(depth, "sqrt(rho g/k), rho g = 2.5e-4, k = 0.5"),
         "ground.depth_h": Number(depth / SHEET.thickness, "the same over h = 0.03"),
+        "ground.bending_length": Number(
+            (stiffness_of_plate / weight) ** (1 / 3), "(D/(rho g))^(1/3), in L"
+        ),
         "ground.bilayer": Number(
             couplings.curvature / couplings.alpha, "beta/alpha, bilayer(0.2, 0.03)"
         ),
