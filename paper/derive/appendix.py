@@ -13,6 +13,7 @@ from pathlib import Path
 
 from figures.common import output
 from figures.common.command import parser
+from paper.derive import excitable as proofs_excitable
 from paper.derive import limits as proofs_limits
 from paper.derive import line as proofs_line
 from paper.derive import plate as proofs_plate
@@ -44,6 +45,7 @@ STEPS = (
     proofs_plate.lower_face,
     proofs_plate.power,
     proofs_limits.limits,
+    proofs_excitable.oscillation,
 )
 
 

@@ -5,6 +5,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from fem_check.excitable.presets import PRESETS
 from figures.draw.directional import equal_at, select, wave_speed
 from figures.measure import directional as directional_table
 from linear_theory.line.best.viscous import best_viscous
@@ -12,8 +13,8 @@ from paper.numbers.number import Number, Numbers
 
 Array = NDArray[np.float64]
 
-THRESHOLD, DIFFUSION = -0.01, 0.02
-"""Of eq. 12 as printed; the diffusion length in L."""
+PRINTED = PRESETS["printed"].equation
+"""Eq. 12 with the numbers of the original paper."""
 
 BRISTLES = 0.5
 """The r of which the text tells the speed: coefficients of friction of 1 to 3."""
@@ -21,10 +22,11 @@ BRISTLES = 0.5
 
 def oscillation() -> Numbers:
     """Eq. 12 near the onset of its oscillation: what grows, and how far (F8)."""
+    rate = -PRINTED.threshold
     return {
-        "wave.onset": Number(2 * math.sqrt(-THRESHOLD / 3), "2 sqrt(-threshold/3), threshold = -0.01"),
+        "wave.onset": Number(2 * math.sqrt(rate / 3), "2 sqrt(-threshold/3), threshold = -0.01"),
         "wave.shortest": Number(
-            2 * math.pi * DIFFUSION / math.sqrt(-THRESHOLD),
+            2 * math.pi * PRINTED.diffusion_length / math.sqrt(rate),
             "2 pi diffusion_length/sqrt(-threshold), 0.02 and -0.01",
         ),
     }
