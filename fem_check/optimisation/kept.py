@@ -68,18 +68,19 @@ class Kept:
             lock.__exit__(None, None, None)
 
     def _begin(self, path: Path) -> None:
-        text = path.read_bytes().decode("utf-8", "replace") if path.exists() else ""
-        whole = text[: text.rfind("\n") + 1]
-        lines = [self._parsed(k, line) for k, line in enumerate(whole.splitlines())]
+        data = path.read_bytes() if path.exists() else b""
+        whole = data[: data.rfind(b"\n") + 1]
+        lines = [
+            self._parsed(k, line)
+            for k, line in enumerate(whole.decode("utf-8", "replace").splitlines())
+        ]
         if lines and lines[0] != {"question": self._question}:
             raise KeptError(
                 f"{path}: holds answers to another question; give another file, or remove it"
             )
         self._known = {line["key"]: line for line in lines[1:]}
-        self._file = open(path, "r+" if text else "w", encoding="utf-8")  # noqa: SIM115
-        self._file.seek(0)
-        self._file.truncate(0)
-        self._file.write(whole)
+        self._file = open(path, "a", encoding="utf-8")  # noqa: SIM115
+        self._file.truncate(len(whole))  # never shorter: a kill at any instant leaves what was kept
         if not whole:
             self._write({"question": self._question})
 

@@ -89,6 +89,9 @@ def _weight(found: "Optimum", name: str) -> float:
 
 
 def _doubts(found: "Optimum") -> str:
+    missed = [f"{one.name} is missed by {percent(one.beyond)}" for one in found.limits if one.beyond]
+    if missed:
+        return "; ".join(missed)
     if found.certificate.kink:
         return found.certificate.kink
     if not math.isfinite(found.left):

@@ -15,8 +15,8 @@ import math
 import time
 import warnings
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
-from typing import Any
+from dataclasses import dataclass, field
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -57,7 +57,8 @@ class Climbed(Shown):
 
     start, point (unknowns,); found: there, None if there is no value at any point; stage: number of the
     smooth objective that led there; first: of the objective itself at the start, NaN if it has none;
-    evaluations: how many; words: how it ended; seconds.
+    evaluations: how many; words: how it ended; seconds. tighter (limits,): by how much the limits were
+    tightened there, over their scales, for the true numbers to keep to them.
     """
 
     start: Array
@@ -68,6 +69,7 @@ class Climbed(Shown):
     evaluations: int
     words: str
     seconds: float
+    tighter: Array = field(default_factory=lambda: np.zeros(0))
 
     @property
     def value(self) -> float:
@@ -79,7 +81,16 @@ MARGIN = 1e-6
 """Of limits, whose numbers are scaled by their bounds."""
 
 SMOOTHED = 2e-3
-"""By how much the true number may be beyond a limit that was met by a smoothed one."""
+"""By how much the true number may be beyond a limit that was met by a smoothed one, where no end keeps
+to it; the result is then not called converged."""
+
+STEEPEST = 1e3
+"""Gradient at which the way back to the limits begins at most: SLSQP gives up at 10^7, as the square of
+what is beyond them has over itself where that is 10^-6."""
+
+TIGHTENED, FARTHEST = 3, 0.1
+"""How often the last climb is made again, each time with limits tightened by what the true numbers are
+beyond them, and the most that this may be."""
 
 
 class _Best:
@@ -121,31 +132,76 @@ def climb(
     """From one start, through smooth objectives in turn, to where `truth` is largest of their ends.
 
     tell: called with the number of objectives that are done. limits: for each of them, and at last for
-    the truth; an end that misses those is none.
+    the truth; an end that misses those is none. Where the last end misses them by what smoothing does,
+    it is climbed again with tighter ones.
     """
-    begin, count, words, point = time.perf_counter(), 0, "", start
-    ends: list[Array] = []
-    for stage, objective in enumerate(objectives):
-        best = _Best(objective, region, limits[stage] if limits else ())
-        words = _climbed(best, region, point, how)
+    begin, last, count, words = time.perf_counter(), limits[-1] if limits else (), 0, ""
+    ends, tighter = [_End(start, 0, np.zeros(len(last)))], np.zeros(len(last))
+    for turn in range(len(objectives) + TIGHTENED):
+        stage = min(turn, len(objectives) - 1)
+        if turn > stage:
+            more = _beyond(last, ends[-1].point)
+            if not more.any():
+                break
+            tighter = tighter + more
+        own = [
+            one.tighter(by) for one, by in zip(limits[stage] if limits else (), tighter, strict=True)
+        ]
+        best = _Best(objectives[stage], region, own)
+        words = _climbed(best, region, ends[-1].point, how)
         count += best.count
         point = start if best.point is None else region.towards_centre(best.point)
-        ends.append(point)
-        tell(stage + 1)
-    first, last = _usable(truth, start), limits[-1] if limits else ()
-    values = [_usable(truth, end) if _allowed(last, end) else None for end in ends]
-    found = [(value.value, place) for place, value in enumerate(values) if value is not None]
-    place = max(found)[1] if found else len(ends) - 1
+        ends.append(_End(point, stage, tighter))
+        tell(min(turn + 1, len(objectives)))
+    first, ends = _usable(truth, start), ends[1:]
+    end, found = _highest(truth, ends, last)
     return Climbed(
         start=start,
-        point=ends[place],
-        found=values[place],
-        stage=place,
+        point=end.point,
+        found=found,
+        stage=end.stage,
         first=math.nan if first is None else first.value,
         evaluations=count + len(ends) + 1,
         words=words,
         seconds=time.perf_counter() - begin,
+        tighter=end.tighter,
     )
+
+
+class _End(NamedTuple):
+    """Where a stage ended; tighter (limits,): by how much its limits were tightened."""
+
+    point: Array
+    stage: int
+    tighter: Array
+
+
+def _beyond(limits: Sequence[Limit], point: Array) -> Array:
+    """By how much to tighten the limits at a point whose true numbers are beyond them (limits,).
+
+    Zeros where they are not, or farther than smoothing accounts for.
+    """
+    try:
+        found = np.array([float(limit.excess(point)[0]) for limit in limits])
+    except Unusable:
+        return np.zeros(len(limits))
+    far = found.max(initial=0.0) > FARTHEST
+    return np.where(found > 0, found + MARGIN, 0.0) * (not far)
+
+
+def _highest(
+    truth: Objective, ends: Sequence[_End], limits: Sequence[Limit]
+) -> tuple[_End, Evaluation | None]:
+    """The end at which the truth is largest, of those that keep to all limits if there are any."""
+    for leeway in (0.0, SMOOTHED):
+        values = [
+            _usable(truth, end.point) if _allowed(limits, end.point, leeway) else None for end in ends
+        ]
+        found = [(value.value, place) for place, value in enumerate(values) if value is not None]
+        if found:
+            place = max(found)[1]
+            return ends[place], values[place]
+    return ends[-1], None
 
 
 def _usable(objective: Objective, point: Array) -> Evaluation | None:
@@ -155,10 +211,10 @@ def _usable(objective: Objective, point: Array) -> Evaluation | None:
         return None
 
 
-def _allowed(limits: Sequence[Limit], point: Array) -> bool:
-    """Whether the true numbers are within their limits, but for what smoothing does."""
+def _allowed(limits: Sequence[Limit], point: Array, leeway: float) -> bool:
+    """Whether the true numbers are within their limits, but for a leeway."""
     try:
-        return all(float(limit.excess(point)[0]) <= SMOOTHED for limit in limits)
+        return all(float(limit.excess(point)[0]) <= leeway for limit in limits)
     except Unusable:
         return False
 
@@ -193,7 +249,8 @@ def _restored(best: _Best, region: Region, start: Array, how: Ascent) -> Array:
     rules = [rule for one in region.constraints for rule in _rules(one, "SLSQP", 0.0)]
     size = 1.0
     try:
-        size = missed(start)[0] or 1.0  # SLSQP gives up at gradients of 10^4
+        value, slopes = missed(start)
+        size = max(value, float(np.linalg.norm(slopes)) / STEEPEST) or 1.0
         options = {"maxiter": how.iterations, "ftol": min(MARGIN**2 / size, MARGIN)}
         ended = minimize(
             *(missed, start),

@@ -61,6 +61,13 @@ def test_the_best_scene_is_not_written_over_the_question(place, capsys):
     assert status == 2
     assert "is the optimisation file itself" in err
     assert (place / "one.toml").read_text() == FILE
+    begin, end = FILE.index("[scene"), FILE.index("[over]")
+    scene = FILE[begin:end].replace("[scene.", "[")
+    (place / "sheet.toml").write_text(scene)
+    (place / "named.toml").write_text('scene = "sheet.toml"\n' + FILE[end:])
+    status, _, err = run(capsys, "optimise", "named.toml", "--out", "sheet.toml")
+    assert (status, (place / "sheet.toml").read_text()) == (2, scene)
+    assert "--out sheet.toml: is the scene file of named.toml; give another name" in err
 
 
 CHECK = "check = false\n"
