@@ -218,6 +218,7 @@ def _over(data: Mapping[str, Any], mistakes: Mistakes) -> dict[str, Any]:
                 Field.of(path, bounds)
             except ValueError as problem:
                 words = str(problem).removeprefix("over: ").replace(f"{path!r}: ", f"{path}: ", 1)
+                words = words.replace("(low, high), or a Between", "{ low = ..., high = ... }")
                 mistakes.add_words(place, f"[over] {words}")
             found[path] = bounds
     if "harmonics" in data:

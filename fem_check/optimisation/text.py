@@ -65,7 +65,7 @@ def _values(found: "Optimum") -> str:
         for name in names
     ]
     more = len(found.values) - len(told)
-    return ", ".join(told) + (f"; and {more} smaller amplitudes" if more else "")
+    return ", ".join(told) + (f"; and {more} smaller amplitude{'s' * (more > 1)}" if more else "")
 
 
 def _idle(found: "Optimum") -> str:

@@ -196,6 +196,17 @@ def test_a_search_that_is_stopped_goes_on(tmp_path):
         optimise(scene, over, **asked, file=file)
 
 
+def test_an_answer_whose_digits_were_damaged_is_refused(tmp_path):
+    path = tmp_path / "a.jsonl"
+    with Kept(path, {"of": 1}) as kept:
+        kept.value("value", np.array([0.5]), lambda: Estimate(0.25, 1e-3))
+    with Kept(path, {"of": 1}) as kept:
+        assert kept.value("value", np.array([0.5]), lambda: None).value == 0.25
+    path.write_text(path.read_text().replace("0.25", "9.25"))
+    with pytest.raises(KeptError, match="line 2: is no answer"), Kept(path, {"of": 1}):
+        pass
+
+
 def test_answers_of_one_function_are_not_given_for_another(tmp_path):
     """Functions are known by what they compute, as an objective and as a number with a bound."""
     scene, over = Scene(Sheet(width=0.1), SineWave(), alpha=0.1), {"growth.alpha": (0.05, 0.2)}
@@ -237,7 +248,7 @@ def test_opening_a_file_of_answers_never_shortens_it(tmp_path, monkeypatch):
     assert file.read_text() == begun
 
 
-GOOD = {"key": "a", "value": 0.1, "error": 0.01, "gradient": [1.0], "doubt": [0.0], "kink": ""}
+GOOD = {"key": "a 0x1.0p+0", "value": 0.1, "error": 0.01, "gradient": [1.0], "doubt": [0.0], "kink": ""}
 
 
 @pytest.mark.parametrize(
@@ -249,6 +260,9 @@ GOOD = {"key": "a", "value": 0.1, "error": 0.01, "gradient": [1.0], "doubt": [0.
         json.dumps({**GOOD, "value": None}).encode(),
         json.dumps({**GOOD, "gradient": "x"}).encode(),
         json.dumps({**GOOD, "key": 3}).encode(),
+        json.dumps({**GOOD, "error": -0.01}).encode(),
+        json.dumps({**GOOD, "gradient": [7.0, 1.0], "doubt": [0.0, 0.0]}).encode(),
+        json.dumps({**GOOD, "crc32": 1}).encode(),
         json.dumps({"key": "a", "unusable": 1}).encode(),
         b"\xff\xfe",
         b"",

@@ -102,6 +102,8 @@ def robust(words):
         (CHECK, bounds("power = { at_most = '1 kg' }"), "one.toml:17: [constraints] power: at_most"),
         (CHECK, bounds("powr = { at_most = 1 }"), "one.toml:17: [constraints] 'powr': must be one of"),
         (CHECK, bounds("power = { most = 1 }"), "one.toml:17: [constraints] power: most: is not a key"),
+        ("{ low = 0.05, high = 0.1 }", "1", "growth.alpha = 1: must be { low = ..., high = ... }"),
+        (CHECK, bounds("m = { exactly = 1, of = { growth.alpha = 'x' } }"), "must be a single real"),
         (CHECK, bounds("power = 3"), "one.toml:17: [constraints] power"),
         (CHECK, robust("friction.law = ['dry', 'dyr']"), "[robust] regimes: [friction] law = 'dyr'"),
         (CHECK, robust("friction.law = ['dry']"), "[robust] regimes: 1: must be from 2 to 32"),
