@@ -20,9 +20,9 @@ from linear_theory import (
     crawl_speed,
     line_balance,
 )
+from linear_theory.optimisation.climbing import Ascent, Best, restored
 from linear_theory.optimisation.limits import Limit
 from linear_theory.optimisation.problem import Evaluation, Region, Unusable
-from linear_theory.optimisation.search import Ascent, _Best, _restored
 
 STRIP = Scene(Sheet(width=0.1), SineWave(), alpha=0.1)
 ASKED = {"level": "strip", "check": False, "starts": 1}
@@ -66,8 +66,8 @@ def test_the_way_back_to_a_limit_that_is_missed_by_little():
     limit = Limit("x", lambda p: Evaluation(p[0], 0.0, np.ones(1), np.zeros(1)), 0.5, 1.0, 0.1)
     region = Region(np.zeros(1), np.ones(1), np.full(1, 0.5), np.ones(1))
     for beyond in (1e-8, 1e-6, 1e-4, 1e-2, 0.3):
-        best = _Best(limit.of, region, [limit])
-        assert limit.excess(_restored(best, region, np.array([0.5 + beyond]), Ascent()))[0] <= 0
+        best = Best(limit.of, region, [limit])
+        assert limit.excess(restored(best, region, np.array([0.5 + beyond]), Ascent()))[0] <= 0
 
 
 def test_a_bound_on_the_power_holds_where_bisection_says():
