@@ -142,6 +142,7 @@ tables: $(STAMP)
 	$(RUN) -m figures.measure.validation
 	$(RUN) -m figures.validation.page
 	$(RUN) -m tests.robust.hard_cases_page
+	$(RUN) -m tests.robust.trials.table
 	$(RUN) -m paper.numbers.shell
 	$(RUN) -m paper.derive
 	$(RUN) -m paper.numbers

@@ -18,6 +18,8 @@
       Fault                     a friction law that contradicts itself             ValueError
       KeptError                 answers with which an optimisation cannot go on    ValueError
       NothingFound              an optimisation none of whose starts has an answer within its limits
+      NoFilm                    scenes whose shapes are not known, or not alike
+      NoOutline                 no outline between the bounds has an answer
       Unusable                  a point at which an objective has no value         ValueError
       NotWrittenError           an answer whose files cannot be written            OSError
 
@@ -29,9 +31,10 @@ CrossingsUnknown in `fem_check.shell.kinematics.crossing`,
 NotPeriodicError and UnresolvedError in `fem_check.shell.cycle`, SnapshotError in
 `fem_check.shell.stepping.snapshot`, SceneFileError in `fem_check.files.mistakes`, NotRestorable in
 `linear_theory.scene.data`, Refused, RefusedScenes, StoreError, LostScheduler and WrongWorkers in
-`fem_check.sweeps`, NotWrittenError in `fem_check.runs.errors`, KeptError and NothingFound in
-`fem_check.optimisation`, Unusable in `linear_theory.optimisation.problem`, Fault in
-`linear_theory.friction.trial`, all others here. Bad arguments are a plain ValueError.
+`fem_check.sweeps`, NotWrittenError in `fem_check.runs.errors`, KeptError, NothingFound and NoFilm in
+`fem_check.optimisation`, NoOutline in `fem_check.outlines.best`, Unusable in
+`linear_theory.optimisation.problem`, Fault in `linear_theory.friction.trial`, all others here. Bad
+arguments are a plain ValueError.
 """
 
 from collections.abc import Callable

@@ -115,7 +115,7 @@ def test_the_sheet_is_drawn_where_it_is(theory):
 
 def test_a_colour_bar_fits_beside_axes_of_the_caller(theory):
     """Its label, too, within the old place of its axes, which may be drawn into again."""
-    left, right = Figure(figsize=(9, 4)).subplots(1, 2)
+    left, right = Figure(figsize=(9, 4), layout="none").subplots(1, 2)
     edge = right.get_position().x0
     for ax in (left, right):
         theory.plot("friction", ax=ax)

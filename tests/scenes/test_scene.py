@@ -145,7 +145,7 @@ def test_functions_are_known_by_content_or_name() -> None:
     assert same[0] == same[1]
     assert same[0] != Scene(Sheet(), wave(1.1), 0.1)
     assert Scene(Sheet(), wave(1.0, "a"), 0.1) != Scene(Sheet(), wave(1.0, "b"), 0.1)
-    nameless = FieldWave(iter([1]).__next__, 1.0)
+    nameless = FieldWave(np.random.default_rng().normal, 1.0)
     with pytest.raises(Unidentifiable, match=r"wave"):
         Scene(Sheet(), nameless, 0.1).key()
     with pytest.raises(ValueError, match=r"wave: a FieldWave .*Scene.from_dict\(data, wave=wave\)"):

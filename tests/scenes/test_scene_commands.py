@@ -407,6 +407,7 @@ def test_ways_answer_as_they_do_alone() -> None:
 def test_what_is_wrong_with_a_motion_is_a_caution(crossed, snaps, error, said) -> None:  # type: ignore[no-untyped-def]
     motion = SimpleNamespace(
         crossed=crossed,
+        wrinkled=np.zeros(2, bool),
         snaps=snaps,
         errors=SpeedErrors(0.0, 0.0, np.nan, np.nan, error),
         scene=Scene(Sheet(), SineWave(), 0.1),

@@ -2,7 +2,6 @@
 
 import math
 from dataclasses import dataclass
-from typing import NamedTuple
 
 import numpy as np
 
@@ -13,7 +12,8 @@ from linear_theory.speed.result import Estimate
 NOTHING = Estimate(0.0, 0.0)
 
 
-class BestCouplings(NamedTuple):
+@dataclass(frozen=True)
+class BestCouplings(Shown):
     """alpha >= 0 and beta, 1/length, of the largest V, and that, length/time; -alpha, -beta are as
     good."""
 

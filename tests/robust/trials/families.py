@@ -5,7 +5,7 @@
 asks COUNT questions of one of the FAMILIES and prints every trial whose error is understated and the
 largest true error over the stated one. A trial is drawn from (seed, number) alone, so that one that
 failed can be asked again. The suite asks the first few of each family (`test_random_trials`), and
-`tests.robust.reliability_page` thousands.
+`tests.robust.trials.table` thousands.
 """
 
 import sys
@@ -15,7 +15,7 @@ from functools import cache
 
 import numpy as np
 
-from tests.robust.trials import command, levels, theory
+from tests.robust.trials import command, damaged, levels, theory
 from tests.robust.trials.outcome import Outcome
 
 Trial = Callable[[np.random.Generator], Outcome]
@@ -29,6 +29,7 @@ FAMILIES: dict[str, Trial] = {
     "bent": levels.bent,
     "prediction": levels.prediction,
     "command": command.command,
+    "damaged": damaged.damaged,
 }
 
 

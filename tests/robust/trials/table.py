@@ -27,6 +27,7 @@ COUNTS = {
     "outline": 60,
     "prediction": 60,
     "command": 2000,
+    "damaged": 2000,
 }
 
 
