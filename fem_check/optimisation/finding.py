@@ -3,7 +3,6 @@
 import contextlib
 import math
 import time
-from dataclasses import replace
 from typing import Protocol
 
 import numpy as np
@@ -57,11 +56,9 @@ def found(
     best = max(climbs, key=lambda one: one.value)
     if best.found is None:
         raise NothingFound(_nothing(task, points[0], limits))
-    region = task.proven(best.stage)
-    tight = [one.tighter(by) for one, by in zip(region.limits, best.tighter, strict=True)]
     proof = certificate(
         task.proof(best.stage),
-        replace(region, limits=tuple(tight)),
+        task.proven(best.stage, best.tighter),
         best.point,
         task.unknowns.names,
         task.has_curvature(),

@@ -82,7 +82,7 @@ def climb(
         found=found,
         stage=end.stage,
         first=math.nan if first is None else first.value,
-        evaluations=sum(one.count for one in ends) + len(ends) + 1,
+        evaluations=sum(one.evaluations for one in ends) + len(ends) + 1,
         words=ends[-1].words,
         seconds=time.perf_counter() - begin,
         tighter=end.tighter,
@@ -96,7 +96,7 @@ class _End(NamedTuple):
     point: Array
     stage: int
     tighter: Array
-    count: int
+    evaluations: int
     words: str
 
 
