@@ -58,7 +58,7 @@ def found(
         raise NothingFound(_nothing(task, points[0], limits))
     proof = certificate(
         task.proof(best.stage),
-        task.proven(best.stage),
+        task.proven(best.stage, best.tighter),
         best.point,
         task.unknowns.names,
         task.has_curvature(),
@@ -130,9 +130,10 @@ def _limits(task: Task, point: Array, proof: Certificate) -> tuple[Limited, ...]
     """Numbers of the answer with their bounds, and what moving a bound that holds brings."""
     values, sign, found = task.measured(point), task.first.objective.sign, []
     for limit, side in zip(task.proven(0).limits, task.sides * len(task.questions), strict=True):
-        brings = sign * side.sign * proof.pushes.get(limit.name, 0.0) / (abs(side.bound) or 1.0)
-        value = values[limit.name]
-        found.append(Limited(limit.name, value, side.bound, brings, side.quantity.unit))
+        size, value = abs(side.bound) or 1.0, values[limit.name]
+        brings = sign * side.sign * proof.pushes.get(limit.name, 0.0) / size
+        beyond = max(side.sign * (value.value - side.bound) / size, 0.0)
+        found.append(Limited(limit.name, value, side.bound, brings, side.quantity.unit, beyond))
     return tuple(found)
 
 

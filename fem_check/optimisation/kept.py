@@ -2,10 +2,11 @@
 
 A line of JSON for each, after a first line that says what was asked. The points of a climb follow from
 its answers, so that the same call repeats them from the file, in no time, up to where it was stopped. A
-line that was cut off by a kill is left out.
+line that was cut off by a kill is left out; one whose digits were damaged is refused, by its checksum.
 """
 
 import json
+import zlib
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import IO, Any
@@ -22,6 +23,10 @@ Array = NDArray[np.float64]
 
 LOCK = ".lock"
 """Suffix of the file that keeps a second process away."""
+
+
+SUM = "crc32"
+"""Name of the checksum in a line; a line of an earlier version has none."""
 
 
 class KeptError(SheetcrawlError, ValueError):
@@ -68,18 +73,19 @@ class Kept:
             lock.__exit__(None, None, None)
 
     def _begin(self, path: Path) -> None:
-        text = path.read_bytes().decode("utf-8", "replace") if path.exists() else ""
-        whole = text[: text.rfind("\n") + 1]
-        lines = [self._parsed(k, line) for k, line in enumerate(whole.splitlines())]
+        data = path.read_bytes() if path.exists() else b""
+        whole = data[: data.rfind(b"\n") + 1]
+        lines = [
+            self._parsed(k, line)
+            for k, line in enumerate(whole.decode("utf-8", "replace").splitlines())
+        ]
         if lines and lines[0] != {"question": self._question}:
             raise KeptError(
                 f"{path}: holds answers to another question; give another file, or remove it"
             )
         self._known = {line["key"]: line for line in lines[1:]}
-        self._file = open(path, "r+" if text else "w", encoding="utf-8")  # noqa: SIM115
-        self._file.seek(0)
-        self._file.truncate(0)
-        self._file.write(whole)
+        self._file = open(path, "a", encoding="utf-8")  # noqa: SIM115
+        self._file.truncate(len(whole))  # never shorter: a kill at any instant leaves what was kept
         if not whole:
             self._write({"question": self._question})
 
@@ -89,7 +95,8 @@ class Kept:
             found = json.loads(line)
         except json.JSONDecodeError:
             found = None
-        if not isinstance(found, dict) or not (_is_answer(found) if number else "question" in found):
+        whole = isinstance(found, dict) and found.pop(SUM, None) in (None, _sum_of(found))
+        if not whole or not (_is_answer(found) if number else "question" in found):
             raise KeptError(
                 f"{self.path}, line {number + 1}: is no answer of an optimisation; remove the line, or "
                 "the file to begin anew"
@@ -136,8 +143,13 @@ class Kept:
 
     def _write(self, line: Mapping[str, Any]) -> None:
         if self._file is not None:
-            self._file.write(json.dumps(line) + "\n")
+            self._file.write(json.dumps({**line, SUM: _sum_of(line)}) + "\n")
             self._file.flush()
+
+
+def _sum_of(line: Mapping[str, Any]) -> int:
+    """Of what a line says, by which damaged digits are noticed."""
+    return zlib.crc32(json.dumps(line).encode())
 
 
 def _is_answer(line: Mapping[str, Any]) -> bool:
@@ -149,7 +161,10 @@ def _is_answer(line: Mapping[str, Any]) -> bool:
     lists = [line.get(name, []) for name in ("gradient", "doubt")]
     numbers = [line.get("value"), line.get("error"), *(x for found in lists for x in _entries(found))]
     whole = isinstance(line.get("kink", ""), str) and ("gradient" in line) == ("doubt" in line)
-    return whole and all(isinstance(x, int | float) for x in numbers)
+    whole = whole and all(isinstance(x, int | float) for x in numbers)
+    size = sum("0x" in word for word in line["key"].split())  # of the point, in hexadecimal digits
+    whole = whole and all(len(one) == size for one in lists if "gradient" in line)
+    return whole and not line["error"] < 0
 
 
 def _entries(found: Any) -> Any:

@@ -55,13 +55,14 @@ PARTS = ("scene", "over", "harmonics", "constraints", "robust", "optimise")
 
 @dataclass(frozen=True)
 class OptimiseFile:
-    """What an optimisation file says."""
+    """What an optimisation file says; scene_file: that it names, if any."""
 
     unknowns: Unknowns
     settings: RunSettings
     table: OptimiseTable
     constraints: Mapping[str, Bound]
     robust: Robust | None
+    scene_file: Path | None = None
 
     def run(self, file: Path | None, progress: Report | None, again: str) -> Optimum:
         """Search; see `optimising.search`."""
@@ -123,7 +124,8 @@ def parsed(text: str, path: Path) -> OptimiseFile:
             unknowns_of(robust, base.file.scene, over, base)
     if mistakes:
         raise mistakes.error(path, text)
-    return OptimiseFile(unknowns, settings, table, constraints, robust)
+    named = path.parent / data["scene"] if isinstance(data["scene"], str) else None
+    return OptimiseFile(unknowns, settings, table, constraints, robust, named)
 
 
 def _table(name: str, kind: type[Any], given: Any, mistakes: Mistakes) -> Any:
@@ -216,6 +218,7 @@ def _over(data: Mapping[str, Any], mistakes: Mistakes) -> dict[str, Any]:
                 Field.of(path, bounds)
             except ValueError as problem:
                 words = str(problem).removeprefix("over: ").replace(f"{path!r}: ", f"{path}: ", 1)
+                words = words.replace("(low, high), or a Between", "{ low = ..., high = ... }")
                 mistakes.add_words(place, f"[over] {words}")
             found[path] = bounds
     if "harmonics" in data:

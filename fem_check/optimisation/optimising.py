@@ -15,8 +15,8 @@ from fem_check.choice.ways import ANSWERS, way_of
 from fem_check.optimisation.finding import NothingFound as NothingFound
 from fem_check.optimisation.finding import found
 from fem_check.optimisation.kept import Kept
-from fem_check.optimisation.objectives import Objective, objective_of
-from fem_check.optimisation.options.constraints import checked
+from fem_check.optimisation.objectives import OBJECTIVES, Objective, objective_of
+from fem_check.optimisation.options.constraints import Bound, checked
 from fem_check.optimisation.options.robust import Robust, unknowns_of
 from fem_check.optimisation.result import Optimum
 from fem_check.optimisation.task import Task
@@ -24,6 +24,7 @@ from fem_check.optimisation.unknowns import Unknowns
 from linear_theory.common import validation
 from linear_theory.common.progress import Progress, Report, reporting
 from linear_theory.common.threads import one_blas_thread
+from linear_theory.identity import content_key
 from linear_theory.optimisation.search import Ascent
 from linear_theory.optimisation.starts import starts as starting_points
 from linear_theory.scene.scene import Scene
@@ -58,7 +59,8 @@ def optimise(
     `CrawlSpeed`, to be large. level: by which the speeds are found, as in `solve`; "auto" is the one
     that answers the scene as given. rtol: of these speeds. starts: climbs, the first from the scene
     itself, the others from a Sobol sequence by that seed. how: an `Ascent`. check: whether the next
-    higher level is asked, too. file: keeps all answers, and the same call goes on from it.
+    higher level is asked, too. file: keeps all answers, and the same call goes on from it;
+    functions are known again by their code and what that reads.
     constraints: `Bound`s by name, of numbers of the answer or sums of fields, which the best scene must
     keep to. robust: a `Robust`, several regimes over which the objective is the worst or the mean.
 
@@ -130,6 +132,8 @@ def search(
         "robust": None if robust is None else robust.definition(),
         "regimes": [[name, one.definition()] for name, one in regimes],
     }
+    if path is not None:
+        asked |= _functions(objective, constraints)
     with Kept(path, asked) as kept:
         task = Task.of(unknowns, regimes, objective, settings, constraints, robust, kept)
         points = _starts(task, starts, validation.integer("seed", seed, 0))
@@ -142,6 +146,20 @@ def search(
             answers = "1 answer is" if kept.count == 1 else f"{kept.count} answers are"
             words = f"interrupted; {answers} in {path}; {again} goes on with them"
             raise KeyboardInterrupt(words) from None
+
+
+def _functions(objective: Objective, constraints: Mapping[str, Bound]) -> dict[str, Any]:
+    """Keys of the functions in a question, whose names say nothing of what they compute.
+
+    Raises Unidentifiable, a ValueError, for a function whose answers cannot be known again.
+    """
+    functions: dict[str, Any] = {
+        f"constraints: {name}": bound.of for name, bound in constraints.items() if callable(bound.of)
+    }
+    if objective not in OBJECTIVES.values():
+        functions["objective"] = objective
+    keys = {name: content_key(one, name) for name, one in functions.items()}
+    return {"functions": keys} if keys else {}
 
 
 def _path(file: object) -> Path:

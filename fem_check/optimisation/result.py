@@ -45,13 +45,15 @@ class Check(Shown):
 @dataclass(frozen=True)
 class Limited(Shown):
     """A number of the answer that must keep to a bound: its value, and what of the objective moving the
-    bound by 1 brings, 0 where it does not hold. unit: of the number, as that of an `Objective`."""
+    bound by 1 brings, 0 where it does not hold. unit: of the number, as that of an `Objective`. beyond:
+    by how much it misses the bound, over the size of that; 0 if it keeps to it."""
 
     name: str
     value: Estimate
     bound: float
     brings: float
     unit: str
+    beyond: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -168,8 +170,10 @@ class Optimum(Shown):
 
     @property
     def converged(self) -> bool:
-        """Whether the certificate holds: at most GAIN is left, and there is a gradient."""
-        return not self.certificate.kink and self.left <= GAIN
+        """Whether the certificate holds: at most GAIN is left, there is a gradient, and all limits are
+        kept to."""
+        kept = not any(one.beyond for one in self.limits)
+        return kept and not self.certificate.kink and self.left <= GAIN
 
     @property
     def agreed(self) -> int:

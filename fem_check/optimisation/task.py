@@ -107,9 +107,15 @@ class Task:
     def _limits_at(self, stage: int) -> tuple[Limit, ...]:
         return self._limits(lambda question: _at(question.stages(), stage))
 
-    def proven(self, stage: int) -> Region:
-        """The region of the certificate, with the limits at a stage, their slopes with errors."""
-        return replace(self.region, limits=self._limits(lambda question: _proof(question, stage)))
+    def proven(self, stage: int, tighter: Array | None = None) -> Region:
+        """The region of the certificate, with the limits at a stage, their slopes with errors.
+
+        tighter (limits,): by how much they were tightened there, over their scales.
+        """
+        found = self._limits(lambda question: _proof(question, stage))
+        if tighter is not None:
+            found = tuple(one.tighter(by) for one, by in zip(found, tighter.tolist(), strict=True))
+        return replace(self.region, limits=found)
 
     def _limits(self, of: Callable[[Question], OfPoints]) -> tuple[Limit, ...]:
         found = []

@@ -65,7 +65,7 @@ def _values(found: "Optimum") -> str:
         for name in names
     ]
     more = len(found.values) - len(told)
-    return ", ".join(told) + (f"; and {more} smaller amplitudes" if more else "")
+    return ", ".join(told) + (f"; and {more} smaller amplitude{'s' * (more > 1)}" if more else "")
 
 
 def _idle(found: "Optimum") -> str:
@@ -89,6 +89,9 @@ def _weight(found: "Optimum", name: str) -> float:
 
 
 def _doubts(found: "Optimum") -> str:
+    missed = [f"{one.name} is missed by {percent(one.beyond)}" for one in found.limits if one.beyond]
+    if missed:
+        return "; ".join(missed)
     if found.certificate.kink:
         return found.certificate.kink
     if not math.isfinite(found.left):

@@ -35,7 +35,12 @@ def percent(share: float) -> str:
 
 
 def against(value: float, before: float) -> str:
-    """One value beside another one, that of the scene as it was given."""
-    if value * before <= 0:
+    """One value beside another one, that of the scene as it was given.
+
+    >>> from fem_check.optimisation.words import against
+    >>> print(against(0.3, 0.1), against(0.1, 0.1), against(0.3, -0.1), sep=", ")
+    3 times the 0.1 as given, 0.1 as given, −0.1 as given
+    """
+    if value * before <= 0 or plain(value / before) == "1":
         return f"{plain(before)} as given"
     return f"{plain(value / before)} times the {plain(before)} as given"

@@ -107,7 +107,7 @@ def real(name: str, value: object) -> float:
     """`value` as one finite float."""
     if type(value) is float and math.isfinite(value):
         return value  # as nearly always: the way through an array takes 5 us
-    array = None if isinstance(value, bool) else real_array(name, value)  # type: ignore[arg-type]
+    array = None if isinstance(value, bool | str) else real_array(name, value)  # type: ignore[arg-type]
     if array is None or array.ndim != 0:
         raise ValueError(f"{name} = {shown(value)}: must be a single real number")
     return float(array)

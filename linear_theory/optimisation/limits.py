@@ -9,7 +9,7 @@ the V_i in the gradient of the worst one, and sum to 1.
 """
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -64,6 +64,10 @@ class Limit(Shown):
     def nearest(self) -> float:
         """The number at the point that came closest; NaN if there was none."""
         return self._nearest[0] if self._nearest else float("nan")
+
+    def tighter(self, by: float) -> "Limit":
+        """With a bound that is stricter by so many scales; the same number under the same name."""
+        return replace(self, bound=self.bound - self.sign * self.scale * by)
 
     def _at(self, point: Array) -> Evaluation:
         key = point.tobytes()

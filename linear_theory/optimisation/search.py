@@ -3,52 +3,24 @@
 Where the objective has kinks (dry friction), it is replaced by a sequence of smooth ones, each closer
 to it, and each begun where the last one ended. The ends of all of them are then compared by the
 objective itself.
-
-Limits on computed numbers are met with a MARGIN, so that no end is beyond them. SLSQP is the default:
-for three searches with limits (the power of a strip; power and stretch; the worst of two laws of
-friction) it took 32, 133 and 52 answers, trust-constr 836 and 68 for the last two, and ended the first
-one in a corner that is no maximum.
 """
 
-import contextlib
 import math
 import time
-import warnings
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
-from typing import Any
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, field
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import Bounds, NonlinearConstraint, minimize
 
-from linear_theory.common import validation
-from linear_theory.common.shown import Shown, Value
-from linear_theory.optimisation.limits import Beside, Limit, Worst
+from linear_theory.common.shown import Shown
+from linear_theory.optimisation.climbing import MARGIN, Best, climbed
+from linear_theory.optimisation.climbing import Ascent as Ascent
+from linear_theory.optimisation.limits import Limit
 from linear_theory.optimisation.problem import Evaluation, Objective, Region, Unusable
 
 Array = NDArray[np.float64]
-
-METHODS = ("SLSQP", "trust-constr")
-
-ALLOWED = 1e-9
-"""By how much a point may miss a constraint and still be kept; it is then brought inside."""
-
-
-@dataclass(frozen=True)
-class Ascent(Value):
-    """How to climb. method: of scipy.optimize.minimize; iterations: at most, for each objective;
-    change: of the objective, relative to its size, below which a climb ends. Raises ValueError for
-    others."""
-
-    method: str = "SLSQP"
-    iterations: int = 200
-    change: float = 1e-7
-
-    def __post_init__(self) -> None:
-        validation.choice("method", self.method, METHODS)
-        validation.integer("iterations", self.iterations, 1)
-        validation.positive("change", self.change)
 
 
 @dataclass(frozen=True)
@@ -57,7 +29,8 @@ class Climbed(Shown):
 
     start, point (unknowns,); found: there, None if there is no value at any point; stage: number of the
     smooth objective that led there; first: of the objective itself at the start, NaN if it has none;
-    evaluations: how many; words: how it ended; seconds.
+    evaluations: how many; words: how it ended; seconds. tighter (limits,): by how much the limits were
+    tightened there, over their scales, for the true numbers to keep to them.
     """
 
     start: Array
@@ -68,6 +41,7 @@ class Climbed(Shown):
     evaluations: int
     words: str
     seconds: float
+    tighter: Array = field(default_factory=lambda: np.zeros(0))
 
     @property
     def value(self) -> float:
@@ -75,38 +49,13 @@ class Climbed(Shown):
         return -math.inf if self.found is None else self.found.value
 
 
-MARGIN = 1e-6
-"""Of limits, whose numbers are scaled by their bounds."""
-
 SMOOTHED = 2e-3
-"""By how much the true number may be beyond a limit that was met by a smoothed one."""
+"""By how much the true number may be beyond a limit that was met by a smoothed one, where no end keeps
+to it; the result is then not called converged."""
 
-
-class _Best:
-    """Values by point, and the best one that is inside and meets the limits."""
-
-    def __init__(self, objective: Objective, region: Region, limits: Sequence[Limit] = ()) -> None:
-        self.objective, self._region, self.limits = objective, region, limits
-        self.point: Array | None = None
-        self.value, self.count, self.scale = -math.inf, 0, 1.0
-
-    def __call__(self, point: Array) -> tuple[float, Array]:
-        found = self.objective(np.array(point))
-        self.count += 1
-        if self.count == 1:
-            self.scale = max(abs(found.value), float(np.linalg.norm(found.gradient)), 1e-300)
-        if found.value > self.value and self._region.excess(point) <= ALLOWED and self.meets(point):
-            self.value, self.point = found.value, np.array(point)
-        return -found.value / self.scale, -found.gradient / self.scale
-
-    def meets(self, point: Array) -> bool:
-        """Whether all limits are kept to."""
-        return all(float(limit.excess(point)[0]) <= 0 for limit in self.limits)
-
-    def offer(self, point: Array) -> None:
-        """Take a point into account, if it has a value; the last of a climb, brought inside."""
-        with contextlib.suppress(Unusable):
-            self(point)
+TIGHTENED, FARTHEST = 3, 0.1
+"""How often the last climb is made again, each time with limits tightened by what the true numbers are
+beyond them, and the most that this may be."""
 
 
 def climb(
@@ -121,31 +70,89 @@ def climb(
     """From one start, through smooth objectives in turn, to where `truth` is largest of their ends.
 
     tell: called with the number of objectives that are done. limits: for each of them, and at last for
-    the truth; an end that misses those is none.
+    the truth; an end that misses those is none. Where the last end misses them by what smoothing does,
+    it is climbed again with tighter ones.
     """
-    begin, count, words, point = time.perf_counter(), 0, "", start
-    ends: list[Array] = []
-    for stage, objective in enumerate(objectives):
-        best = _Best(objective, region, limits[stage] if limits else ())
-        words = _climbed(best, region, point, how)
-        count += best.count
-        point = start if best.point is None else region.towards_centre(best.point)
-        ends.append(point)
-        tell(stage + 1)
-    first, last = _usable(truth, start), limits[-1] if limits else ()
-    values = [_usable(truth, end) if _allowed(last, end) else None for end in ends]
-    found = [(value.value, place) for place, value in enumerate(values) if value is not None]
-    place = max(found)[1] if found else len(ends) - 1
+    begin, last = time.perf_counter(), limits[-1] if limits else ()
+    ends = list(_ends(objectives, region, start, how, tell, limits))
+    first, (end, found) = _usable(truth, start), _highest(truth, ends, last)
     return Climbed(
         start=start,
-        point=ends[place],
-        found=values[place],
-        stage=place,
+        point=end.point,
+        found=found,
+        stage=end.stage,
         first=math.nan if first is None else first.value,
-        evaluations=count + len(ends) + 1,
-        words=words,
+        evaluations=sum(one.evaluations for one in ends) + len(ends) + 1,
+        words=ends[-1].words,
         seconds=time.perf_counter() - begin,
+        tighter=end.tighter,
     )
+
+
+class _End(NamedTuple):
+    """Where a stage ended, after how many evaluations, and how; tighter (limits,): by how much its
+    limits were tightened."""
+
+    point: Array
+    stage: int
+    tighter: Array
+    evaluations: int
+    words: str
+
+
+def _ends(
+    objectives: Sequence[Objective],
+    region: Region,
+    start: Array,
+    how: Ascent,
+    tell: Callable[[int], None],
+    limits: Sequence[Sequence[Limit]],
+) -> Iterator[_End]:
+    """Of all stages, and of the last one again while the true numbers are beyond their limits."""
+    last = limits[-1] if limits else ()
+    point, tighter = start, np.zeros(len(last))
+    for turn in range(len(objectives) + TIGHTENED):
+        stage = min(turn, len(objectives) - 1)
+        if turn > stage:
+            more = _beyond(last, point)
+            if not more.any():
+                return
+            tighter = tighter + more
+        own = limits[stage] if limits else ()
+        own = [one.tighter(by) for one, by in zip(own, tighter, strict=True)]
+        best = Best(objectives[stage], region, own)
+        words = climbed(best, region, point, how)
+        point = start if best.point is None else region.towards_centre(best.point)
+        yield _End(point, stage, tighter, best.count, words)
+        tell(stage + 1)
+
+
+def _beyond(limits: Sequence[Limit], point: Array) -> Array:
+    """By how much to tighten the limits at a point whose true numbers are beyond them (limits,).
+
+    Zeros where they are not, or farther than smoothing accounts for.
+    """
+    try:
+        found = np.array([float(limit.excess(point)[0]) for limit in limits])
+    except Unusable:
+        return np.zeros(len(limits))
+    far = found.max(initial=0.0) > FARTHEST
+    return np.where(found > 0, found + MARGIN, 0.0) * (not far)
+
+
+def _highest(
+    truth: Objective, ends: Sequence[_End], limits: Sequence[Limit]
+) -> tuple[_End, Evaluation | None]:
+    """The end at which the truth is largest, of those that keep to all limits if there are any."""
+    for leeway in (0.0, SMOOTHED):
+        values = [
+            _usable(truth, end.point) if _allowed(limits, end.point, leeway) else None for end in ends
+        ]
+        found = [(value.value, place) for place, value in enumerate(values) if value is not None]
+        if found:
+            place = max(found)[1]
+            return ends[place], values[place]
+    return ends[-1], None
 
 
 def _usable(objective: Objective, point: Array) -> Evaluation | None:
@@ -155,130 +162,9 @@ def _usable(objective: Objective, point: Array) -> Evaluation | None:
         return None
 
 
-def _allowed(limits: Sequence[Limit], point: Array) -> bool:
-    """Whether the true numbers are within their limits, but for what smoothing does."""
+def _allowed(limits: Sequence[Limit], point: Array, leeway: float) -> bool:
+    """Whether the true numbers are within their limits, but for a leeway."""
     try:
-        return all(float(limit.excess(point)[0]) <= SMOOTHED for limit in limits)
+        return all(float(limit.excess(point)[0]) <= leeway for limit in limits)
     except Unusable:
         return False
-
-
-def _climbed(best: _Best, region: Region, start: Array, how: Ascent) -> str:
-    """Climb, leaving all points in `best`; how it ended, in words."""
-    try:
-        if best.limits and not best.meets(start):
-            start = _restored(best, region, start, how)
-            if not best.meets(start):
-                return "no scene near it keeps to the constraints"
-        last, words = _minimised(best, region, start, how)
-        best.offer(region.towards_centre(last))
-    except Unusable as outside:
-        return f"left the reach: {outside}"
-    return words
-
-
-def _restored(best: _Best, region: Region, start: Array, how: Ascent) -> Array:
-    """A point at which the squares of what is beyond the limits are least, from a start."""
-
-    def missed(point: Array) -> tuple[float, Array]:
-        found = [
-            (float(one.excess(point)[0]) + 2 * MARGIN, one.slopes(point)[0]) for one in best.limits
-        ]
-        return (
-            sum(max(over, 0.0) ** 2 for over, _ in found) / size,
-            sum((2 * max(over, 0.0) * slopes for over, slopes in found), np.zeros(point.size)) / size,
-        )
-
-    bounds = Bounds(region.low, region.high, keep_feasible=True)
-    rules = [rule for one in region.constraints for rule in _rules(one, "SLSQP", 0.0)]
-    size = 1.0
-    try:
-        size = missed(start)[0] or 1.0  # SLSQP gives up at gradients of 10^4
-        options = {"maxiter": how.iterations, "ftol": min(MARGIN**2 / size, MARGIN)}
-        ended = minimize(
-            *(missed, start),
-            method="SLSQP",
-            jac=True,
-            bounds=bounds,
-            constraints=rules,
-            options=options,
-        )
-    except Unusable:
-        return start
-    best.count += ended.nfev
-    return region.towards_centre(np.asarray(ended.x))
-
-
-def _minimised(best: _Best, region: Region, start: Array, how: Ascent) -> tuple[Array, str]:
-    """Run the optimiser, which leaves its points in `best`; the last one, and how it ended, in
-    words."""
-    low, high, more = region.low, region.high, 0
-    function: Callable[[Array], tuple[float, Array]] = best
-    parts: list[tuple[Any, float]] = [(one, 0.0) for one in region.constraints]
-    parts += [(limit, MARGIN) for limit in best.limits]
-    if isinstance(best.objective, Worst):
-        first, more = best(start)[0], 1
-        start = np.append(start, -first)
-        low, high = np.append(low, -np.inf), np.append(high, np.inf)
-        parts = [(Beside(one), margin) for one, margin in parts]
-        parts += [(one, 0.0) for one in best.objective.lifted(best.scale)]
-        function = _Raised(best)
-    options: dict[str, Any] = {"maxiter": how.iterations}
-    if how.method == "SLSQP":
-        options["ftol"] = how.change
-    else:
-        options |= {"gtol": how.change, "xtol": how.change}
-    rules = [rule for one, margin in parts for rule in _rules(one, how.method, margin)]
-    bounds = Bounds(low, high, keep_feasible=True)
-    with warnings.catch_warnings():
-        warnings.filterwarnings("ignore", "delta_grad == 0.0", UserWarning)  # at bounds nothing changes
-        ended = minimize(
-            *(function, start),
-            method=how.method,
-            jac=True,
-            bounds=bounds,
-            constraints=rules,
-            options=options,
-        )
-    return np.asarray(ended.x)[: start.size - more], _words(how, ended)
-
-
-class _Raised:
-    """Minus the last unknown, after `best` has seen the others."""
-
-    def __init__(self, best: _Best) -> None:
-        self._best = best
-
-    def __call__(self, point: Array) -> tuple[float, Array]:
-        self._best(point[:-1])
-        return -float(point[-1]), -np.eye(point.size)[-1]
-
-
-def _rules(one: Any, method: str, margin: float) -> list[Any]:
-    """A constraint as the optimisers of scipy take it, met with a margin."""
-    equal = getattr(one, "equal", False)
-    if method != "SLSQP":
-        return [NonlinearConstraint(one.excess, -np.inf, -margin, jac=one.slopes)]
-    if not equal:
-        return [
-            {
-                "type": "ineq",
-                "fun": lambda p: -one.excess(p) - margin,
-                "jac": lambda p: -one.slopes(p),
-            }
-        ]
-    return [  # rows twice, with both signs
-        {
-            "type": "eq",
-            "fun": lambda p: np.array_split(one.excess(p), 2)[0],
-            "jac": lambda p: np.array_split(one.slopes(p), 2)[0],
-        }
-    ]
-
-
-def _words(how: Ascent, ended: Any) -> str:
-    if ended.nit >= how.iterations:
-        return f"stopped after {how.iterations} iterations"
-    if ended.success or ended.status in (1, 2):
-        return "converged"
-    return f"stopped: {str(ended.message).rstrip('.').lower()}"

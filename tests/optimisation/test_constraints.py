@@ -1,7 +1,9 @@
 """Constraints and robust optima: against bisection of closed forms, published formulas and refusals."""
 
 import math
+from dataclasses import replace
 
+import numpy as np
 import pytest
 from scipy.optimize import brentq, minimize_scalar
 
@@ -9,8 +11,18 @@ from fem_check import Bound, Robust, Scene, optimise
 from fem_check.optimisation.finding import NothingFound
 from fem_check.optimisation.kept import KeptError
 from fem_check.optimisation.options.quantities import QUANTITIES
-from linear_theory import Contact, Sheet, SineWave, Tanh, crawl_speed, line_balance
-from linear_theory.optimisation.problem import Unusable
+from linear_theory import (
+    Contact,
+    Sheet,
+    SineWave,
+    Tanh,
+    TravellingWave,
+    crawl_speed,
+    line_balance,
+)
+from linear_theory.optimisation.climbing import Ascent, Best, restored
+from linear_theory.optimisation.limits import Limit
+from linear_theory.optimisation.problem import Evaluation, Region, Unusable
 
 STRIP = Scene(Sheet(width=0.1), SineWave(), alpha=0.1)
 ASKED = {"level": "strip", "check": False, "starts": 1}
@@ -24,6 +36,38 @@ def on_line(alpha, **contact):
 
 def viscous(alpha):
     return on_line(alpha, friction="viscous").mean
+
+
+def test_a_bound_on_a_smoothed_number_holds_for_the_number_itself():
+    """Dry friction is smoothed in the search: the bound is tightened by what that changes."""
+    pulse = TravellingWave(cosine=[1.0, 0.2], sine=[0.0, 0.0])
+    strip = Scene(Sheet(width=0.1), pulse, alpha=0.2)
+    bound = {"speed": Bound(at_least=0.01)}
+    found = optimise(
+        strip, {"growth.alpha": (0.01, 0.3)}, "speed towards -y", constraints=bound, **ASKED
+    )
+
+    def speed(alpha):
+        return line_balance(pulse, alpha, body="strip", growth_law="exp", rtol=1e-6).mean
+
+    alpha = brentq(lambda a: speed(a) - 0.01, 0.1, 0.2)
+    assert found.values["growth.alpha"] == pytest.approx(alpha, rel=1e-4)
+    assert speed(found.scene.alpha) >= 0.01
+    assert found.converged
+    assert found.limits[0].beyond == 0
+    assert "no scene" not in found.starts[0].words
+    missed = replace(found, limits=(replace(found.limits[0], beyond=3e-4),))
+    assert not missed.converged
+    assert "NOT MET   speed >= 0.01 is missed by 0.03 %" in str(missed)
+
+
+def test_the_way_back_to_a_limit_that_is_missed_by_little():
+    """The square of what is beyond a limit, over itself, is steep there."""
+    limit = Limit("x", lambda p: Evaluation(p[0], 0.0, np.ones(1), np.zeros(1)), 0.5, 1.0, 0.1)
+    region = Region(np.zeros(1), np.ones(1), np.full(1, 0.5), np.ones(1))
+    for beyond in (1e-8, 1e-6, 1e-4, 1e-2, 0.3):
+        best = Best(limit.of, region, [limit])
+        assert limit.excess(restored(best, region, np.array([0.5 + beyond]), Ascent()))[0] <= 0
 
 
 def test_a_bound_on_the_power_holds_where_bisection_says():

@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 from scipy.optimize import minimize_scalar
 
-from fem_check import Harmonics, Scene, optimise
+import fem_check.optimisation.kept as kept_answers
+from fem_check import Bound, Harmonics, Scene, optimise
 from fem_check.choice.settings import RunSettings
 from fem_check.optimisation.finding import NothingFound
 from fem_check.optimisation.kept import Kept, KeptError
@@ -195,7 +196,59 @@ def test_a_search_that_is_stopped_goes_on(tmp_path):
         optimise(scene, over, **asked, file=file)
 
 
-GOOD = {"key": "a", "value": 0.1, "error": 0.01, "gradient": [1.0], "doubt": [0.0], "kink": ""}
+def test_an_answer_whose_digits_were_damaged_is_refused(tmp_path):
+    path = tmp_path / "a.jsonl"
+    with Kept(path, {"of": 1}) as kept:
+        kept.value("value", np.array([0.5]), lambda: Estimate(0.25, 1e-3))
+    with Kept(path, {"of": 1}) as kept:
+        assert kept.value("value", np.array([0.5]), lambda: None).value == 0.25
+    path.write_text(path.read_text().replace("0.25", "9.25"))
+    with pytest.raises(KeptError, match="line 2: is no answer"), Kept(path, {"of": 1}):
+        pass
+
+
+def test_answers_of_one_function_are_not_given_for_another(tmp_path):
+    """Functions are known by what they compute, as an objective and as a number with a bound."""
+    scene, over = Scene(Sheet(width=0.1), SineWave(), alpha=0.1), {"growth.alpha": (0.05, 0.2)}
+    asked = {"level": "strip", "starts": 1, "check": False, "how": Ascent(iterations=2)}
+    for place, given in enumerate(
+        (
+            lambda factor: {"objective": lambda speed: factor * speed.mean},
+            lambda factor: {"constraints": {"p": Bound(at_most=9, of=lambda s: factor * s.mean)}},
+        )
+    ):
+        kept = {"file": tmp_path / f"{place}.jsonl", **asked}
+        first = optimise(scene, over, **kept, **given(1.0))
+        again = optimise(scene, over, **kept, **given(1.0))
+        assert (again.answers, again.value) == (0, first.value)
+        with pytest.raises(KeptError, match="holds answers to another question"):
+            optimise(scene, over, **kept, **given(-1.0))
+    with pytest.raises(ValueError, match="objective"):
+        optimise(scene, over, lambda speed: open("x"), **kept)  # noqa: SIM115
+
+
+def test_opening_a_file_of_answers_never_shortens_it(tmp_path, monkeypatch):
+    """A kill, or a full disk, while it is opened leaves all whole lines."""
+    file, begun = tmp_path / "a.jsonl", '{"question": 1}\n{"key": "a", "value": 1.0, "error": 0.0}\n'
+    file.write_text(begun + '{"key": "cut')
+
+    def full(*args, **keywords):
+        opened = open(*args, **keywords)  # noqa: SIM115
+
+        def write(text):
+            raise OSError(28, "No space left on device")
+
+        opened.write = write
+        return opened
+
+    with monkeypatch.context() as patch:
+        patch.setattr(kept_answers, "open", full, raising=False)
+        with Kept(file, 1) as answers:
+            assert answers.count == 1
+    assert file.read_text() == begun
+
+
+GOOD = {"key": "a 0x1.0p+0", "value": 0.1, "error": 0.01, "gradient": [1.0], "doubt": [0.0], "kink": ""}
 
 
 @pytest.mark.parametrize(
@@ -207,6 +260,9 @@ GOOD = {"key": "a", "value": 0.1, "error": 0.01, "gradient": [1.0], "doubt": [0.
         json.dumps({**GOOD, "value": None}).encode(),
         json.dumps({**GOOD, "gradient": "x"}).encode(),
         json.dumps({**GOOD, "key": 3}).encode(),
+        json.dumps({**GOOD, "error": -0.01}).encode(),
+        json.dumps({**GOOD, "gradient": [7.0, 1.0], "doubt": [0.0, 0.0]}).encode(),
+        json.dumps({**GOOD, "crc32": 1}).encode(),
         json.dumps({"key": "a", "unusable": 1}).encode(),
         b"\xff\xfe",
         b"",

@@ -61,6 +61,13 @@ def test_the_best_scene_is_not_written_over_the_question(place, capsys):
     assert status == 2
     assert "is the optimisation file itself" in err
     assert (place / "one.toml").read_text() == FILE
+    begin, end = FILE.index("[scene"), FILE.index("[over]")
+    scene = FILE[begin:end].replace("[scene.", "[")
+    (place / "sheet.toml").write_text(scene)
+    (place / "named.toml").write_text('scene = "sheet.toml"\n' + FILE[end:])
+    status, _, err = run(capsys, "optimise", "named.toml", "--out", "sheet.toml")
+    assert (status, (place / "sheet.toml").read_text()) == (2, scene)
+    assert "--out sheet.toml: is the scene file of named.toml; give another name" in err
 
 
 CHECK = "check = false\n"
@@ -95,6 +102,8 @@ def robust(words):
         (CHECK, bounds("power = { at_most = '1 kg' }"), "one.toml:17: [constraints] power: at_most"),
         (CHECK, bounds("powr = { at_most = 1 }"), "one.toml:17: [constraints] 'powr': must be one of"),
         (CHECK, bounds("power = { most = 1 }"), "one.toml:17: [constraints] power: most: is not a key"),
+        ("{ low = 0.05, high = 0.1 }", "1", "growth.alpha = 1: must be { low = ..., high = ... }"),
+        (CHECK, bounds("m = { exactly = 1, of = { growth.alpha = 'x' } }"), "must be a single real"),
         (CHECK, bounds("power = 3"), "one.toml:17: [constraints] power"),
         (CHECK, robust("friction.law = ['dry', 'dyr']"), "[robust] regimes: [friction] law = 'dyr'"),
         (CHECK, robust("friction.law = ['dry']"), "[robust] regimes: 1: must be from 2 to 32"),

@@ -53,6 +53,8 @@ def _optimised(path: Path, file: Path, out: Path | None, movie: Path | None, aga
     if movie is not None:
         _check_film(movie)
     asked = read(path)
+    if out is not None and asked.scene_file is not None and out.resolve() == asked.scene_file.resolve():
+        raise ValueError(f"--out {out}: is the scene file of {path}; give another name")
     try:
         with Lines() as lines:
             found = asked.run(file, lines.report, again)

@@ -104,6 +104,12 @@ def unknowns_of(
     return found
 
 
+def _named(axis: Any, value: Any) -> str:
+    """A field with its value, in twelve digits: a tenth times three is 0.3."""
+    said = f"{value:.12g} {axis.unit or ''}".rstrip() if isinstance(value, float) else axis.said(value)
+    return f"{axis.path} = {said}"
+
+
 def _by_fields(
     robust: Robust, scene: Scene, over: Mapping[str, Any], base: Variation | None
 ) -> list[tuple[str, Unknowns]]:
@@ -121,6 +127,6 @@ def _by_fields(
         made, mistakes = base.scene_of(fixed)
         if made is None:
             raise ValueError(f"regimes: {'; '.join(words for _, words in mistakes.found)}")
-        name = ", ".join(f"{path} = {value}" for path, value in fixed.items())
+        name = ", ".join(_named(axis, v) for axis, v in zip(axes, values, strict=True))
         found.append((name, Unknowns(made.scene, over, base, fixed)))
     return found
