@@ -8,6 +8,7 @@
 #   make paper     the write-up as a PDF, paper/out/sheetcrawl.pdf, with its figures
 #   make docs      the documentation as one site, build/docs/index.html: a minute
 #   make cost      error against time of every level, the price of each effect: four minutes
+#   make peers   other codes for soft bodies on two scenes, in an environment of their own: ten minutes
 #   make bench-threads  times beside a busy core against one BLAS thread
 #   make bench-shell  time and memory of the sheet that bends
 #   make tables    every table that the figures, the paper and predict() read: an hour
@@ -34,6 +35,7 @@ PIP_TOOLS := pip-tools==7.6.2
 # pip-tools does not know the lowest versions that are allowed.
 UV := uv==0.13.9
 OLDEST_VENV := build/oldest-venv
+PEERS_VENV := build/peers-venv
 
 # One BLAS thread per process: test workers do not fight for the cores, and sums are taken in
 # the same order on every run, so figures keep their bytes.
@@ -44,7 +46,7 @@ export MKL_NUM_THREADS := 1
 FIGURE_OUT = $(if $(OUT),--out "$(OUT)")
 FIGURE_RTOL = $(if $(RTOL),--rtol $(RTOL))
 
-.PHONY: figures test test-browser test-dist test-oldest dist paper docs cost bench-shell bench-threads gaits movies tables lock clean distclean
+.PHONY: figures test test-browser test-dist test-oldest dist paper docs cost peers bench-shell bench-threads gaits movies tables lock clean distclean
 .DEFAULT_GOAL := figures
 .DELETE_ON_ERROR:
 
@@ -54,6 +56,7 @@ figures: $(STAMP)
 	$(RUN) -m figures.draw.turning $(FIGURE_OUT) $(FIGURE_RTOL)
 	$(RUN) -m figures.draw.reach $(FIGURE_OUT)
 	$(RUN) -m figures.draw.cost $(FIGURE_OUT)
+	$(RUN) -m figures.draw.peers $(FIGURE_OUT)
 	$(RUN) -m figures.draw.regimes $(FIGURE_OUT)
 	$(RUN) -m figures.draw.directional $(FIGURE_OUT)
 	$(RUN) -m figures.draw.energy $(FIGURE_OUT)
@@ -92,6 +95,11 @@ test-oldest: $(OLDEST_VENV)/.installed
 cost: $(STAMP)
 	$(RUN) -m figures.measure.cost
 	$(RUN) -m figures.draw.cost
+
+peers: $(STAMP) $(PEERS_VENV)/.installed
+	$(RUN) -m figures.measure.peers
+	$(RUN) -m figures.draw.peers $(FIGURE_OUT)
+	$(RUN) -m figures.draw.peers.page
 
 bench-shell: $(STAMP)
 	$(RUN) -m figures.measure.bench.shell
@@ -178,6 +186,11 @@ lock:
 	$(LOCK_VENV)/bin/uv pip compile --quiet --resolution lowest-direct --python-version 3.11 \
 	    --extra test --extra paper --extra docs --no-annotate --no-emit-index-url \
 	    --custom-compile-command "make lock" --output-file requirements-oldest.lock pyproject.toml
+
+$(PEERS_VENV)/.installed: requirements-peers.lock
+	test -x $(PEERS_VENV)/bin/pip || $(PYTHON) -m venv $(PEERS_VENV)
+	$(PEERS_VENV)/bin/python -m pip install --disable-pip-version-check -r requirements-peers.lock
+	@touch $@
 
 $(OLDEST_VENV)/.installed: requirements-oldest.lock pyproject.toml
 	@$(PYTHON) -c 'import sys; sys.exit("make test-oldest needs Python 3.11: make test-oldest PYTHON=python3.11" if sys.version_info[:2] != (3, 11) else 0)'

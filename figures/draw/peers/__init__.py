@@ -1,0 +1,1 @@
+"""Codes for soft bodies side by side: the figure, the page."""
