@@ -1,4 +1,4 @@
-"""The deformation of a sheet to second order in polynomials of fixed degrees, and what weights make of it."""
+"""The deformation to second order in polynomials of fixed degrees, and what weights make of it."""
 
 from typing import NamedTuple
 

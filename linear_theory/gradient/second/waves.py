@@ -135,7 +135,10 @@ class Waves:
         return np.stack(found, 2)
 
     def of_means(self, rules: Sequence[Rules], changes: Sequence[Change]) -> list[Array]:
-        """Changes of the odd part of what weights make of v_2 and v_b, (1 or 2, k, rules, changes) each."""
+        """Changes of the odd part of what weights make of v_2 and v_b, of each rule.
+
+        (1 or 2, k, rules, changes) each.
+        """
         phases = self._phases
         slopes = np.stack([self.changes(change, phases) for change in changes])
         here = self.amplitudes(self.series, phases)
