@@ -19,7 +19,7 @@ from figures.common.folders import DATA
 from figures.common.records import Table
 from figures.measure.gradient.scenes import LAWS, names_of, scene_of
 from linear_theory import Scene, TravellingWave, crawl_speed
-from linear_theory.gradient import Parameter, SpeedGradient, parameters, speed_gradient
+from linear_theory.gradient import Parameter, SpeedGradient, speed_gradient
 from linear_theory.speed.result import CrawlSpeed
 
 SEED = 20261127
@@ -84,8 +84,8 @@ TABLE = Table(
     DATA / "gradients_other.csv",
     Row,
     "python -m figures.measure.gradient.others",
-    "V in L/T; share: of the difference to differences of speeds in the stated error of the derivative, "
-    "or in theirs if that is larger; the largest of all parameters of a scene",
+    "V in L/T; share: of the difference to differences of speeds in the stated error of the "
+    "derivative, or in theirs if that is larger; the largest of all parameters of a scene",
     DIGITS,
 )
 
@@ -98,7 +98,7 @@ class Key(NamedTuple):
 
 
 class Level(NamedTuple):
-    """How a gradient and a speed that is more accurate are found, and to what tolerance of the speed."""
+    """How a gradient and a more accurate speed are found; rtol: of the speed of the gradient."""
 
     rtol: float
     gradient: Callable[[Scene, Sequence[str]], SpeedGradient]
