@@ -1,5 +1,4 @@
-"""Gradients by an adjoint: of small-strain theory, of second order for sheets that bend, and of the
-cycle of shapes.
+"""Gradients by an adjoint: of small-strain theory, of second order, and of the cycle of shapes.
 
 A gradient there costs about as much as the speed, for any number of unknowns. It is asked for by the
 names of the unknowns, of fields as in scene files, of harmonics "wave.cosine.0" for cos phi and so on.

@@ -115,7 +115,7 @@ class Frozen:
         of = SecondDerivatives(
             scene, Shapes.of(scene, terms), course, over, directions, quantities, COARSE
         )
-        values, _, _ = of.means()
+        values = of.means().values
         orders, alpha = self.orders(scene), scene.alpha
         explicit = orders @ [1.0, 2 * alpha]
         by_alpha = np.array([d.alpha for d in directions])

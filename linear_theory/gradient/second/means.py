@@ -16,6 +16,7 @@ import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -38,13 +39,39 @@ Array = NDArray[np.float64]
 STEP = 1e-4
 """Of a parameter, relative to it, of differences of the deformation, whose errors are of its square."""
 
+SMALL = 1e-6
+"""a of the weights, where friction is smooth."""
+
+SMALL_DRY = 2e-2, 1e-2
+"""The same of dry friction, where points at rest move with a, which cells must resolve: what is of the
+square of a counts, and is extrapolated."""
+
+ROUGH = 0.03
+"""Change between these, of a derivative or of all in the mean, from which on V is not smooth."""
+
+ROUGH_SAFETY = 3.0
+"""Of that change, for the error of such a derivative."""
+
 FIELD_SAFETY = 3.0
 """Of the errors of the deformation, for those of its derivatives."""
 
 
+class Means(NamedTuple):
+    """Derivatives of means and their errors, (k, 2, parameters) each; flat: whether friction does not
+    resist some motion at some time; rough: whether V is not smooth."""
+
+    values: Array
+    errors: Array
+    flat: bool
+    rough: bool = False
+
+
 @dataclass(frozen=True)
 class SecondDerivatives:
-    """Of quantities along directions; shapes: of the scene; over: the parameters that these are of."""
+    """Of quantities along directions.
+
+    shapes: of the scene; over: the parameters that these are of; size: a of the weights.
+    """
 
     scene: Scene
     shapes: Shapes
@@ -53,9 +80,21 @@ class SecondDerivatives:
     directions: Sequence[Direction]
     quantities: Sequence[Quantity]
     rtol: float
+    size: float = SMALL
 
-    def means(self) -> tuple[Array, Array, bool]:
-        """Of q_0 and q_1: derivatives and errors, (k, 2, parameters) each; whether V has a kink."""
+    def means(self) -> Means:
+        """Of q_0 and q_1."""
+        if self.scene.contact.friction.width > 0:
+            return self._means()
+        far, near = (replace(self, size=size)._means() for size in SMALL_DRY)
+        values, changes = (4 * near.values - far.values) / 3, abs(near.values - far.values)
+        usual = np.sqrt((values**2).mean(-1, keepdims=True))
+        rough = changes > ROUGH * np.maximum(abs(values), usual)
+        errors = (4 * near.errors + far.errors) / 3 + np.where(rough, ROUGH_SAFETY, 1.0) * changes
+        return Means(values, errors, far.flat, bool(rough.any()))
+
+    def _means(self) -> Means:
+        """The same with weights of that size."""
         weights, differences = self._weights
         shape = len(self.quantities), 2, len(self.over)
         values, errors = np.zeros((2, *shape))
@@ -65,7 +104,7 @@ class SecondDerivatives:
         more, more_errors = self._by_law(weights, differences)
         values, errors = values + more, errors + more_errors
         self._drop_leading(values, errors)
-        return values, errors, weights.flat
+        return Means(values, errors, weights.flat)
 
     def _drop_leading(self, values: Array, errors: Array) -> None:
         """q_0 keeps no mean along directions that keep c(t + T/2) = -c(t)."""
@@ -117,7 +156,7 @@ class SecondDerivatives:
             crawl = replace(crawl, waves=math.ceil(waves / 2))
         law = self.scene.contact.friction.per(self.scene.alpha)
         laws = law_changes(self.directions, self.scene.alpha, mirrored=True)
-        asked = Asked(law, self.quantities, laws, self._counts)
+        asked = Asked(law, self.quantities, laws, self._counts, self.size)
         times, motion = course.grid.times, course.motion
         whole = time_weights(crawl, times, motion, asked)
         some = np.unique((np.array(CHECKED) * times.size).astype(int))

@@ -83,7 +83,7 @@ def _found(
     speed, shapes, course = _solved(scene, rtol)
     start, alpha = time.perf_counter(), scene.alpha
     of = SecondDerivatives(scene, shapes, course, chosen, directions, QUANTITIES[:count], rtol)
-    derivatives, errors, flat = of.means()
+    derivatives, errors, flat, rough = of.means()
     own, own_errors = (part[:, 1] for part in course.means())
     (work, work_errors), power = course.works(), speed.power
     both = np.stack([own, work]), np.stack([own_errors, work_errors])
@@ -101,7 +101,7 @@ def _found(
     if speed.sticks:  # V is not smooth in alpha then
         rows = np.full_like(rows[0], np.nan), np.full_like(rows[1], np.inf)
     seconds = time.perf_counter() - start
-    return _Found(speed, *rows, kinks_of(speed.sticks, flat), seconds)
+    return _Found(speed, *rows, kinks_of(speed.sticks, flat, rough), seconds)
 
 
 def _solved(scene: Scene, rtol: float) -> tuple[CrawlSpeed, Shapes, Course]:

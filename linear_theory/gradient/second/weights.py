@@ -30,9 +30,6 @@ from linear_theory.speed.expansion import Coefficients
 
 Array = NDArray[np.float64]
 
-SMALL, SMALL_DRY = 1e-6, 2e-2
-"""a; the latter for dry friction, where points at rest move with a, which cells must resolve."""
-
 NEWTON_STEPS = 3
 """From q_0 + a q_1."""
 
@@ -107,12 +104,13 @@ def orders(values: Array, size: float) -> Array:
 
 
 class Asked(NamedTuple):
-    """law: for speeds per unit alpha; counts: of the moments, across and along."""
+    """law: for speeds per unit alpha; counts: of the moments, across and along; size: a."""
 
     law: FrictionLaw
     quantities: Sequence[Quantity]
     laws: Sequence[LawChange]
     counts: tuple[int, int]
+    size: float
 
 
 def time_weights(crawl: Coefficients, times: Array, motion: RigidMotion, asked: Asked) -> TimeWeights:
@@ -138,7 +136,8 @@ def _batch(crawl: Coefficients, times: Array, near: tuple[Array, Array], asked: 
     """At a few times."""
     here, law = crawl._motion(times), asked.law
     rate, steps = crawl._rate(times, here), crawl.resolution
-    size, found = SMALL if law.width > 0 else SMALL_DRY, []
+    size: float = asked.size
+    found = []
     assert here.second is not None
     for a in (size, -size):
         moving = replace(here, velocity=here.velocity + a * here.second, second=None)
