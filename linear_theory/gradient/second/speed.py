@@ -104,11 +104,8 @@ def _found(
     return _Found(speed, *rows, kinks_of(speed.sticks, flat, rough), seconds)
 
 
-def _solved(scene: Scene, rtol: float) -> tuple[CrawlSpeed, Shapes, Course]:
-    """The speed, and the deformation and the motion that it is of.
-
-    Raises ValueError for what has no gradient.
-    """
+def check_second(scene: Scene) -> None:
+    """Raise ValueError for a scene whose speed to second order has no gradient."""
     law = scene.contact.friction
     if law.on_lower_face:
         raise ValueError(
@@ -120,6 +117,11 @@ def _solved(scene: Scene, rtol: float) -> tuple[CrawlSpeed, Shapes, Course]:
             "order = 2: the sheet must not turn, nor its friction have a map: there is no gradient"
             + (", but of order = 1" if scene.planar else "")
         )
+
+
+def _solved(scene: Scene, rtol: float) -> tuple[CrawlSpeed, Shapes, Course]:
+    """The speed, and the deformation and the motion that it is of; raises ValueError as below."""
+    check_second(scene)
     motions: list[tuple[Shapes, Course]] = []
 
     def solve(tolerance: Tolerance) -> CrawlSpeed:
