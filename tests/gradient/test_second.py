@@ -51,10 +51,10 @@ def test_waves_that_break_the_mirror_symmetry_too(order):
         return FieldWave(value, 1.0) if s else COSINES
 
     family = WaveFamily("s", 0.0, make)
-    found = speed_gradient(SCENE, [family], order=order, rtol=3e-3)
+    found = speed_gradient(SCENE, [family], order=order, rtol=1e-3)
 
     def speed(s):
-        return crawl_speed(SCENE.but(wave=make(s)), rtol=3e-3, order=order).mean
+        return crawl_speed(SCENE.but(wave=make(s)), rtol=1e-3, order=order).mean
 
     want = (speed(0.02) - speed(-0.02)) / 0.04
     assert found.values[0] == pytest.approx(want, abs=found.errors[0] + 0.02 * abs(want))

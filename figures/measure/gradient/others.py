@@ -28,8 +28,8 @@ SYMMETRIES = ("none", "cosines", "odd sines")
 """Of the waves, in turn."""
 
 FEW, MANY, OTHERS = 1, 2, 1
-"""Parameters of a scene that break the symmetry of its wave, of dry friction and of cycles and else, and
-others."""
+"""Parameters of a scene: those that break the symmetry of its wave, few of dry friction and of cycles
+and many of others; and those that do not."""
 
 LOOSE = {"viscous": 1e-3, "tanh": 1e-3, "directional": 3e-3, "coulomb": 1e-2}
 """Relative tolerances of speeds of order 2 whose gradients are checked."""
