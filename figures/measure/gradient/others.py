@@ -27,10 +27,6 @@ SEED = 20261127
 SYMMETRIES = ("none", "cosines", "odd sines")
 """Of the waves, in turn."""
 
-FEW, MANY, OTHERS = 1, 2, 1
-"""Parameters of a scene: those that break the symmetry of its wave, few of dry friction and of cycles
-and many of others; and those that do not."""
-
 LOOSE = {"viscous": 1e-3, "tanh": 1e-3, "directional": 3e-3, "coulomb": 1e-2}
 """Relative tolerances of speeds of order 2 whose gradients are checked."""
 
@@ -132,8 +128,7 @@ def row_of(key: Key) -> Row:
     scene = with_symmetry(scene_of(name, random), symmetry)
     if key.theory == "cycle":
         scene = scene.but(alpha=STABLE * scene.alpha)
-    count = FEW if name == "coulomb" or key.theory == "cycle" else MANY
-    over = chosen(scene, symmetry, count, random)
+    over = chosen(scene, symmetry, counts(key, name), random)
     level = level_of(key.theory, name)
     found = level.gradient(scene, over)
     truths = np.array([truth(scene, one, level.speed) for one in found.parameters])
@@ -177,8 +172,19 @@ def with_symmetry(scene: Scene, symmetry: str) -> Scene:
     return scene.but(wave=TravellingWave(cosine, sine, wave.count, wave.period, mean))
 
 
-def chosen(scene: Scene, symmetry: str, count: int, random: np.random.Generator) -> list[str]:
-    """Parameters, of which a number break the symmetry."""
+def counts(key: Key, law: str) -> tuple[int, int]:
+    """Of parameters that break the symmetry of the wave, and of others: few where speeds are dear."""
+    if key.theory == "cycle":
+        return 1, 1
+    if law == "coulomb":
+        return ((1, 0), (0, 1))[key.number // len(LAWS) % 2]
+    return 2, 1
+
+
+def chosen(
+    scene: Scene, symmetry: str, sizes: tuple[int, int], random: np.random.Generator
+) -> list[str]:
+    """Parameters, those first that break the symmetry; sizes: how many of these, and of others."""
     wave = scene.wave
     assert isinstance(wave, TravellingWave)
     highest = max(wave.cosine.size, 2)
@@ -190,7 +196,7 @@ def chosen(scene: Scene, symmetry: str, count: int, random: np.random.Generator)
         "odd sines": [name for name in harmonics if ".cosine" in name or int(name[-1]) % 2],
     }[symmetry]
     others = [name for name in names if name not in breaking]
-    some = [(breaking, count), (others, OTHERS)]
+    some = zip((breaking, others), sizes, strict=True)
     return [str(name) for names, n in some for name in random.choice(names, n, replace=False)]
 
 
