@@ -136,6 +136,7 @@ tables: $(STAMP)
 	$(RUN) -m figures.draw.optimise.page
 	$(RUN) -m figures.measure.optimise.outlines
 	$(RUN) -m figures.measure.gradient
+	$(RUN) -m figures.measure.gradient.others
 	$(RUN) -m figures.measure.energy.gaits
 	$(RUN) -m figures.measure.energy.errors
 	$(RUN) -m figures.measure.saddle

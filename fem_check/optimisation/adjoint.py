@@ -1,5 +1,4 @@
-"""Gradients by an adjoint: of small-strain theory, of second order for sheets that bend, and of the
-cycle of shapes.
+"""Gradients by an adjoint: of small-strain theory, of second order, and of the cycle of shapes.
 
 A gradient there costs about as much as the speed, for any number of unknowns. It is asked for by the
 names of the unknowns, of fields as in scene files, of harmonics "wave.cosine.0" for cos phi and so on.
@@ -19,7 +18,10 @@ from fem_check.shell.cycle.gradient import cycle_gradient
 from linear_theory.common.errors import SheetcrawlError
 from linear_theory.common.estimate import Estimate
 from linear_theory.gradient import Gradient, cost_gradient, parameters, speed_gradient
+from linear_theory.gradient.second.speed import check_second
 from linear_theory.optimisation.problem import Evaluation, Unusable
+from linear_theory.scene.level import THEORY
+from linear_theory.scene.scene import Scene
 
 Array = NDArray[np.float64]
 
@@ -34,6 +36,9 @@ NUMBERS = (
 """Of a sheet that bends. One that changes with a field other than its own, as the weight of a given
 density does with the thickness, leaves derivatives to differences."""
 
+ASIDE = 0.37
+"""Of the bounds, where the scene must have a gradient, too: unknowns may break symmetries."""
+
 SAME = 1e-9
 """Relative change of a number that is none."""
 
@@ -41,17 +46,19 @@ SAME = 1e-9
 class Way(NamedTuple):
     """How a level is differentiated: gradients of speed and, if any, of cost.
 
-    planar: of sheets in the plane alone (True), of sheets that bend alone (False), or of both (None).
+    check: raises ValueError for a scene that has none.
     """
 
     speed: Callable[..., Gradient]
     cost: Callable[..., Gradient] | None = None
-    planar: bool | None = None
+    check: Callable[[Scene], None] = lambda scene: None
 
 
 WAYS: Mapping[str, Way] = {
-    "first order": Way(speed_gradient, cost_gradient, True),
-    "second order": Way(partial(speed_gradient, order=2), partial(cost_gradient, order=2), False),
+    "first order": Way(speed_gradient, cost_gradient, THEORY.require),
+    "second order": Way(
+        partial(speed_gradient, order=2), partial(cost_gradient, order=2), check_second
+    ),
     "cycle": Way(cycle_gradient),
 }
 """Of the levels that have an adjoint."""
@@ -68,6 +75,10 @@ class Adjoint:
         waves = [] if harmonics is None else [_renamed(name) for name in harmonics.names]
         self._names = [*(field.name for field in unknowns.fields), *waves]
         self._parameters = parameters(self._names)
+        region = unknowns.region
+        aside = region.low + ASIDE * (region.high - region.low)
+        for point in (region.centre, region.towards_centre(aside)):
+            way.check(unknowns.scene_at(point))
         self._check()
 
     @classmethod
@@ -76,7 +87,7 @@ class Adjoint:
     ) -> "Adjoint | None":
         """None where there is no gradient of these unknowns, of this objective, or at this level."""
         way, is_cost = WAYS.get(level), isinstance(objective, CostOfTransport)
-        if way is None or unknowns.scene.alpha == 0 or way.planar not in (None, unknowns.scene.planar):
+        if way is None or unknowns.scene.alpha == 0:
             return None
         if (way.cost if is_cost else objective.slope(unknowns.scene)) is None:
             return None

@@ -24,6 +24,10 @@ FLAT = (
     "at some time friction does not resist a motion of the sheet: V may have a kink, and this is one "
     "of its subgradients"
 )
+ROUGH = (
+    "under dry friction a derivative depends on the step over which it is taken: V may have a kink, "
+    "and this is one of its subgradients"
+)
 
 
 @dataclass(frozen=True)
@@ -95,6 +99,8 @@ class CostGradient(Gradient):
     """
 
 
-def kinks_of(sticks: bool, flat: bool) -> tuple[str, ...]:
-    """Why derivatives are subgradients only: parts at rest, motions that friction does not resist."""
-    return tuple(words for words, there in ((AT_REST, sticks), (FLAT, flat)) if there)
+def kinks_of(sticks: bool, flat: bool, rough: bool = False) -> tuple[str, ...]:
+    """Why derivatives are subgradients only: parts at rest, motions that friction does not resist, V
+    that is not smooth."""
+    both = ((AT_REST, sticks), (FLAT, flat), (ROUGH, rough))
+    return tuple(words for words, there in both if there)

@@ -28,7 +28,6 @@ from linear_theory.common.progress import Report, watched
 from linear_theory.common.threads import one_blas_thread
 from linear_theory.common.tolerance import Tolerance
 from linear_theory.deformation.ritz import ritz_field
-from linear_theory.gradient.bending.speed import bent_cost_gradient, bent_speed_gradient
 from linear_theory.gradient.direction import Direction
 from linear_theory.gradient.means import Derivatives, Means
 from linear_theory.gradient.parameters.names import parameters
@@ -36,10 +35,13 @@ from linear_theory.gradient.parameters.parameter import Parameter
 from linear_theory.gradient.quantity import ACROSS, ALONG, WORK, Quantity
 from linear_theory.gradient.resting import rests
 from linear_theory.gradient.result import CostGradient, SpeedGradient, kinks_of
-from linear_theory.gradient.second import order_gradients
+from linear_theory.gradient.second.speed import (
+    second_cost_gradient,
+    second_speed_gradient,
+)
 from linear_theory.scene.level import PLATE, THEORY
 from linear_theory.scene.scene import Scene
-from linear_theory.speed.crawl import ORDERS, completed, speed_of, theory_speed
+from linear_theory.speed.crawl import ORDERS, completed, speed_of
 from linear_theory.speed.result import CrawlSpeed
 from linear_theory.speed.wave_error import with_wave_error
 from linear_theory.wave.fractional import count_of
@@ -77,9 +79,9 @@ def speed_gradient(
     "friction.heading", "friction.map.mu.0"; of a sheet that bends "growth.curvature_coupling",
     "sheet.thickness" (at fixed weight per area), "gravity.weight" and "ground.stiffness". Other waves
     have parameters by `WaveFamily`. order: of the theory, as for `crawl_speed`; 2 for motions that are
-    mirror symmetric, at the cost of two deformations per parameter (see `gradient.second`); for sheets
-    that bend on their ground, without friction on the lower face, likewise, but for harmonics of a
-    travelling wave, which cost as one (see `gradient.bending`). rtol: of the speed; the errors of the
+    mirror symmetric, of planar sheets and of those that bend on their ground, without friction on the
+    lower face (see `gradient.second`): harmonics of a travelling wave cost as one, each other parameter
+    that changes the deformation costs two deformations. rtol: of the speed; the errors of the
     derivatives follow from it and are estimated each. progress: True prints on stderr, a function is
     called with a `progress.Progress`.
 
@@ -134,7 +136,7 @@ def cost_gradient(
     """Derivatives of the cost of transport (`CrawlSpeed.cost_of_transport`, over mu), likewise.
 
     With P the power of friction and D the speed in any direction, d(P/D) = dP/D - P dD/D^2. Arguments
-    as for `speed_gradient`; order = 2 for sheets that bend alone. Raises ValueError as it does, and
+    as for `speed_gradient`. Raises ValueError as it does, and
     where the cost is infinite as no distance is resolved.
 
     >>> from linear_theory import Contact, Scene, Sheet, SineWave, Tanh, cost_gradient
@@ -149,10 +151,7 @@ def cost_gradient(
 
 def _second_cost(scene: Scene, over: Any, rtol: float) -> CostGradient:
     """Of order 2."""
-    chosen, directions = _asked(scene, over, 2)
-    if scene.planar:
-        raise ValueError("order = 2: must be 1 for the cost of a sheet that does not bend")
-    return bent_cost_gradient(scene, chosen, directions, rtol)
+    return second_cost_gradient(scene, *_asked(scene, over, 2), rtol)
 
 
 def _cost(scene: Scene, over: Any, rtol: float) -> CostGradient:
@@ -182,24 +181,7 @@ def _cost(scene: Scene, over: Any, rtol: float) -> CostGradient:
 
 def _second(scene: Scene, over: Any, rtol: float) -> SpeedGradient:
     """Of order 2."""
-    chosen, directions = _asked(scene, over, 2)
-    if not scene.planar:
-        return bent_speed_gradient(scene, chosen, directions, rtol)
-    speed = theory_speed(scene, Tolerance(rtol), 2)
-    start, alpha = time.perf_counter(), scene.alpha
-    first, second = speed.first_order, speed.second_order
-    orders = order_gradients(scene, chosen, directions, rtol)
-    powers = np.array([alpha, alpha**2])
-    values, errors = powers @ orders.values, abs(powers) @ orders.errors
-    by_alpha, period = (np.array([getattr(d, n) for d in directions]) for n in ("alpha", "period"))
-    values = values + by_alpha * (first + 2 * alpha * second) - period * speed.mean
-    errors = errors + speed.error * (2 * abs(by_alpha / alpha) + abs(period))
-    if speed.sticks:  # V is not smooth in alpha then
-        values, errors = np.full_like(values, np.nan), np.full_like(errors, np.inf)
-    seconds = time.perf_counter() - start
-    return SpeedGradient(
-        speed, chosen, values, errors, kinks_of(speed.sticks, False), seconds, speed.seconds
-    )
+    return second_speed_gradient(scene, *_asked(scene, over, 2), rtol)
 
 
 def _asked(scene: Any, over: Any, order: int = 1) -> tuple[tuple[Parameter, ...], list[Direction]]:

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from linear_theory.balance.balance import RigidMotion
 from linear_theory.balance.crawl import Crawl, Resolution, first_resolution, joint_resolution
-from linear_theory.balance.period import Period, average
+from linear_theory.balance.period import Period, Resolved, resolved
 from linear_theory.common import validation
 from linear_theory.common.tolerance import Tolerance
 from linear_theory.deformation.second.field import SecondOrderField
@@ -104,9 +104,16 @@ def leading_period(
 
     contact: with a friction law for speeds per unit alpha.
     """
+    return leading_motion(field, contact, rtol, coupling).period()
+
+
+def leading_motion(
+    field: SecondOrderField, contact: Contact, rtol: float, coupling: float = 0.0
+) -> Resolved:
+    """The motion of that period."""
     fine = cells(rtol, field, contact, coupling)
     crawl = Coefficients(field, TINY_ALPHA, tiny(contact), fine, coupling=coupling)
-    return average(crawl, of_second(rtol, field))
+    return resolved(crawl, of_second(rtol, field))
 
 
 def at_coupling(alpha: float, period: Period) -> RigidSpeed:

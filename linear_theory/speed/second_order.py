@@ -30,6 +30,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from linear_theory.balance.course import Course
 from linear_theory.balance.period import Period
 from linear_theory.common import validation
 from linear_theory.common.shown import Shown, with_error
@@ -53,6 +54,7 @@ from linear_theory.speed.expansion import (
     at_coupling,
     field_errors,
     field_tolerance,
+    leading_motion,
     leading_period,
 )
 from linear_theory.speed.plate.quadratic_form import NOTHING, QuadraticForm
@@ -231,8 +233,18 @@ def coefficients(
 def second_order_speed(scene: Scene, tolerance: Tolerance) -> CrawlSpeed:
     """V_1 alpha + V_2 alpha^2 for a planar scene, with terms in beta for one that bends on its ground;
     result and errors as in `crawl_speed`."""
-    if not scene.planar:
-        return plate_speed(scene, tolerance)
+    return plane_motion(scene, tolerance).speed if scene.planar else plate_speed(scene, tolerance)
+
+
+class PlaneMotion(NamedTuple):
+    """The speed of a planar scene, and its course."""
+
+    speed: CrawlSpeed
+    course: Course
+
+
+def plane_motion(scene: Scene, tolerance: Tolerance) -> PlaneMotion:
+    """`second_order_speed` of a planar scene with the motion that it is of."""
     start, alpha, contact = time.perf_counter(), scene.alpha, scene.contact
     tolerance, law = tolerance.of_speed(alpha, scene.unit), contact.friction
     per_alpha = replace(contact, friction=law.per(alpha))
@@ -241,7 +253,8 @@ def second_order_speed(scene: Scene, tolerance: Tolerance) -> CrawlSpeed:
     scene.growth.law.check(alpha, scene.drive.growths(*_points(scene.sheet)))
     # of a law without a direction V_2 alone is resolved, as by `second_order`
     coupling = 0.0 if law.reversible else alpha
-    period = leading_period(field, per_alpha, rtol, coupling)
+    motion = leading_motion(field, per_alpha, rtol, coupling)
+    period = motion.period()
     both = coefficients(field, period, contact, start)
     turning = at_coupling(alpha, period)
     if not coupling:
@@ -257,7 +270,8 @@ def second_order_speed(scene: Scene, tolerance: Tolerance) -> CrawlSpeed:
         seconds=time.perf_counter() - start,
     )
     beyond = too_large_growth(scene.drive, alpha, *_points(scene.sheet))
-    return judged(found, beyond or too_large_term(alpha**2 * both.second, fastest))
+    speed = judged(found, beyond or too_large_term(alpha**2 * both.second, fastest))
+    return PlaneMotion(speed, motion.course)
 
 
 def speed_at(turning: RigidSpeed, found: SecondOrder, period: Period, mirrored: bool) -> CrawlSpeed:

@@ -17,8 +17,9 @@ from linear_theory.deformation.ritz import RitzField
 from linear_theory.deformation.ritz.solver import RitzSolver
 from linear_theory.deformation.second.field import SecondOrderField
 from linear_theory.gradient import parameters
-from linear_theory.gradient.bending.means import BentDerivatives
 from linear_theory.gradient.quantity import ALONG, WORK
+from linear_theory.gradient.second.means import SecondDerivatives
+from linear_theory.gradient.second.shapes import Shapes
 from linear_theory.motion.motion import CellGrid
 from linear_theory.speed.expansion import TINY_ALPHA, tiny
 from linear_theory.speed.plate.terms import PlateCoefficients, PlateTerms, Weights
@@ -111,8 +112,10 @@ class Frozen:
         terms, course = self.solved(scene)
         directions = [one.direction(scene) for one in over]
         quantities = ALONG, WORK
-        of = BentDerivatives(scene, terms, course, over, directions, quantities, COARSE)
-        values, _, _ = of.means()
+        of = SecondDerivatives(
+            scene, Shapes.of(scene, terms), course, over, directions, quantities, COARSE
+        )
+        values = of.means().values
         orders, alpha = self.orders(scene), scene.alpha
         explicit = orders @ [1.0, 2 * alpha]
         by_alpha = np.array([d.alpha for d in directions])

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from figures.measure.gradient import others
 from figures.measure.gradient.scenes import LAWS
 from figures.measure.gradient.table import TABLE, Key, row_of, wanted
 
@@ -48,4 +49,27 @@ def test_a_row_is_what_the_table_says(number):
         assert getattr(new, name) == pytest.approx(getattr(old, name), rel=2e-3), name
     assert new.parameter == old.parameter
     assert new.difference < 1e-5
+    assert new.share <= 1
+
+
+OTHERS = {others.Key(row.theory, row.number): row for row in others.TABLE.read()}
+
+
+def test_no_stated_error_of_order_2_and_of_cycles_is_too_small():
+    """Of waves with symmetries and parameters that break them among them, by differences."""
+    assert set(OTHERS) <= set(others.wanted(30, 20))
+    assert len(OTHERS) >= 45
+    for theory in ("order 2", "cycle"):
+        rows = [row for row in OTHERS.values() if row.theory == theory]
+        assert {row.friction for row in rows} == set(LAWS)
+        assert {row.symmetry for row in rows} == set(others.SYMMETRIES)
+    assert max(row.share for row in OTHERS.values()) <= 1
+
+
+@pytest.mark.parametrize("key", [others.Key("order 2", 0), others.Key("cycle", 4)])
+def test_a_row_of_these_is_what_the_table_says(key):
+    old, new = OTHERS[key], others.row_of(key)
+    assert (new.parameter, new.symmetry, new.friction) == (old.parameter, old.symmetry, old.friction)
+    for name in ("alpha", "gradient", "error", "truth"):
+        assert getattr(new, name) == pytest.approx(getattr(old, name), rel=2e-3), name
     assert new.share <= 1

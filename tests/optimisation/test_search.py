@@ -107,3 +107,39 @@ def test_bounds_that_leave_nothing_are_refused_by_name():
         region(low=1.0, high=-1.0)
     with pytest.raises(ValueError, match="method = 'newton': must be one of 'SLSQP'"):
         Ascent("newton")
+
+
+def hidden_hill(random, unknowns, doubt):
+    """A random concave quadratic whose gradients are off by up to the doubt, anew each time."""
+    root, top = random.normal(size=(unknowns, unknowns)), random.uniform(-0.6, 0.6, unknowns)
+    curved = -root @ root.T - 0.1 * np.eye(unknowns)
+
+    def evaluated(p):
+        off = doubt * random.uniform(-1, 1, unknowns)
+        value = 1 + (p - top) @ curved @ (p - top) / 2
+        return Evaluation(value, 0.0, curved @ (p - top) + off, np.full(unknowns, doubt))
+
+    return evaluated, top
+
+
+def test_no_gain_is_understated_whatever_the_errors_of_the_gradient():
+    random = np.random.default_rng(3)
+    for number in range(300):
+        unknowns = 1 + number % 3
+        hill, top = hidden_hill(random, unknowns, 10 ** random.uniform(-4, 0))
+        point = np.clip(top + random.normal(size=unknowns) * 0.1, -0.9, 0.9)
+        names = "abc"[:unknowns]
+        proof = certificate(hill, region(unknowns=unknowns), point, names)
+        assert proof.gain >= 0.999 * (1 - proof.value), number
+
+
+def test_a_kink_with_a_large_error_of_the_gradient_is_no_maximum():
+    """Of 1 + 0.15 a, whose gradient is told to be -0.7 sign(a), with an error that admits 0.15."""
+
+    def told(p):
+        return Evaluation(1 + 0.15 * p[0], 0.0, -0.7 * np.sign(p), np.full(1, 0.85))
+
+    proof = certificate(told, region(unknowns=1), np.zeros(1), ("a",))
+    assert proof.highest < 0
+    assert proof.gain >= 0.15
+    assert not proof.holds(0.02)

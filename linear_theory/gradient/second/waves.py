@@ -23,10 +23,10 @@ from linear_theory.deformation.ritz import error as ritz_error
 from linear_theory.deformation.ritz.solver import RitzSolver
 from linear_theory.deformation.second.source import Source
 from linear_theory.gradient import elastic
-from linear_theory.gradient.bending.shapes import Shapes, load_polynomials
-from linear_theory.gradient.bending.transpose import BendingFlux, PlaneFlux, QuadraticFlux
-from linear_theory.gradient.bending.weights import TimeWeights
 from linear_theory.gradient.direction import Harmonic
+from linear_theory.gradient.second.shapes import Bent, Shapes, load_polynomials
+from linear_theory.gradient.second.transpose import BendingFlux, PlaneFlux, QuadraticFlux
+from linear_theory.gradient.second.weights import TimeWeights
 from linear_theory.wave.sampled import drive
 from linear_theory.wave.travelling import TravellingWave
 
@@ -58,7 +58,7 @@ class Waves:
     @cached_property
     def series(self) -> TravellingWave:
         """The wave of the scene."""
-        cases = self.shapes.plate.cases
+        cases = self.shapes.plane.first._cases
         assert isinstance(cases, Harmonics)
         return cases.series
 
@@ -71,31 +71,32 @@ class Waves:
     @cached_property
     def first(self) -> RitzField:
         """u_1 by each of them."""
-        sheet, own = self.shapes.plate.sheet, self.shapes.plane.first.degree
+        sheet, own = self.shapes.plane.sheet, self.shapes.plane.first.degree
         both = int(self.all.orders[-1] + self.series.orders[-1])  # waves of a product
         least = own if self._has_all else ritz_error.first_degrees(sheet, both, self.rtol)
         across, along = (max(pair) for pair in zip(least, own, strict=True))
         return RitzField(drive(self.all, sheet).fine, RitzSolver(sheet, (across, along)))
 
     @cached_property
-    def plate(self) -> PlateField:
-        """w by each of them."""
-        own, driven = self.shapes.plate, self.first.drive
+    def bent(self) -> Bent | None:
+        """w by each of them, None for a planar sheet; the stretching is of the scene."""
+        if not self.shapes.bent:
+            return None
+        own, driven = self.shapes.bent.plate, self.first.drive
         least = plate_degrees(own.sheet, own.foundation, driven, self.rtol)
         least = own.degree if self._has_all else least
         across, along = (max(pair) for pair in zip(least, own.degree, strict=True))
-        return PlateField(driven, own.foundation, (across, along))
+        plate = PlateField(driven, own.foundation, (across, along))
+        return self.shapes.bent._replace(plate=plate)
 
     @property
     def _has_all(self) -> bool:
         return self.highest <= self.series.cosine.size
 
     @property
-    def counts(self) -> tuple[int, int]:
-        """Of the moments that weigh them."""
-        degrees = zip(self.first.degree, self.plate.degree, strict=True)
-        across, along = (max(pair) for pair in degrees)
-        return across + across // 4 + 12, along + along // 4 + 12
+    def degrees(self) -> list[tuple[int, int]]:
+        """Of all of these."""
+        return [self.first.degree] + ([self.bent.plate.degree] if self.bent else [])
 
     def amplitudes(self, wave: TravellingWave, times: Array, rates: bool = False) -> Array:
         """Of the load cases in a wave (cases, *times.shape), or their rates."""
@@ -119,13 +120,13 @@ class Waves:
         return found
 
     def at_times(self, weights: TimeWeights, changes: Sequence[Change]) -> Array:
-        """Changes of what weights make of v_1, e and p at their times, (3, k, changes, 2, T)."""
-        first, plate, counts = self.first, self.plate, weights.load.shape[-2:]
-        ground = plate.foundation
-        pressed = -self.shapes.ratio * plate.pressing * plate.polynomials
+        """Changes of what weights make of v_1, e and p at their times, (2 or 3, k, changes, 2, T)."""
+        first, bent, counts = self.first, self.bent, weights.load.shape[-2:]
         by_rate = weights.on_velocity(first._polynomials)
-        by_load = weights.on_load(load_polynomials(first, ground.load, (counts[0], counts[1])))
-        by_value = [by_load, weights.on_load(pressed)]
+        growing = load_polynomials(first, self.shapes.load, (counts[0], counts[1]))
+        by_value = [weights.on_load(growing)]
+        if bent:
+            by_value.append(weights.on_load(bent.ratio * bent.pressures))
         found = []
         for change in changes:
             value, rate = (self.changes(change, weights.times, r) for r in (False, True))
@@ -134,32 +135,36 @@ class Waves:
         return np.stack(found, 2)
 
     def of_means(self, rules: Sequence[Rules], changes: Sequence[Change]) -> list[Array]:
-        """Changes of the odd part of what weights make of v_2 and v_b, (2, k, rules, changes) each."""
-        phases, ratio = self._phases, self.shapes.ratio
+        """Changes of the odd part of what weights make of v_2 and v_b, of each rule.
+
+        (1 or 2, k, rules, changes) each.
+        """
+        phases = self._phases
         slopes = np.stack([self.changes(change, phases) for change in changes])
         here = self.amplitudes(self.series, phases)
         found = []
-        for flux, solver, factor in zip(self._fluxes, self._solvers, (1.0, ratio**2), strict=True):
+        for flux, solver, factor in self._fluxes:
             tested = np.concatenate([self._tested(one, solver) for one in rules], 1)
             by_cases = factor * flux.by_cases(here, tested)
             found.append(np.einsum("njs,cjs->nc", by_cases, slopes))
         sizes = [len(one.sides[0].velocity) * len(one.rules) for one in rules]
         parts = np.split(np.stack(found), np.cumsum(sizes)[:-1], 1)
-        shapes = [(2, -1, len(one.rules), len(changes)) for one in rules]
+        shapes = [(len(found), -1, len(one.rules), len(changes)) for one in rules]
         return [part.reshape(shape) for part, shape in zip(parts, shapes, strict=True)]
 
     @property
-    def _fluxes(self) -> tuple[QuadraticFlux, QuadraticFlux]:
-        """Of u_2 and of the stretching by deflection."""
+    def _fluxes(self) -> "list[tuple[QuadraticFlux, RitzSolver, float]]":
+        """Of u_2 and of the stretching by deflection, with the solver of these and their share."""
         first, own = self.first, self.shapes.plane._source
         plane = Source(first.drive, first.gradient_polynomials, own.square, own.weight)
-        bending = BendingSource(self.plate, self._solvers[1].degree)
-        return PlaneFlux(first, plane), BendingFlux(first, bending)
-
-    @cached_property
-    def _solvers(self) -> tuple[RitzSolver, RitzSolver]:
-        bent = self.shapes.stretch.degree if self._has_all else self.plate.degree
-        return self.first.solver, RitzSolver(self.shapes.plate.sheet, bent)
+        found: list[tuple[QuadraticFlux, RitzSolver, float]] = [
+            (PlaneFlux(first, plane), first.solver, 1.0)
+        ]
+        if bent := self.bent:
+            degree = bent.stretch.degree if self._has_all else bent.plate.degree
+            flux = BendingFlux(first, BendingSource(bent.plate, degree))
+            found.append((flux, RitzSolver(first.sheet, degree), bent.ratio**2))
+        return found
 
     @cached_property
     def _phases(self) -> Array:

@@ -1,17 +1,22 @@
-"""Gradients of speed and power of a bending sheet in its full contact with the ground.
+"""Gradients of speed and power to second order, of a planar sheet and of one that bends on its ground.
 
     V = alpha <q_0> + alpha^2 <q_1>,     r = beta/alpha,
 
-q_1 with the sources of growth, of pressure times r and of bending times r^2 (see `speed.plate.terms`).
+q_1 with the sources of growth and, of a sheet that bends, of pressure times r and of bending times r^2
+(see `speed.plate.terms`).
 Weights of velocity and load come from the adjoint of the balance (`weights`); what they make of the
 deformation changes with harmonics of the wave (`waves`) and, by central differences of the deformation
 alone, with all else: sheet, ground, couplings, other waves.
+
+Of a motion known over half a period by its reversal in time, V(t_0 - t) = V(t), parameters may break
+that symmetry: the weights of both halves are taken.
 """
 
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,40 +24,77 @@ from numpy.typing import NDArray
 from linear_theory.balance.course import Course
 from linear_theory.balance.time_grid import TimeGrid
 from linear_theory.common.progress import track
-from linear_theory.gradient.bending.shapes import Shapes
-from linear_theory.gradient.bending.waves import Rules, Waves
-from linear_theory.gradient.bending.weights import Asked, TimeWeights, orders, time_weights
 from linear_theory.gradient.direction import Direction
 from linear_theory.gradient.means import CHECKED, PER_HARMONIC, SAFETY, law_changes
 from linear_theory.gradient.parameters.parameter import Parameter
 from linear_theory.gradient.quantity import Quantity
+from linear_theory.gradient.second.shapes import Shapes, ratio_of
+from linear_theory.gradient.second.waves import Rules, Waves
+from linear_theory.gradient.second.weights import Asked, TimeWeights, orders, time_weights
 from linear_theory.scene.scene import Scene
-from linear_theory.speed.expansion import field_tolerance
-from linear_theory.speed.plate.terms import PlateCoefficients, PlateTerms
+from linear_theory.speed.expansion import Coefficients, field_tolerance
 
 Array = NDArray[np.float64]
 
 STEP = 1e-4
 """Of a parameter, relative to it, of differences of the deformation, whose errors are of its square."""
 
+SMALL = 1e-6
+"""a of the weights, where friction is smooth."""
+
+SMALL_DRY = 2e-2, 1e-2
+"""The same of dry friction, where points at rest move with a, which cells must resolve: what is of the
+square of a counts, and is extrapolated."""
+
+ROUGH = 0.03
+"""Change between these, of a derivative or of all in the mean, from which on V is not smooth."""
+
+ROUGH_SAFETY = 3.0
+"""Of that change, for the error of such a derivative."""
+
 FIELD_SAFETY = 3.0
 """Of the errors of the deformation, for those of its derivatives."""
 
 
+class Means(NamedTuple):
+    """Derivatives of means and their errors, (k, 2, parameters) each; flat: whether friction does not
+    resist some motion at some time; rough: whether V is not smooth."""
+
+    values: Array
+    errors: Array
+    flat: bool
+    rough: bool = False
+
+
 @dataclass(frozen=True)
-class BentDerivatives:
-    """Of quantities along directions; over: the parameters that these are of."""
+class SecondDerivatives:
+    """Of quantities along directions.
+
+    shapes: of the scene; over: the parameters that these are of; size: a of the weights.
+    """
 
     scene: Scene
-    terms: PlateTerms
+    shapes: Shapes
     course: Course
     over: Sequence[Parameter]
     directions: Sequence[Direction]
     quantities: Sequence[Quantity]
     rtol: float
+    size: float = SMALL
 
-    def means(self) -> tuple[Array, Array, bool]:
-        """Of q_0 and q_1: derivatives and errors, (k, 2, parameters) each; whether V has a kink."""
+    def means(self) -> Means:
+        """Of q_0 and q_1."""
+        if self.scene.contact.friction.width > 0:
+            return self._means()
+        far, near = (replace(self, size=size)._means() for size in SMALL_DRY)
+        values, changes = (4 * near.values - far.values) / 3, abs(near.values - far.values)
+        usual = np.sqrt((values**2).mean(-1, keepdims=True))
+        rough = changes > ROUGH * np.maximum(abs(values), usual)
+        errors = (4 * near.errors + far.errors) / 3 + np.where(rough, ROUGH_SAFETY, 1.0) * changes
+        return Means(values, errors, far.flat, bool(rough.any()))
+
+    def _means(self) -> Means:
+        """The same with weights of that size."""
         weights, differences = self._weights
         shape = len(self.quantities), 2, len(self.over)
         values, errors = np.zeros((2, *shape))
@@ -62,7 +104,7 @@ class BentDerivatives:
         more, more_errors = self._by_law(weights, differences)
         values, errors = values + more, errors + more_errors
         self._drop_leading(values, errors)
-        return values, errors, weights.flat
+        return Means(values, errors, weights.flat)
 
     def _drop_leading(self, values: Array, errors: Array) -> None:
         """q_0 keeps no mean along directions that keep c(t + T/2) = -c(t)."""
@@ -75,21 +117,17 @@ class BentDerivatives:
                 values[i, 0, kept] = errors[i, 0, kept] = 0.0
 
     @cached_property
-    def _shapes(self) -> Shapes:
-        return Shapes.of(self.scene, self.terms)
-
-    @cached_property
     def _highest(self) -> int:
         return max(d.highest for d in self.directions)
 
     @cached_property
     def _wave_shapes(self) -> Waves:
-        return Waves(self._shapes, self._highest, field_tolerance(self.rtol))
+        return Waves(self.shapes, self._highest, field_tolerance(self.rtol))
 
     @cached_property
     def _waves(self) -> list[int]:
         """Parameters of the harmonics of a series."""
-        return [i for i, d in enumerate(self.directions) if d.harmonics and self._shapes.is_series]
+        return [i for i, d in enumerate(self.directions) if d.harmonics and self.shapes.is_series]
 
     @cached_property
     def _deformed(self) -> list[int]:
@@ -112,13 +150,13 @@ class BentDerivatives:
         """At all times, and what finer cells change at a few."""
         course = self.course.on(self._grid)
         crawl = course.crawl
-        assert isinstance(crawl, PlateCoefficients)
+        assert isinstance(crawl, Coefficients)
         if self._waves:
             waves = self._highest * abs(self._wave_shapes.series.count)
             crawl = replace(crawl, waves=math.ceil(waves / 2))
         law = self.scene.contact.friction.per(self.scene.alpha)
         laws = law_changes(self.directions, self.scene.alpha, mirrored=True)
-        asked = Asked(law, self.quantities, laws, self._counts)
+        asked = Asked(law, self.quantities, laws, self._counts, self.size)
         times, motion = course.grid.times, course.motion
         whole = time_weights(crawl, times, motion, asked)
         some = np.unique((np.array(CHECKED) * times.size).astype(int))
@@ -129,10 +167,9 @@ class BentDerivatives:
     @cached_property
     def _counts(self) -> tuple[int, int]:
         """Of moments, enough for all degrees and for c."""
-        shapes = self._shapes
-        degrees = [shapes.plane.first.degree, shapes.plate.degree, shapes.stretch.degree]
+        degrees = self.shapes.degrees
         if self._waves:
-            degrees += [self._wave_shapes.first.degree, self._wave_shapes.plate.degree]
+            degrees += self._wave_shapes.degrees
         across, along = (max(one[i] for one in degrees) for i in range(2))
         return across + across // 4 + 12, along + along // 4 + 12
 
@@ -173,8 +210,9 @@ class BentDerivatives:
         own = self.scene
         parts = ("sheet", "wave", "effects")
         if all(getattr(scene, part) == getattr(own, part) for part in parts):
-            return self._shapes._replace(ratio=scene.curvature_coupling / scene.alpha)
-        return self._shapes.near(scene)
+            bent = self.shapes.bent
+            return self.shapes._replace(bent=bent and bent._replace(ratio=ratio_of(scene)))
+        return self.shapes.near(scene)
 
     def _by_waves(self, weights: TimeWeights, differences: TimeWeights) -> tuple[Array, Array]:
         """Of harmonics, likewise."""
@@ -184,25 +222,29 @@ class BentDerivatives:
             mean_of(waves.at_times(side, changes) for side in self._sides(of))
             for of in (weights, differences)
         ]
-        values, errors = self._averaged(at_times[0], at_times[1])
+        values, errors = self._averaged(at_times[0], at_times[1], linear=True)
         whole, finer = waves.of_means(
             [Rules(self._sides(weights), _rules(self._grid)), Rules(self._sides(differences), checks)],
             changes,
         )
         values[:, 1] += whole[:, :, 0].sum(0)
         errors[:, 1] += abs(whole[:, :, 1:].sum(0)).max(1) + SAFETY * abs(finer.sum(0)).max(1)
-        fields = self._field_errors[1:3, None, None]
+        fields = self._field_errors[[1, 3][: len(whole)], None, None]
         errors[:, 1] += (fields * abs(whole[:, :, 0])).sum(0)
         return values, errors
 
-    def _averaged(self, whole: Array, finer: Array) -> tuple[Array, Array]:
-        """Means of parts (parts, k, n, 2, T) and their errors, (k, 2, n); finer: at a few times."""
+    def _averaged(self, whole: Array, finer: Array, linear: bool = False) -> tuple[Array, Array]:
+        """Means of parts (parts, k, n, 2, T) and their errors, (k, 2, n).
+
+        finer: at a few times; linear: whether v_1, e and p alone are the parts.
+        """
         parts = orders(whole, self._weights[0].size)
         summed = parts.sum(0)
         flat = summed.reshape(-1, summed.shape[-1])
         means, errors = (one.reshape(summed.shape[:-1]) for one in self._grid.means(flat))
         cells = abs(orders(finer.sum(0), self._weights[0].size)).max(-1)
-        fields = self._field_errors[[0, 3, 4]] if len(parts) == 3 else self._field_errors
+        own = [0, 2, 4] if linear else range(5)
+        fields = self._field_errors[[i for i in own if i < self._field_errors.size]]
         sizes = np.sqrt((parts**2).mean(-1))
         shape = (-1, *(1,) * (sizes.ndim - 1))
         errors = errors + SAFETY * cells + (fields.reshape(shape) * sizes).sum(0)
@@ -211,15 +253,7 @@ class BentDerivatives:
     @cached_property
     def _field_errors(self) -> Array:
         """Relative, of each of `shapes.PARTS`."""
-        plane, plate, stretch = self.terms.plane, self.terms.plate, self.terms.stretch
-        own = (
-            plane.error,
-            plane.second_error,
-            stretch.error + 2 * plate.error,
-            plane.error,
-            plate.error,
-        )
-        return FIELD_SAFETY * np.array(own)
+        return FIELD_SAFETY * self.shapes.errors
 
     def _by_law(self, weights: TimeWeights, differences: TimeWeights) -> tuple[Array, Array]:
         """By what changes in the law: velocities per unit of it, or its numbers."""

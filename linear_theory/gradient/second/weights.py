@@ -1,12 +1,15 @@
-"""What the balance of a bending sheet weighs its deformation with, as moments at every time.
+"""What the balance of second order weighs the deformation with, as moments at every time.
 
-With (alpha, beta) in the ratio r = beta/alpha the balance for small a,
+With (alpha, beta) in the ratio r = beta/alpha, 0 for a planar sheet, the balance for small a,
 
     velocity v_1 + a (v_2 + r^2 v_b),      load 1 + a (e + r p),
 
 has the solution q = q_0 + a q_1 + ... for a of either sign, and the adjoint of that balance gives the
 weights of velocity and load in dq(a) (`gradient.adjoint`). V = alpha <q_0> + alpha^2 <q_1> changes by
 the parts of dq(a) that are even and odd in a.
+
+The balance is that of half a sheet, whose motion is mirror symmetric in x. A change of the deformation
+that is not has no effect on V at first order: moments of fields without that symmetry are left out.
 """
 
 from collections.abc import Sequence
@@ -23,12 +26,9 @@ from linear_theory.friction.law import FrictionLaw
 from linear_theory.gradient.adjoint import AdjointBalance, LawChange
 from linear_theory.gradient.moments import moments
 from linear_theory.gradient.quantity import Quantity
-from linear_theory.speed.plate.terms import PlateCoefficients
+from linear_theory.speed.expansion import Coefficients
 
 Array = NDArray[np.float64]
-
-SMALL, SMALL_DRY = 1e-6, 2e-2
-"""a; the latter for dry friction, where points at rest move with a, which cells must resolve."""
 
 NEWTON_STEPS = 3
 """From q_0 + a q_1."""
@@ -104,17 +104,16 @@ def orders(values: Array, size: float) -> Array:
 
 
 class Asked(NamedTuple):
-    """law: for speeds per unit alpha; counts: of the moments, across and along."""
+    """law: for speeds per unit alpha; counts: of the moments, across and along; size: a."""
 
     law: FrictionLaw
     quantities: Sequence[Quantity]
     laws: Sequence[LawChange]
     counts: tuple[int, int]
+    size: float
 
 
-def time_weights(
-    crawl: PlateCoefficients, times: Array, motion: RigidMotion, asked: Asked
-) -> TimeWeights:
+def time_weights(crawl: Coefficients, times: Array, motion: RigidMotion, asked: Asked) -> TimeWeights:
     """At times (T,), near whose balance the motion is."""
     size = max(BATCH // crawl.points, 1)
     parts = []
@@ -133,13 +132,12 @@ def time_weights(
     )
 
 
-def _batch(
-    crawl: PlateCoefficients, times: Array, near: tuple[Array, Array], asked: Asked
-) -> TimeWeights:
+def _batch(crawl: Coefficients, times: Array, near: tuple[Array, Array], asked: Asked) -> TimeWeights:
     """At a few times."""
     here, law = crawl._motion(times), asked.law
     rate, steps = crawl._rate(times, here), crawl.resolution
-    size, found = SMALL if law.width > 0 else SMALL_DRY, []
+    size: float = asked.size
+    found = []
     assert here.second is not None
     for a in (size, -size):
         moving = replace(here, velocity=here.velocity + a * here.second, second=None)
@@ -152,6 +150,7 @@ def _batch(
         found.append(balance.weights(q, a, asked.quantities, asked.laws))
     velocity = np.stack([moments(crawl, one.velocity, asked.counts, None) for one in found], 1)
     load = np.stack([moments(crawl, one.load, asked.counts, None) for one in found], 1)
+    velocity[:, :, 0, ..., 0::2, :] = velocity[:, :, 1, ..., 1::2, :] = load[..., 1::2, :] = 0.0
     return TimeWeights(
         times=times,
         velocity=np.moveaxis(velocity, 2, 3),

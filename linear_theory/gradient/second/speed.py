@@ -1,7 +1,7 @@
-"""The gradients of speed and cost of transport of a bending sheet, from those of q_0 and q_1.
+"""The gradients of speed and cost of transport to second order, from those of q_0 and q_1.
 
-With V = alpha V_1 + alpha^2 V_2, V_2 that of all sources of second order at the ratio beta/alpha, and
-the power over mu and the weight P = |alpha| (p_0 + alpha p_1),
+With V = alpha V_1 + alpha^2 V_2, V_2 that of all sources of second order at the ratio beta/alpha (0 for
+a planar sheet), and the power over mu and the weight P = |alpha| (p_0 + alpha p_1),
 
     dV = alpha dV_1 + alpha^2 dV_2 + (V_1 + 2 alpha V_2) dalpha,
 
@@ -15,16 +15,20 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from linear_theory.balance.course import Course
 from linear_theory.common.tolerance import Tolerance
-from linear_theory.gradient.bending.means import BentDerivatives
 from linear_theory.gradient.direction import Direction
 from linear_theory.gradient.parameters.parameter import Parameter
 from linear_theory.gradient.quantity import ALONG, WORK
 from linear_theory.gradient.result import CostGradient, SpeedGradient, kinks_of
+from linear_theory.gradient.second.means import SecondDerivatives
+from linear_theory.gradient.second.shapes import Shapes
 from linear_theory.scene.scene import Scene
 from linear_theory.speed.crawl import completed
-from linear_theory.speed.plate.speed import PlateMotion, plate_motion
+from linear_theory.speed.expansion import Coefficients
+from linear_theory.speed.plate.speed import plate_motion
 from linear_theory.speed.result import CrawlSpeed
+from linear_theory.speed.second_order import plane_motion
 from linear_theory.speed.wave_error import with_wave_error
 
 Array = NDArray[np.float64]
@@ -42,7 +46,7 @@ class _Found(NamedTuple):
     seconds: float
 
 
-def bent_speed_gradient(
+def second_speed_gradient(
     scene: Scene, chosen: tuple[Parameter, ...], directions: Sequence[Direction], rtol: float
 ) -> SpeedGradient:
     """See `gradient.speed.speed_gradient`."""
@@ -52,7 +56,7 @@ def bent_speed_gradient(
     return SpeedGradient(speed, chosen, values, errors, found.kinks, seconds, speed.seconds)
 
 
-def bent_cost_gradient(
+def second_cost_gradient(
     scene: Scene, chosen: tuple[Parameter, ...], directions: Sequence[Direction], rtol: float
 ) -> CostGradient:
     """See `gradient.speed.cost_gradient`: of P/|V|."""
@@ -76,11 +80,10 @@ def _found(
     count: int,
 ) -> _Found:
     """Of the first quantities."""
-    speed, motion = _solved(scene, rtol)
-    start, alpha, course = time.perf_counter(), scene.alpha, motion.course
-    assert course is not None
-    of = BentDerivatives(scene, motion.terms, course, chosen, directions, QUANTITIES[:count], rtol)
-    derivatives, errors, flat = of.means()
+    speed, shapes, course = _solved(scene, rtol)
+    start, alpha = time.perf_counter(), scene.alpha
+    of = SecondDerivatives(scene, shapes, course, chosen, directions, QUANTITIES[:count], rtol)
+    derivatives, errors, flat, rough = of.means()
     own, own_errors = (part[:, 1] for part in course.means())
     (work, work_errors), power = course.works(), speed.power
     both = np.stack([own, work]), np.stack([own_errors, work_errors])
@@ -98,11 +101,11 @@ def _found(
     if speed.sticks:  # V is not smooth in alpha then
         rows = np.full_like(rows[0], np.nan), np.full_like(rows[1], np.inf)
     seconds = time.perf_counter() - start
-    return _Found(speed, *rows, kinks_of(speed.sticks, flat), seconds)
+    return _Found(speed, *rows, kinks_of(speed.sticks, flat, rough), seconds)
 
 
-def _solved(scene: Scene, rtol: float) -> tuple[CrawlSpeed, PlateMotion]:
-    """Raises ValueError for what has no gradient."""
+def check_second(scene: Scene) -> None:
+    """Raise ValueError for a scene whose speed to second order has no gradient."""
     law = scene.contact.friction
     if law.on_lower_face:
         raise ValueError(
@@ -111,13 +114,26 @@ def _solved(scene: Scene, rtol: float) -> tuple[CrawlSpeed, PlateMotion]:
         )
     if not (scene.drive.mirrored and law.mirrored) or law.map is not None:
         raise ValueError(
-            "scene: a sheet that bends must not turn, nor have a map of friction: there is no gradient"
+            "order = 2: the sheet must not turn, nor its friction have a map: there is no gradient"
+            + (", but of order = 1" if scene.planar else "")
         )
-    motions: list[PlateMotion] = []
+
+
+def _solved(scene: Scene, rtol: float) -> tuple[CrawlSpeed, Shapes, Course]:
+    """The speed, and the deformation and the motion that it is of; raises ValueError as below."""
+    check_second(scene)
+    motions: list[tuple[Shapes, Course]] = []
 
     def solve(tolerance: Tolerance) -> CrawlSpeed:
-        motions.append(plate_motion(scene, tolerance))
-        return motions[-1].speed
+        if scene.planar:
+            speed, course = plane_motion(scene, tolerance)
+            assert isinstance(course.crawl, Coefficients)
+            motions.append((Shapes(course.crawl.field, scene.contact.load), course))
+            return speed
+        found = plate_motion(scene, tolerance)
+        assert found.course is not None
+        motions.append((Shapes.of(scene, found.terms), found.course))
+        return found.speed
 
     speed = completed(with_wave_error(scene, Tolerance(rtol), solve), scene, 2, "ritz")
-    return speed, motions[-1]
+    return speed, *motions[-1]

@@ -1,1 +1,0 @@
-"""Gradients of the speed and of the cost of transport of sheets that bend on their ground."""
