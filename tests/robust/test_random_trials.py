@@ -10,16 +10,17 @@ from tests.robust.trials.families import FAMILIES, outcome
 
 SEED = 2026
 COUNTS = {
-    "speed": 10,
-    "line": 20,
-    "direction": 4,
+    "speed": 8,
+    "line": 15,
+    "direction": 3,
     "field": 6,
     "bent": 2,
     "outline": 1,
-    "prediction": 3,
-    "command": 30,
+    "prediction": 2,
+    "command": 20,
+    "damaged": 20,
 }
-"""So that all take some 30 s; thousands are in the table of `trials.table`, of the same seed."""
+"""So that all take some 20 s; thousands are in the table of `trials.table`, of the same seed."""
 
 
 @pytest.mark.parametrize(
@@ -33,9 +34,9 @@ def test_no_error_is_understated(family: str, number: int) -> None:
 @pytest.mark.parametrize("family", FAMILIES)
 def test_trials_are_questions_that_can_fail(family: str) -> None:
     """Most are answered, and the errors compared are not 0."""
-    if family == "command":
+    if family in ("command", "damaged"):
         return
-    found = [outcome(family, SEED, number) for number in range(3)]
+    found = [outcome(family, SEED, number) for number in range(min(COUNTS[family], 3))]
     assert sum(one.true > 0 for one in found) > len(found) / 2
 
 
