@@ -158,7 +158,14 @@ def test_ctrl_c_keeps_the_records_and_says_how_to_go_on(tmp_path: Path) -> None:
     words = [sys.executable, "-m", "fem_check", "sweep", "slow.toml", "--workers", "1"]
     environment = {**sweep_kills.environment(), "PYTHONPATH": str(Path(__file__).parents[2])}
     child = subprocess.Popen(
-        words, cwd=tmp_path, env=environment, stderr=subprocess.PIPE, text=True, start_new_session=True
+        words,
+        cwd=tmp_path,
+        env=environment,
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+        # a shell that runs the tests in its background lets them, and their children, ignore it
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
     )
     sweep_kills.wait_until(lambda: sweep_kills.count(tmp_path / "slow.sqlite") > 1)
     child.send_signal(signal.SIGINT)
