@@ -24,7 +24,7 @@ NUMERICS = Source(
 )
 
 
-def _arrival_speed(record: Record, low: float, high: float, level: float) -> float:
+def arrival_speed(record: Record, low: float, high: float, level: float) -> float:
     """Of a front that rises through a level: slope of place over time of arrival."""
     places = np.linspace(low, high, 41)
     fine = np.linspace(0, record.times[-1], 16 * record.times.size)
@@ -36,7 +36,8 @@ def _arrival_speed(record: Record, low: float, high: float, level: float) -> flo
     return float(np.polyfit(times, places, 1)[0])
 
 
-def _followed(equation: FitzHughNagumo, body: Sheet, until: float, size: float) -> Record:
+def followed(equation: FitzHughNagumo, body: Sheet, until: float, size: float) -> Record:
+    """On elements of one size."""
     return Excitation(equation, body, until, 1e-3)._solved(size, Adaptive(1e-3))
 
 
@@ -44,8 +45,8 @@ def front(share: float, threshold: float = 0.1, length: float = 0.02) -> tuple[f
     """Speed of a front without recovery over (D/2)^(1/2); share: element over diffusion length."""
     equation = FitzHughNagumo(threshold, 0.0, 0.0, length, BumpStart(1.0, 0.1))
     until = 0.9 / ((1 - 2 * threshold) * length / np.sqrt(2))
-    record = _followed(equation, Sheet(), until, share * length)
-    return (_arrival_speed(record, 0.0, 0.33, 0.5) * np.sqrt(2) / length,)
+    record = followed(equation, Sheet(), until, share * length)
+    return (arrival_speed(record, 0.0, 0.33, 0.5) * np.sqrt(2) / length,)
 
 
 def pulses(size: float) -> tuple[float, ...]:
@@ -53,8 +54,8 @@ def pulses(size: float) -> tuple[float, ...]:
     found = []
     for threshold, decay, rate in ((0.1, 1.0, 0.01), (0.139, 2.54, 0.008)):
         equation = FitzHughNagumo(threshold, decay, rate, 1.0, BumpStart(1.0, 8.0))
-        record = _followed(equation, Sheet(length=200.0, width=100.0), 420.0, size)
-        found.append(_arrival_speed(record, 0, 60, 0.4))
+        record = followed(equation, Sheet(length=200.0, width=100.0), 420.0, size)
+        found.append(arrival_speed(record, 0, 60, 0.4))
     return tuple(found)
 
 

@@ -27,6 +27,7 @@ from fem_check.excitable.record import Record
 from fem_check.excitable.solution import difference
 from fem_check.excitable.space import Space
 from fem_check.excitable.system import System
+from figures.validation.excitable import arrival_speed
 from linear_theory import NotConvergedError, Scene, Sheet, crawl_speed, line_balance
 from linear_theory.wave.sampled import drive
 from tests.excitable import reference_excitable as reference
@@ -42,18 +43,6 @@ HOLED = Outline(
 def solved(equation: FitzHughNagumo, body: object, until: float, size: float, share: float) -> Record:
     """On elements of one size, with the tolerance of the steps."""
     return Excitation(equation, body, until, 1e-3)._solved(size, Adaptive(share))  # type: ignore[arg-type]
-
-
-def arrival_speed(record: Record, low: float, high: float, level: float) -> float:
-    """Of a front that rises through a level: slope of place over time of arrival."""
-    places = np.linspace(low, high, 41)
-    fine = np.linspace(0, record.times[-1], 16 * record.times.size)
-    times = []
-    for y in places:
-        c = record.value(0.0, y, fine)
-        i = int(np.flatnonzero((c[:-1] < level) & (c[1:] >= level))[0])
-        times.append(fine[i] + (level - c[i]) / (c[i + 1] - c[i]) * (fine[i + 1] - fine[i]))
-    return float(np.polyfit(times, places, 1)[0])
 
 
 def test_a_front_without_recovery_has_the_exact_speed() -> None:
