@@ -1,9 +1,11 @@
 """Options of the scripts: where files go, and how accurate they are."""
 
 import argparse
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
+from fem_check.output.files import replacing
 from figures.common.folders import FIGURES
 
 
@@ -29,6 +31,20 @@ def parser(
         words = f"{meaning} ({_shown(default)})"
         made.add_argument(f"--{name}", type=kind, default=default, metavar=named, help=words)
     return made
+
+
+def write_page(
+    command: str,
+    text: str | None,
+    out: Path,
+    made: Callable[[], str],
+    arguments: Sequence[str] | None = None,
+) -> None:
+    """The script of a page of the documentation: write what `made` returns. Others: see `parser`."""
+    options = parser(command, text, out).parse_args(arguments)
+    with replacing(options.out) as part:
+        part.write_text(made(), encoding="utf-8")
+    print(options.out)
 
 
 def _shown(default: Any) -> Any:

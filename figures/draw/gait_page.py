@@ -7,8 +7,7 @@ import math
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 
-from figures.common.command import parser
-from figures.common.output import replacing
+from figures.common.command import write_page
 from figures.draw.gait_statements import by_steps, number, statements
 from figures.measure.paper.gait_map import BILAYER, TABLE, Row
 from figures.measure.paper.paper_gait import BACKWARD, FORWARD, FRICTIONS, READINGS, kept
@@ -163,10 +162,7 @@ def sign_of(value: float) -> str:
 
 def main(arguments: Sequence[str] | None = None) -> None:
     """Write the page."""
-    options = parser(COMMAND, __doc__, PAGE).parse_args(arguments)
-    with replacing(options.out) as part:
-        part.write_text(page(TABLE.read()), encoding="utf-8")
-    print(options.out)
+    write_page(COMMAND, __doc__, PAGE, lambda: page(TABLE.read()), arguments)
 
 
 if __name__ == "__main__":

@@ -7,8 +7,7 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
-from figures.common.command import parser
-from figures.common.output import replacing
+from figures.common.command import write_page
 from figures.measure.validation import TABLE, Row
 from figures.validation.catalogue import COMPARISONS, SUBJECTS
 from figures.validation.comparison import SCENES, Comparison, Confirmed
@@ -120,10 +119,7 @@ def _sources(comparisons: Sequence[Comparison]) -> Iterator[str]:
 
 def main(arguments: Sequence[str] | None = None) -> None:
     """Write the page."""
-    options = parser(COMMAND, __doc__, PAGE).parse_args(arguments)
-    with replacing(options.out) as part:
-        part.write_text(page(TABLE.read()), encoding="utf-8")
-    print(options.out)
+    write_page(COMMAND, __doc__, PAGE, lambda: page(TABLE.read()), arguments)
 
 
 if __name__ == "__main__":

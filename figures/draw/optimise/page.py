@@ -8,8 +8,7 @@ import textwrap
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-from figures.common.command import parser
-from figures.common.output import replacing
+from figures.common.command import write_page
 from figures.measure.optimise import buys, scan
 from figures.measure.optimise.buys import FEW, GIVEN, LEVELS, MORE, SHEETS, Row
 from figures.measure.optimise.rows import Row as Numbers
@@ -261,10 +260,7 @@ def seconds(value: float) -> str:
 
 def main(arguments: Sequence[str] | None = None) -> None:
     """Write the page."""
-    options = parser(COMMAND, __doc__, PAGE).parse_args(arguments)
-    with replacing(options.out) as part:
-        part.write_text(page(buys.TABLE.read(), scan.TABLE.read()), encoding="utf-8")
-    print(options.out)
+    write_page(COMMAND, __doc__, PAGE, lambda: page(buys.TABLE.read(), scan.TABLE.read()), arguments)
 
 
 if __name__ == "__main__":

@@ -7,8 +7,7 @@ import math
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-from figures.common.command import parser
-from figures.common.output import replacing
+from figures.common.command import write_page
 from figures.measure.peers.command import TABLE, Row
 from figures.measure.peers.problems import BLOCK, STRIP, TITLES
 
@@ -111,10 +110,7 @@ def _newton(rows: Sequence[Row]) -> str:
 
 def main(arguments: Sequence[str] | None = None) -> None:
     """Write the page."""
-    options = parser(COMMAND, __doc__, PAGE).parse_args(arguments)
-    with replacing(options.out) as part:
-        part.write_text(page(TABLE.read()), encoding="utf-8")
-    print(options.out)
+    write_page(COMMAND, __doc__, PAGE, lambda: page(TABLE.read()), arguments)
 
 
 if __name__ == "__main__":

@@ -9,8 +9,7 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from fem_check.shell.effects.friction import WEAK
-from figures.common.command import parser
-from figures.common.output import replacing
+from figures.common.command import write_page
 from figures.draw.saddle import limits
 from figures.draw.saddle.figure import GROUND_WORDS, SHARES, form_of
 from figures.measure import saddle
@@ -312,10 +311,7 @@ def _lower(faces: Sequence[lower_face.Row]) -> Lines:
 
 def main(arguments: Sequence[str] | None = None) -> None:
     """Write the page."""
-    options = parser(COMMAND, __doc__, PAGE).parse_args(arguments)
-    with replacing(options.out) as part:
-        part.write_text(made(), encoding="utf-8")
-    print(options.out)
+    write_page(COMMAND, __doc__, PAGE, made, arguments)
 
 
 if __name__ == "__main__":
