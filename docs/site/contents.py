@@ -58,6 +58,7 @@ REFERENCE = {
     "hard_cases": "Hard cases",
     "optimisation": "What optimisation buys",
     "validation": "Checked against others",
+    "reliability": "Reliability in figures",
     "peers": "Other codes, side by side",
     "gaits": "The paper's gaits",
     "sweeps": "Sweeps: kills and overhead",
