@@ -42,7 +42,8 @@ def test_the_citation_is_that_of_the_metadata():
 def test_the_version_is_that_of_the_latest_release():
     latest = re.search(r"^## \[(\d.*?)\] - (\S+)$", (ROOT / "CHANGELOG.md").read_text(), re.MULTILINE)
     cff = (ROOT / "CITATION.cff").read_text()
-    assert latest and latest.group(1) == __version__
+    assert latest
+    assert latest.group(1) == __version__
     assert f"\nversion: {__version__}\n" in cff
     assert f'\ndate-released: "{latest.group(2)}"\n' in cff
 

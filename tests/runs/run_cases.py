@@ -21,13 +21,14 @@ def short_films() -> Iterator[None]:
 
 def draw_nothing(patch: pytest.MonkeyPatch) -> None:
     """Where pictures and films are not looked at: they are most of the work."""
-
-    def blank(recording: object, folder: Path, units: object) -> None:
-        for name in ("motion.png", "kymographs.png"):
-            (folder / name).touch()
-
     patch.setattr("fem_check.runs.running.write_films", lambda *arguments: [])
-    patch.setattr("fem_check.runs.running.write_pictures", blank)
+    patch.setattr("fem_check.runs.running.write_pictures", blank_pictures)
+
+
+def blank_pictures(recording: object, folder: Path, units: object) -> None:
+    """Files without a picture."""
+    for name in ("motion.png", "kymographs.png"):
+        (folder / name).touch()
 
 
 PLANE = """

@@ -20,7 +20,7 @@ from fem_check.files import read
 from fem_check.runs import finished, run
 from fem_check.runs.folder import SNAPSHOT, TRAJECTORY
 from tests.runs.processes import interruptible
-from tests.runs.run_cases import PLANE, STEPPED, draw_nothing, short_films  # noqa: F401
+from tests.runs.run_cases import PLANE, STEPPED, blank_pictures, draw_nothing, short_films  # noqa: F401
 
 IN_MM = (
     STEPPED.replace("young = 1.0", 'length = "40 mm"\nwidth = "20 mm"\nyoung = "1 MPa"')
@@ -246,7 +246,7 @@ def test_without_an_encoder_all_else_is_written(place, tmp_path, capsys, monkeyp
     monkeypatch.syspath_prepend(tmp_path)
     monkeypatch.delitem(sys.modules, "imageio_ffmpeg", raising=False)
     monkeypatch.setattr("fem_check.runs.pictures.movie", lambda recording, path, **how: path.touch())
-    monkeypatch.setattr("fem_check.runs.running.write_pictures", _blank)
+    monkeypatch.setattr("fem_check.runs.running.write_pictures", blank_pictures)
     status, out, err = command(capsys, "run", place / "plane.toml", "--out", tmp_path / "run")
     monkeypatch.delitem(sys.modules, "imageio_ffmpeg", raising=False)
     assert (status, err.count("\n")) == (MET, 1)
