@@ -82,7 +82,7 @@ each family. Shares: the true error over the stated one; seconds with those of t
 REST = """## Everything else
 
 *Wrong* is anything but the right answer, bit for bit, or a refusal that says what is wrong, with status
-1 or 2: a traceback, a damaged number that is believed, something lost. Seconds are those of the slowest.
+1 or 2: a traceback, a damaged number that is believed, something lost. Seconds: of the slowest.
 
 | what | tried | wrong | seconds |
 | --- | --- | --- | --- |
