@@ -154,7 +154,6 @@ tables: $(STAMP)
 	$(RUN) -m tests.robust.trials.table
 	$(RUN) -m tests.robust.trials.settings
 	$(RUN) -m tests.robust.reliability_page
-	$(RUN) -m tests.robust.reliability_page
 	$(RUN) -m paper.numbers.shell
 	$(RUN) -m paper.derive
 	$(RUN) -m paper.numbers
