@@ -22,8 +22,8 @@ MAIN = ROOT / "paper" / "paper.typ"
 PATH = ROOT / "paper" / "out" / "sheetcrawl.pdf"
 FIGURES = "figures/out"
 
-PAGE_PPI = 110.0
-"""Resolution of the pages as PNG: legible on a screen."""
+PAGE_PPI = 200.0
+"""Resolution of the pages as PNG: below it, words in figures lose parts of their letters."""
 
 COMMANDS = {
     "docs/hard_cases.json": "python -m tests.robust.hard_cases_page",
