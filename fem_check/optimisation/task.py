@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from scipy.optimize import minimize
 
 from fem_check.choice.settings import RunSettings
+from fem_check.optimisation.adjoint import Solves
 from fem_check.optimisation.kept import Kept
 from fem_check.optimisation.objectives import Objective
 from fem_check.optimisation.options.constraints import Bound, Side, sides_of, sums_of
@@ -55,12 +56,16 @@ class Task:
     ) -> "Task":
         """Raises ValueError, by name, for constraints that nothing meets."""
         parts = regimes or [("", unknowns)]
+        sides = tuple(sides_of(constraints, unknowns.units))
+        powers = any(one.with_power for one in (objective, *(side.quantity for side in sides)))
         questions = tuple(
-            Question(one, settings, objective, kept, f"{place} " if regimes else "")
+            Question(
+                *(one, settings, objective, kept, f"{place} " if regimes else ""),
+                solves=Solves(powers),
+            )
             for place, (_, one) in enumerate(parts)
         )
         region = region_of(unknowns, sums_of(constraints, unknowns))
-        sides = tuple(sides_of(constraints, unknowns.units))
         return cls(unknowns, region, questions, tuple(name for name, _ in parts), robust, sides)
 
     @property

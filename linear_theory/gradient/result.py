@@ -109,28 +109,9 @@ class CostGradient(Gradient):
     True
     """
 
-    @classmethod
-    def of(
-        cls,
-        speed: CrawlSpeed,
-        chosen: tuple[Parameter, ...],
-        distance: tuple[Array, Array],
-        power: tuple[Array, Array],
-        kinks: tuple[str, ...],
-        *seconds: float,
-    ) -> "CostGradient | None":
-        """From derivatives of the speed in the direction of the motion and of the power, and errors.
 
-        None where the cost is infinite or its error unknown.
-        """
-        cost = speed.cost_of_transport
-        if not np.isfinite(cost.value) or not np.isfinite(cost.error):
-            return None
-        size = float(np.hypot(*speed._velocity))
-        values = (power[0] - cost.value * distance[0]) / size
-        errors = (power[1] + cost.value * distance[1] + cost.error * abs(distance[0])) / size
-        errors = errors + speed.error / size * abs(values)
-        return cls(speed, chosen, values, errors, kinks, *seconds)
+Told = tuple[tuple[str, ...], float, float]
+"""Kinks, seconds and speed_seconds of a gradient."""
 
 
 class MotionGradient(NamedTuple):
@@ -139,6 +120,31 @@ class MotionGradient(NamedTuple):
     speed: SpeedGradient
     power: PowerGradient
     cost: CostGradient | None
+
+    @classmethod
+    def of(
+        cls,
+        speed: CrawlSpeed,
+        chosen: tuple[Parameter, ...],
+        along: tuple[Array, Array],
+        power: tuple[Array, Array],
+        distance: tuple[Array, Array],
+        told: Told,
+    ) -> "MotionGradient":
+        """From derivatives and their errors, of V, of the power, of the speed in any direction."""
+        kinks, *seconds = told
+        cost, size = speed.cost_of_transport, float(np.hypot(*speed._velocity))
+        by_cost = None
+        if np.isfinite(cost.value) and np.isfinite(cost.error):
+            values = (power[0] - cost.value * distance[0]) / size
+            errors = (power[1] + cost.value * distance[1] + cost.error * abs(distance[0])) / size
+            errors = errors + speed.error / size * abs(values)
+            by_cost = CostGradient(speed, chosen, values, errors, kinks, *seconds)
+        return cls(
+            SpeedGradient(speed, chosen, *along, kinks, *seconds),
+            PowerGradient(speed, chosen, *power, kinks, *seconds),
+            by_cost,
+        )
 
 
 def kinks_of(sticks: bool, flat: bool, rough: bool = False) -> tuple[str, ...]:

@@ -183,11 +183,7 @@ def _motion(found: Solved) -> MotionGradient:
     power = found.by_motion(means, len(moving), speed.power, float(np.sign(found.course.crawl.alpha)))
     distance = _by_distance(found, means, len(moving))
     told = (kinks, seconds, speed.seconds)
-    return MotionGradient(
-        SpeedGradient(speed, found.parameters, *along, *told),
-        PowerGradient(speed, found.parameters, *power, *told),
-        CostGradient.of(speed, found.parameters, distance, power, *told),
-    )
+    return MotionGradient.of(speed, found.parameters, along, power, distance, told)
 
 
 def _by_distance(found: Solved, means: Means, components: int) -> tuple[Array, Array]:

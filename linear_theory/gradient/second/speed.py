@@ -21,9 +21,7 @@ from linear_theory.gradient.direction import Direction
 from linear_theory.gradient.parameters.parameter import Parameter
 from linear_theory.gradient.quantity import ALONG, WORK
 from linear_theory.gradient.result import (
-    CostGradient,
     MotionGradient,
-    PowerGradient,
     SpeedGradient,
     kinks_of,
 )
@@ -70,11 +68,7 @@ def second_motion_gradient(
     speed, sign = found.speed, np.sign(found.speed.mean)
     along, power = zip(found.values, found.errors, strict=True)
     told = (found.kinks, found.seconds, speed.seconds)
-    return MotionGradient(
-        SpeedGradient(speed, chosen, *along, *told),
-        PowerGradient(speed, chosen, *power, *told),
-        CostGradient.of(speed, chosen, (sign * along[0], along[1]), power, *told),
-    )
+    return MotionGradient.of(speed, chosen, along, power, (sign * along[0], along[1]), told)
 
 
 def _found(
