@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from fem_check.choice.settings import RTOL, RunSettings
 from fem_check.choice.ways import way_of
 from fem_check.optimisation.kept import Kept
+from fem_check.optimisation.options.searching import Searching
 from fem_check.optimisation.result import Check, Limited, Optimum, Regime, Scale, Start
 from fem_check.optimisation.task import Task, finite, known
 from fem_check.optimisation.values import Question
@@ -20,7 +21,7 @@ from linear_theory.common.shown import number
 from linear_theory.optimisation.certificate import Certificate, certificate
 from linear_theory.optimisation.limits import Limit, Worst
 from linear_theory.optimisation.problem import Unusable
-from linear_theory.optimisation.search import Ascent, Climbed, climb
+from linear_theory.optimisation.search import Climbed, climb
 
 Array = NDArray[np.float64]
 
@@ -46,10 +47,10 @@ class Telling(Protocol):
 
 
 def found(
-    task: Task, points: list[Array], how: Ascent, check: bool, telling: Telling, begin: float
+    task: Task, points: list[Array], searching: Searching, telling: Telling, begin: float
 ) -> Optimum:
     """From those points; begin: time at which the work began. Raises NothingFound."""
-    stages, limits, climbs = task.stages(), task.limits(), []
+    stages, limits, climbs, how = task.stages(), task.limits(), [], searching.how
     for place, point in enumerate(points):
         telling.at(place, len(stages))
         climbs.append(climb(stages, task.truth(), task.region, point, how, telling.done, limits))
@@ -63,7 +64,7 @@ def found(
         task.unknowns.names,
         task.has_curvature(),
     )
-    return _optimum(task, best, climbs, proof, check, begin)
+    return _optimum(task, best, climbs, proof, searching.check, begin)
 
 
 def _optimum(
