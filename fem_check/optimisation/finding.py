@@ -17,7 +17,6 @@ from fem_check.optimisation.task import Task, finite, known
 from fem_check.optimisation.values import Question
 from linear_theory.common.errors import SheetcrawlError
 from linear_theory.common.estimate import Estimate
-from linear_theory.common.shown import number
 from linear_theory.optimisation.certificate import Certificate, certificate
 from linear_theory.optimisation.limits import Limit, Worst
 from linear_theory.optimisation.problem import Unusable
@@ -140,9 +139,10 @@ def _limits(task: Task, point: Array, proof: Certificate) -> tuple[Limited, ...]
 
 def _nothing(task: Task, point: Array, limits: list[tuple[Limit, ...]]) -> str:
     """Why there is no value at the end of any start."""
-    for limit in limits[0] if limits else ():
+    sides = task.sides * len(task.questions)
+    for limit, side in zip(limits[0], sides, strict=True) if limits else ():
         if limit.sign * (limit.nearest - limit.bound) > 0:
-            near = number(limit.nearest)
+            near = side.measured(limit.nearest)
             return f"constraints: {limit.name}: no start meets it; the nearest that was found is {near}"
     if limits and all(not math.isnan(limit.nearest) for limit in limits[0]):
         names = ", ".join(limit.name for limit in limits[0])

@@ -243,7 +243,7 @@ def test_a_search_with_constraints_and_regimes_goes_on_from_its_file(tmp_path):
 def test_limits_by_an_adjoint_agree_with_a_search_along_the_power(monkeypatch):
     """A sheet under tanh friction: at the bound of its power, found by bisection of other answers.
 
-    Objective and limit are of one solve at a point; whole answers are of the start and of the end alone.
+    Objective and limit are of one solve at a point, whole answers of the start and of the end alone.
     """
     solves = {"adjoint": 0, "answer": 0}
 
