@@ -112,9 +112,7 @@ class Adjoint:
     ) -> None:
         self._unknowns, self._objective, self._rtol = unknowns, objective, rtol
         self._way, self._solves = way, solves
-        harmonics = unknowns.harmonics
-        waves = [] if harmonics is None else [_renamed(name) for name in harmonics.names]
-        self._names = [*(one.name for one in unknowns.fields), *waves]
+        self._names = unknowns.names
         self._parameters = parameters(self._names)
         region = unknowns.region
         aside = region.low + ASIDE * (region.high - region.low)
@@ -221,9 +219,3 @@ class Adjoint:
         harmonics = unknowns.harmonics
         waves = [] if harmonics is None else [harmonics.unit] * harmonics.unknowns
         return np.array(found + waves)
-
-
-def _renamed(name: str) -> str:
-    """A harmonic as the gradient calls it: "wave.cosine.0" for "wave.cosine[1]"."""
-    table, bracket, number = name.partition("[")
-    return f"{table}.{int(number.rstrip(']')) - 1}" if bracket else name

@@ -143,8 +143,8 @@ class Harmonics(Value):
 
     @property
     def names(self) -> list[str]:
-        """Of the unknowns."""
-        found = [f"wave.{kind}[{k}]" for kind in ("cosine", "sine") for k in range(1, self.count + 1)]
+        """Of the unknowns: wave.cosine.0 is the amplitude of cos phi, as for `speed_gradient`."""
+        found = [f"wave.{kind}.{k}" for kind in ("cosine", "sine") for k in range(self.count)]
         return found + ["wave.mean"] * self.mean
 
     @property

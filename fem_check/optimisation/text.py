@@ -84,7 +84,7 @@ def _outside(found: "Optimum") -> str:
 
 def _weight(found: "Optimum", name: str) -> float:
     """Fields first, then amplitudes by their size."""
-    harmonic = "[" in name or name == "wave.mean"
+    harmonic = name not in found.field_units
     return abs(float(found.values[name])) if harmonic else math.inf
 
 
