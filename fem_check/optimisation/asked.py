@@ -36,11 +36,24 @@ class Asked:
         unknowns = self.unknowns
         return unknowns_of(self.robust, unknowns.scene, unknowns.over, unknowns.base)
 
+    def check_growth(self) -> None:
+        """Raise ValueError where nothing grows or bends, whatever may change: every speed is 0."""
+        if any(field.name.startswith("growth.") for field in self.unknowns.fields):
+            return
+        scenes = [self.unknowns.scene, *(one.scene for _, one in self.regimes)]
+        if not any(grows(scene) for scene in scenes):
+            raise ValueError(
+                "growth.alpha = 0: must not be 0, or be among what may change: nothing grows or bends, "
+                "and every speed is 0"
+            )
+
     def with_level(self) -> "Asked":
         """With the level that answers the scene in place of "auto".
 
-        Raises ValueError for none, and, by name, for a regime that it does not represent.
+        Raises ValueError for none, where nothing grows, and, by name, for a regime that the level does
+        not represent.
         """
+        self.check_growth()
         settings = _with_level(self.unknowns.scene, self.settings)
         for name, one in self.regimes:
             try:
@@ -74,6 +87,11 @@ class Asked:
             functions["objective"] = self.objective
         keys = {name: content_key(one, name) for name, one in functions.items()}
         return {"functions": keys} if keys else {}
+
+
+def grows(scene: Scene) -> bool:
+    """Whether the wave changes a length or a curvature."""
+    return bool(scene.growth.alpha or scene.growth.curvature_coupling)
 
 
 def _with_level(scene: Scene, settings: RunSettings) -> RunSettings:

@@ -91,8 +91,10 @@ def parsed(text: str, path: Path) -> OptimiseFile:
     table = _table("optimise", OptimiseTable, data.get("optimise", {}), mistakes)
     over = _over(data, mistakes)
     constraints, robust = _constraints(data, mistakes), _robust(data, mistakes)
-    rtol = FINE
+    rtol, searching = FINE, Searching()
     with mistakes.under("optimise"):
+        if table is not None:
+            searching = Searching(table.starts, table.seed, Ascent(table.method), table.check)
         if table is not None and table.rtol is not None:
             rtol = validation.tolerance(table.rtol.into("dimensionless"))
     if "scene" not in data:
@@ -115,9 +117,9 @@ def parsed(text: str, path: Path) -> OptimiseFile:
     asked = Asked(unknowns, OBJECTIVES[table.objective], settings, constraints, robust)
     with mistakes.under("robust"):
         _ = asked.regimes  # what is no regime is told here
+        _check_growth(asked, mistakes)
     if mistakes:
         raise mistakes.error(path, text)
-    searching = Searching(table.starts, table.seed, Ascent(table.method), table.check)
     named = path.parent / data["scene"] if isinstance(data["scene"], str) else None
     return OptimiseFile(asked, searching, named)
 
@@ -176,6 +178,15 @@ def _check_constraints(
         for _, words in inner.found:
             said = words.removeprefix("constraints: ")
             mistakes.add_words(("constraints", name), f"[constraints] {_named(name, said)}")
+
+
+def _check_growth(asked: Asked, mistakes: Mistakes) -> None:
+    """What is wrong with a scene that nothing can move."""
+    try:
+        asked.check_growth()
+    except ValueError as problem:
+        words = str(problem).removeprefix("growth.")
+        mistakes.add_words(("scene", "growth", "alpha"), f"[scene.growth] {words}")
 
 
 def _robust(data: Mapping[str, Any], mistakes: Mistakes) -> Robust | None:

@@ -15,7 +15,7 @@ from fem_check.optimisation.finding import NothingFound as NothingFound
 from fem_check.optimisation.finding import found
 from fem_check.optimisation.kept import Kept
 from fem_check.optimisation.objectives import objective_of
-from fem_check.optimisation.options.constraints import checked
+from fem_check.optimisation.options.constraints import checked, unit_of
 from fem_check.optimisation.options.robust import Robust
 from fem_check.optimisation.options.searching import Keeping, Searching
 from fem_check.optimisation.result import Optimum
@@ -97,9 +97,9 @@ def search(asked: Asked, searching: Searching, keeping: Keeping) -> Optimum:
     if keeping.file is not None:
         question |= asked.functions()
     with Kept(keeping.file, question) as kept:
-        task = Task.of(asked, kept)
+        telling = _Telling(keeping.report, kept, asked, searching.starts, begin)
+        task = Task.of(asked, kept, telling.heard)
         points = _starts(task, searching)
-        telling = _Telling(keeping.report, kept, len(points), begin)
         try:
             return found(task, points, searching, telling, begin)
         except KeyboardInterrupt:
@@ -123,8 +123,12 @@ def _starts(task: Task, searching: Searching) -> list[Array]:
 class _Telling:
     """Reports after each answer."""
 
-    def __init__(self, report: Report | None, kept: Kept, starts: int, begin: float) -> None:
+    def __init__(
+        self, report: Report | None, kept: Kept, asked: Asked, starts: int, begin: float
+    ) -> None:
         self._report, self._kept, self._starts, self._begin = report, kept, starts, begin
+        self._objective, self._value = asked.objective, math.nan
+        self._unit = unit_of(asked.objective.unit, asked.unknowns.units) or asked.objective.unit
         self._start = self._stages = self._done = 0
         if report is not None:
             kept.told = self._tell
@@ -137,10 +141,15 @@ class _Telling:
         """So many stages of it."""
         self._done = stages
 
+    def heard(self, value: float) -> None:
+        """The objective at the last point."""
+        self._value = value
+
     def _tell(self) -> None:
         assert self._report is not None
         share = (self._start + self._done / max(self._stages, 1)) / self._starts
-        words = (
-            f"start {min(self._start + 1, self._starts)} of {self._starts}, {self._kept.count} answers"
-        )
+        start = min(self._start + 1, self._starts)
+        words = f"start {start} of {self._starts}, {self._kept.count} answers"
+        if not math.isnan(self._value):
+            words += f", {self._objective.name} {self._value:.4g} {self._unit}".rstrip() + " now"
         self._report(Progress(words, min(share, 1.0), time.perf_counter() - self._begin, math.nan))

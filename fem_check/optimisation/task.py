@@ -15,7 +15,7 @@ from fem_check.optimisation.kept import Kept
 from fem_check.optimisation.options.constraints import Side, sides_of, sums_of
 from fem_check.optimisation.options.robust import WORST, Robust
 from fem_check.optimisation.unknowns import Unknowns
-from fem_check.optimisation.values import Question
+from fem_check.optimisation.values import Question, unheard
 from linear_theory.common.estimate import Estimate
 from linear_theory.optimisation.limits import Limit, Mean, Worst
 from linear_theory.optimisation.problem import Constraint, Evaluation, Linear, Region, Unusable
@@ -43,8 +43,9 @@ class Task:
     sides: tuple[Side, ...]
 
     @classmethod
-    def of(cls, asked: Asked, kept: Kept) -> "Task":
-        """Raises ValueError, by name, for constraints that nothing meets."""
+    def of(cls, asked: Asked, kept: Kept, watched: Callable[[float], None] = unheard) -> "Task":
+        """watched: hears of every value of the objective. Raises ValueError, by name, for constraints
+        that nothing meets."""
         unknowns, objective, constraints = asked.unknowns, asked.objective, asked.constraints
         parts = asked.regimes or [("", unknowns)]
         sides = tuple(sides_of(constraints, unknowns.units))
@@ -52,6 +53,7 @@ class Task:
         questions = tuple(
             Question(
                 *(one, asked.settings, objective, kept, f"{place} " if asked.regimes else ""),
+                watched=watched,
                 solves=Solves(powers),
             )
             for place, (_, one) in enumerate(parts)

@@ -62,12 +62,16 @@ REMEMBERED = 32
 """Speeds of the last points, of which several numbers may be asked for."""
 
 
+def unheard(value: float) -> None:
+    """No one hears of it."""
+
+
 @dataclass(frozen=True)
 class Question:
     """What is asked of every point: level, tolerance and objective, or another number of the answer.
 
-    name: by which its answers are kept; speeds, solves: of the last points, shared by those who ask for
-    other numbers of the same scenes.
+    name: by which its answers are kept; watched: hears of every value of the objective; speeds,
+    solves: of the last points, shared by those who ask for other numbers of the same scenes.
     """
 
     unknowns: Unknowns
@@ -75,12 +79,13 @@ class Question:
     objective: Objective
     kept: Kept
     name: str = ""
+    watched: Callable[[float], None] = unheard
     speeds: dict[bytes, CrawlSpeed] = field(default_factory=dict)
     solves: Solves = field(default_factory=Solves)
 
     def also(self, objective: Objective, name: str) -> "Question":
         """For another number of the same answers."""
-        return replace(self, objective=objective, name=f"{self.name}{name} ")
+        return replace(self, objective=objective, name=f"{self.name}{name} ", watched=unheard)
 
     def answer(self, scene: Scene) -> Prediction:
         """Of a scene. Raises `Unusable` beyond the reach of the level, and where it fails."""
@@ -101,7 +106,9 @@ class Question:
         if isinstance(self.objective, OfScene):  # costs nothing
             found = self.objective.of_scene(self.unknowns.scene_at(point))
             return Estimate(self.objective.sign * found.value, found.error)
-        return self.kept.value(f"{self.name}value", point, lambda: self._signed(point))
+        found = self.kept.value(f"{self.name}value", point, lambda: self._signed(point))
+        self.watched(self.objective.sign * found.value)
+        return found
 
     def _signed(self, point: Array) -> Estimate:
         scene, key = self.unknowns.scene_at(point), point.tobytes()
@@ -122,7 +129,13 @@ class Question:
         adjoint = self._adjoint
         if adjoint is None:
             return None
-        return lambda point: self.kept.evaluation(f"{self.name}adjoint", point, lambda: adjoint(point))
+        return lambda point: self._kept("adjoint", point, lambda: adjoint(point))
+
+    def _kept(self, what: str, point: Array, work: Callable[[], Evaluation]) -> Evaluation:
+        """An evaluation from the file, or by the work."""
+        found = self.kept.evaluation(f"{self.name}{what}", point, work)
+        self.watched(self.objective.sign * found.value)
+        return found
 
     @cached_property
     def _adjoint(self) -> Adjoint | None:
@@ -133,11 +146,7 @@ class Question:
     def along_line(self, width: float | None) -> OfPoints:
         """With the gradient on a strip. width: of a tanh law instead of dry friction, over the unit."""
 
-        def evaluated(point: Array) -> Evaluation:
-            key = f"{self.name}line {width!r}"
-            return self.kept.evaluation(key, point, lambda: self._on_line(point, width))
-
-        return evaluated
+        return lambda point: self._kept(f"line {width!r}", point, lambda: self._on_line(point, width))
 
     def _on_line(self, point: Array, width: float | None) -> Evaluation:
         scene, objective = self.unknowns.scene_at(point), self.objective

@@ -73,6 +73,8 @@ def test_the_best_scene_is_not_written_over_the_question(place, capsys):
 
 
 CHECK = "check = false\n"
+GROWS = FILE[FILE.index("alpha = 0.1") : FILE.index("[optimise]")]
+STILL = "alpha = 0\n" + GROWS[GROWS.index("[over]") : GROWS.index("growth.alpha")]
 
 
 def bounds(words):
@@ -100,6 +102,8 @@ def robust(words):
         ("growth.alpha", "growth.law", "one.toml:11: [over] growth.law: lower bound 0.05: must be"),
         ("growth.alpha", "run.rtol", "one.toml:11: [over] run.rtol: says how a scene is answered"),
         ('"strip"', '"stirp"', "did you mean 'strip'?"),
+        ("starts = 1", f"seed = {2**53 + 1}", f"one.toml:14: [optimise] seed = {2**53 + 1}: must be"),
+        (GROWS, STILL, "one.toml:8: [scene.growth] alpha = 0: must not be 0, or be among what may"),
         ("starts = 1", 'rtol = "120 %"', "one.toml:14: [optimise] rtol = 1.2: must be in"),
         (CHECK, bounds("power = { at_most = '1 kg' }"), "one.toml:17: [constraints] power: at_most"),
         (CHECK, bounds("powr = { at_most = 1 }"), "one.toml:17: [constraints] 'powr': must be one of"),

@@ -143,7 +143,7 @@ def sides_of(constraints: Mapping[str, Bound], units: Units | None) -> list[Side
                 f"constraints: {key}: at_least = {number(ends['at_least'])}: must be < at_most = "
                 f"{number(ends['at_most'])}"
             )
-        unit = _unit(quantity.unit, units)
+        unit = unit_of(quantity.unit, units)
         found += [Side(key, quantity, SIDES[name][0], value, unit) for name, value in ends.items()]
     return found
 
@@ -154,7 +154,7 @@ def _plain(name: str, given: float | str, quantity: Objective, units: Units | No
     assert part is not None
     if part.unit is None:
         return part.number
-    unit = _unit(quantity.unit, units)
+    unit = unit_of(quantity.unit, units)
     try:
         if not unit:
             raise ValueError("must be a plain number, as those of the scene are")
@@ -165,7 +165,7 @@ def _plain(name: str, given: float | str, quantity: Objective, units: Units | No
         raise ValueError(f"constraints: {name} = {given!r}: {problem}") from None
 
 
-def _unit(unit: str, units: Units | None) -> str:
+def unit_of(unit: str, units: Units | None) -> str:
     """Of a quantity in the units of a scene file; empty for plain numbers."""
     if units is None or unit in ("", "mu"):
         return ""
