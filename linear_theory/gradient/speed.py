@@ -113,6 +113,7 @@ def power_gradient(
     """Derivatives of the mean power of growth (`CrawlSpeed.power`, over mu and the weight), likewise.
 
     The power is that which friction takes. Arguments and errors as for `speed_gradient`.
+    Raises ValueError as it does.
 
     >>> from linear_theory import Contact, Scene, Sheet, SineWave, Tanh, power_gradient
     >>> scene = Scene(Sheet(), SineWave(), alpha=0.2, contact=Contact("current", Tanh(0.05)))
