@@ -102,6 +102,7 @@ def robust(words):
         ("growth.alpha", "growth.law", "one.toml:11: [over] growth.law: lower bound 0.05: must be"),
         ("growth.alpha", "run.rtol", "one.toml:11: [over] run.rtol: says how a scene is answered"),
         ('"strip"', '"stirp"', "did you mean 'strip'?"),
+        ("growth.alpha", "wave.cosine.0", "[over] wave.cosine.0: amplitudes change together, as"),
         ("starts = 1", f"seed = {2**53 + 1}", f"one.toml:14: [optimise] seed = {2**53 + 1}: must be"),
         (GROWS, STILL, "one.toml:8: [scene.growth] alpha = 0: must not be 0, or be among what may"),
         ("starts = 1", 'rtol = "120 %"', "one.toml:14: [optimise] rtol = 1.2: must be in"),
