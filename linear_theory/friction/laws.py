@@ -213,7 +213,9 @@ def friction_law(
         if slip_speed is not None:
             raise ValueError(f"slip_speed = {shown(slip_speed)}: must be None beside {shown(friction)}")
         return checked_law(friction, 2, argument)
-    name = Coulomb.name if friction == DRY else validation.choice(argument, friction, FRICTION_LAWS)
+    if isinstance(friction, str) and friction == DRY:
+        friction = Coulomb.name
+    name = validation.choice(argument, friction, FRICTION_LAWS)
     if name == Tanh.name:
         if slip_speed is None:
             raise ValueError(f"slip_speed = None: must be > 0 for {argument} = 'tanh'")
