@@ -68,11 +68,10 @@ def _optimisation(path: Path, found: "OptimiseFile") -> dict[str, str]:
     from fem_check.files.mistakes import SceneFileError
     from fem_check.optimisation.standing import standings
 
-    asked = found.asked
-    base = asked.unknowns.base
+    base = found.asked.unknowns.base
     try:
+        asked = found.asked.with_level()
         limits = standings(asked)
-        asked = asked.with_level()
     except ValueError as problem:
         raise SceneFileError(f"{path}: {' '.join(str(problem).split())}") from None
     rows = dict(scene_rows(base.file)) if base is not None else {}
