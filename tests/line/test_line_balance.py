@@ -290,7 +290,7 @@ BAD = [
     (lambda: line_balance(SineWave(), np.nan), "alpha contains nan"),
     (lambda: line_balance(SineWave(), [0.1]), "alpha"),
     (lambda: line_balance(SineWave(), 0.1, load="heavy"), "load = 'heavy'"),
-    (lambda: line_balance(SineWave(), 0.1, friction="dry"), "friction = 'dry'"),
+    (lambda: line_balance(SineWave(), 0.1, friction="wet"), "friction = 'wet'"),
     (lambda: line_balance(SineWave(), 0.1, friction="tanh"), "slip_speed = None"),
     (lambda: line_balance(SineWave(), 0.1, friction="tanh", slip_speed=-1), "slip_speed = -1"),
     (lambda: line_balance(SineWave(), 0.1, slip_speed=1.0), r"slip_speed = 1\.0"),
