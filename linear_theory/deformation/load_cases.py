@@ -77,12 +77,11 @@ class Snapshots:
 
     def growths(self, x: Array, y: Array) -> Array:
         """Growth of each case, (2 T, *broadcast(x, y).shape)."""
-        rates = [self.drive.rate(x, y, t) for t in self.times]
-        return np.concatenate([self.values(x, y), np.stack(rates)])
+        return np.concatenate([self.values(x, y), self.drive.rate(x, y, self._before(x, y))])
 
     def values(self, x: Array, y: Array) -> Array:
         """c at each of the times, (T, *broadcast(x, y).shape), without the costly rates."""
-        return np.stack([self.drive.value(x, y, t) for t in self.times])
+        return self.drive.value(x, y, self._before(x, y))
 
     def samples(self) -> Array:
         """Amplitudes at the times, (2 T, T)."""
@@ -94,6 +93,10 @@ class Snapshots:
         if times.size > MOST_TIMES:
             raise ValueError(f"t has {times.size} different times: must be <= {MOST_TIMES} in one call")
         return Snapshots(self.drive, times)
+
+    def _before(self, x: Array, y: Array) -> Array:
+        """The times on an axis before those of the points, (T, 1, ...)."""
+        return self.times.reshape(-1, *(1,) * np.broadcast(x, y).ndim)
 
     def _picked(self, t: Array) -> Array:
         return np.asarray(self.times.reshape(-1, *(1,) * t.ndim) == t, float)
