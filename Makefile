@@ -42,6 +42,9 @@ PEERS_VENV := build/peers-venv
 export OMP_NUM_THREADS := 1
 export OPENBLAS_NUM_THREADS := 1
 export MKL_NUM_THREADS := 1
+# Bytecode is kept, whatever the shell says: tests start a hundred processes, and each would compile the
+# project anew, a fifth of its start.
+unexport PYTHONDONTWRITEBYTECODE
 
 FIGURE_OUT = $(if $(OUT),--out "$(OUT)")
 FIGURE_RTOL = $(if $(RTOL),--rtol $(RTOL))
