@@ -189,8 +189,9 @@ class LinearField(Shown, ABC):
             strains = self._strains(x, y)
             position = np.stack(np.broadcast_arrays(x, y))
             # contiguous, else the product with the amplitudes copies them for every batch of times
-            basis = map(np.ascontiguousarray, (self._displacements(x, y), strains[:, 0] + strains[:, 1]))
-            self._kept = key, (position, area, *basis)
+            displacements = np.ascontiguousarray(self._displacements(x, y))
+            dilations = np.ascontiguousarray(strains[:, 0] + strains[:, 1])
+            self._kept = key, (position, area, displacements, dilations)
         return self._kept[1]
 
     def _checked(self, x: ArrayLike, y: ArrayLike, t: ArrayLike) -> tuple[Array, Array, Array]:
