@@ -44,8 +44,8 @@ the growth coupling alpha and the curvature coupling beta (eq. 4, rest curvature
 
 with V_a = 0 for a sine. `second_order(scene).coefficients` gives all four with their errors in about
 0.1 s for a sine and a second for a pulse; `.converged` says whether they meet the tolerance, which they
-do not on the stiffest grounds, with (D/s)^(1/4) of some 0.005 L. `crawl_speed(scene, order=2)` gives the
-speed of a scene with `Bending`, `Gravity` and level `Ground`, with its power, cost of transport and
+do not on the stiffest grounds, with (D/s)^(1/4) of some 0.005 L. `crawl_speed(scene, order=2)` gives
+the speed of a scene with `Bending`, `Gravity` and level `Ground`, with its power, cost of transport and
 efficiency.
 
 **The theory.** On a ground linearised about the depth at which it carries the weight (eq. 2:

@@ -52,6 +52,7 @@ PATHS: dict[tuple[str, int, float], tuple[float, ...]] = {
     ("hemisphere", 6, 1.0): (0.05, 0.25, 0.5),
     ("semi-cylinder", 6, STIFF): (0.1, 0.25),
     ("hemisphere", 6, STIFF): (0.05,),
+    ("hemisphere", 8, 1.0): (0.05, 0.25, 0.5),
 }
 """Shares of the load by problem, cells and shear."""
 
