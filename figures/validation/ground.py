@@ -201,14 +201,13 @@ COMPARISONS = (
         Source(
             ZHENG,
             Confirmed.READ,
-            "speed about 1 cm/s; friction coefficient 0.3 here, 2.5 there; the two meshes here, 10 and "
-            "20 elements along, are too coarse for more than the order of magnitude",
+            "speed about 1 cm/s; friction coefficient 0.3 here, 2.5 there",
         ),
         (Number("V, cm/s", 1.0, 0.5, why=SIMULATED),),
         ByRefinement(
             centimetres_per_period,
-            {"steps": 96, "cells": 20},
-            {"steps": 48, "cells": 10},
+            {"steps": 96, "cells": 40},
+            {"steps": 48, "cells": 20},
         ),
         scene="piezo_inchworm.toml",
         slow=True,
