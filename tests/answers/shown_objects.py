@@ -90,7 +90,7 @@ MADE = {
     "Discretisation": lambda: ShellModel(full_scene()).discretisation,
     "EdgeMoment": lambda: EdgeMoment(0.1),
     "Equilibrium": lambda: Equilibrium(np.zeros(8), 1.0, 3, 1e-9, 0.1),
-    "Equilibrium buckled": lambda: Equilibrium(np.zeros(8), 1.0, 3, 1e-9, 0.1, -0.1, np.ones(8)),
+    "Equilibrium buckled": lambda: Equilibrium(np.zeros(8), 1.0, 3, 1e-9, 0.1, -0.1, 1e-9, np.ones(8)),
     "BestCouplings": lambda: made("QuadraticForm").best(0.1, 0.1),
     "Estimate": lambda: linear_theory.Estimate(0.1, 0.01),
     "Excitation": excited,
