@@ -149,7 +149,7 @@ COMPARISONS = (
         Source("Closed form of the balance", Confirmed.DERIVED),
         (Number("V/v0", -float(np.arctanh(0.3)), 1e-9),),
         ByRefinement(incline, {"steps": 40}, {"steps": 20}),
-        scene="block_on_incline.toml",
+        scenes=("block_on_incline.toml",),
     ),
     Comparison(
         "piezo foil: numbers",
@@ -211,7 +211,7 @@ COMPARISONS = (
             {"steps": 96, "cells": 20},
             {"steps": 48, "cells": 10},
         ),
-        scene="piezo_inchworm.toml",
+        scenes=("piezo_inchworm.toml",),
         slow=True,
     ),
     Comparison(
