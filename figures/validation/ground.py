@@ -17,7 +17,7 @@ from figures.validation.comparison import (
 )
 from figures.validation.problems.gait import centimetres_per_period
 from figures.validation.problems.piezo import numbers, pose_heights, single
-from figures.validation.problems.strips import end_forces, free_lengths, greenhill, rises
+from figures.validation.problems.strips import end_forces, free_lengths, greenhill, rises, tip_heights
 from figures.validation.sources import ZHENG
 from linear_theory import FieldWave, Scene, Sheet
 from linear_theory.common.errors import ViscousRegimeWarning
@@ -28,6 +28,8 @@ HEAVY = Source(
     Confirmed.DERIVED,
     "by an own collocation solution, too; Wang's review was not read",
 )
+
+HEAVY_STRIPS = ("heavy_strip_1.toml", "heavy_strip_4.toml")
 
 
 def hetenyi(length: float) -> tuple[float]:
@@ -64,11 +66,12 @@ COMPARISONS = (
             Number("tip height, kappa_0 = 4", 0.0720, 5e-5),
         ),
         ByRefinement(
-            rises,
-            {"stiffness": 8e6, "elements": 40},
-            {"stiffness": 5e5, "elements": 20},
-            {"curvatures": (1.0, 4.0)},
+            tip_heights,
+            {"stiffness": 8e6, "elements": 80},
+            {"stiffness": 5e5, "elements": 40},
+            {"names": HEAVY_STRIPS},
         ),
+        scenes=HEAVY_STRIPS,
     ),
     Comparison(
         "heavy elastica on a table: length",
@@ -92,8 +95,9 @@ COMPARISONS = (
             free_lengths,
             {"softest": 8e6, "elements": 100},
             {"softest": 5e5, "elements": 40},
-            {"curvatures": (1.0, 4.0)},
+            {"names": HEAVY_STRIPS},
         ),
+        scenes=HEAVY_STRIPS,
     ),
     Comparison(
         "heavy elastica on a table: force",
@@ -104,8 +108,9 @@ COMPARISONS = (
             end_forces,
             {"stiffness": 1.28e8, "elements": 80},
             {"stiffness": 5e5, "elements": 40},
-            {"curvatures": (4.0,)},
+            {"names": HEAVY_STRIPS[1:]},
         ),
+        scenes=HEAVY_STRIPS[1:],
     ),
     Comparison(
         "heavy elastica, a wide sheet",
@@ -119,7 +124,7 @@ COMPARISONS = (
             rises,
             {"stiffness": 8e6, "elements": 40},
             {"stiffness": 5e5, "elements": 20},
-            {"curvatures": (1.0, 3.0), "poisson": 0.3, "wide": True},
+            {"curvatures": (1.0, 3.0)},
         ),
     ),
     Comparison(
