@@ -2,12 +2,12 @@
 
 import warnings
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
-from fem_check import simulate
+from fem_check import Friction, simulate
 from figures.validation.comparison import (
-    SCENES,
     ByRefinement,
     Closed,
     Comparison,
@@ -18,10 +18,10 @@ from figures.validation.comparison import (
 from figures.validation.problems.gait import centimetres_per_period
 from figures.validation.problems.piezo import numbers, pose_heights, single
 from figures.validation.problems.strips import end_forces, free_lengths, greenhill, rises, tip_heights
+from figures.validation.scene_files import scene_of
 from figures.validation.sources import ZHENG
-from linear_theory import FieldWave, Scene, Sheet
 from linear_theory.common.errors import ViscousRegimeWarning
-from linear_theory.deformation.plate import Foundation, plate_field
+from linear_theory.deformation.plate import foundation, plate_field
 
 HEAVY = Source(
     "First integral of the heavy elastica; its equation: C. Y. Wang, Int. J. Mech. Sci. 28:549 (1986)",
@@ -29,27 +29,24 @@ HEAVY = Source(
     "by an own collocation solution, too; Wang's review was not read",
 )
 
+BLOCK, FOUNDATION = "block_on_incline.toml", "elastic_foundation.toml"
 HEAVY_STRIPS = ("heavy_strip_1.toml", "heavy_strip_4.toml")
 
 
 def hetenyi(length: float) -> tuple[float]:
     """Deflection of the end over kappa (B/s)^(1/2) of a strip on an elastic foundation."""
-    thickness, weight, stiffness = 0.03, 2.5e-4, 5e3
-    bending = thickness**3 / 12
-    uniform = FieldWave(lambda x, y, t: np.cos(2 * np.pi * t) + 0 * x + 0 * y, period=1.0)
-    sheet = Sheet(length=length, width=0.002, poisson=0.0, thickness=thickness)
-    field = plate_field(sheet, uniform, Foundation(bending, weight, stiffness), rtol=1e-6)
+    scene = scene_of(FOUNDATION)
+    sheet, ground = replace(scene.sheet, length=length), foundation(scene.effects)
+    field = plate_field(sheet, scene.wave, ground, rtol=1e-6)
     # W/12^(1/2) off the middle line is the mean over the width of the strip, bent both ways
     end = field.deflection(sheet.width / 12**0.5, np.array([length / 2]), 0.5)
-
-    foundation = 2 * np.sqrt(weight * stiffness)
-    return (float(end[0] / np.sqrt(bending / foundation)),)
+    return (float(end[0] / np.sqrt(ground.rigidity / ground.spring)),)
 
 
 def incline(steps: int) -> Sequence[float]:
     """V over the slip speed of the block in the scene file."""
-    scene = Scene.from_toml(SCENES / "block_on_incline.toml")
-    slip = 1e-3
+    scene = scene_of(BLOCK)
+    slip = scene.find(Friction).law.slip_speed
 
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", ViscousRegimeWarning)
@@ -136,6 +133,7 @@ COMPARISONS = (
         ),
         (Number("deflection of the end over kappa (B/s)^(1/2)", 1.0, 1e-15),),
         ByRefinement(hetenyi, {"length": 1.0}, {"length": 0.6}),
+        scenes=(FOUNDATION,),
     ),
     Comparison(
         "column under its own weight",
@@ -154,7 +152,7 @@ COMPARISONS = (
         Source("Closed form of the balance", Confirmed.DERIVED),
         (Number("V/v0", -float(np.arctanh(0.3)), 1e-9),),
         ByRefinement(incline, {"steps": 40}, {"steps": 20}),
-        scenes=("block_on_incline.toml",),
+        scenes=(BLOCK,),
     ),
     Comparison(
         "piezo foil: numbers",
