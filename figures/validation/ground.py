@@ -29,6 +29,7 @@ HEAVY = Source(
     "by an own collocation solution, too; Wang's review was not read",
 )
 
+SLIDING = "block_accelerates.toml"
 BLOCK, FOUNDATION = "block_on_incline.toml", "elastic_foundation.toml"
 HEAVY_STRIPS = ("heavy_strip_1.toml", "heavy_strip_4.toml")
 
@@ -51,6 +52,16 @@ def incline(steps: int) -> Sequence[float]:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", ViscousRegimeWarning)
         return [simulate(scene, periods=2, steps=steps).speed.mean / slip]
+
+
+def sliding(steps: int) -> Sequence[float]:
+    """Mean velocities of the block of the scene file in its first two periods, L/T."""
+    return [float(v) for v in simulate(scene_of(SLIDING), periods=2, steps=steps).period_speeds]
+
+
+def slid(periods: float, a: float = 0.6, b: float = 0.4, v0: float = 0.01) -> float:
+    """Velocity so long after its start, in closed form: a = g sin, b = mu g cos of the incline."""
+    return -((a - b) * periods + v0 * b / (a + b) * float(np.log(2 * a / (a - b))))
 
 
 COMPARISONS = (
@@ -153,6 +164,15 @@ COMPARISONS = (
         (Number("V/v0", -float(np.arctanh(0.3)), 1e-9),),
         ByRefinement(incline, {"steps": 40}, {"steps": 20}),
         scenes=(BLOCK,),
+    ),
+    Comparison(
+        "block that slides, with inertia",
+        "tan(incline) = 1.5 mu, tanh law, from rest: v = -(a - b) t - v0 b/(a + b) ln(2 a/(a - b)), a = g "
+        "sin, b = mu g cos of the incline",
+        Source("Closed form of the equation of motion", Confirmed.DERIVED),
+        tuple(Number(f"V, L/T, of period {k}, a/(a + b) = 0.6", slid(k), 2e-9) for k in (1, 2)),
+        ByRefinement(sliding, {"steps": 80}, {"steps": 40}),
+        scenes=(SLIDING,),
     ),
     Comparison(
         "piezo foil: numbers",
