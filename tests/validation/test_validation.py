@@ -13,7 +13,7 @@ from scipy.special import ellipe, ellipeinc, ellipk, ellipkinc, i0
 
 from fem_check.command.program import main
 from fem_check.files import SceneFile, read
-from figures.draw import validation as validation_figure
+from figures.draw.validation import figure as validation_figure
 from figures.measure import validation
 from figures.validation import comparison as comparison_module
 from figures.validation import crawlers, plates, scene_files, shells

@@ -10,6 +10,7 @@ absolute where that is 0. What is below `SMALLEST` is drawn at the edge.
 from collections.abc import Sequence
 from typing import NamedTuple
 
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
@@ -91,7 +92,7 @@ def draw(rows: Sequence[Row]) -> Figure:
     fig = style.figure(width=style.DOUBLE_CM, height=PITCH_CM * longest + MARGIN_CM)
     for axes, part in zip(fig.subplots(1, COLUMNS), parts, strict=True):
         _draw_part(axes, part, longest)
-    handles = [
+    handles: list[Artist] = [
         Line2D([], [], ls="", marker=marker, mfc=face, mec=edge, label=verdict)
         for verdict, (marker, face, edge) in LOOKS.items()
     ]
