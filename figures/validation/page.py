@@ -39,8 +39,8 @@ there was confirmed:
 AGAIN = """To compute numbers again:
 
 * a comparison that names **scene files** reads them. `sheetcrawl check FILE` says what a file holds,
-  and `sheetcrawl speed FILE` gives the number where that is a speed; a sheet that only curls or lies has
-  the speed 0, and its number is read from its shape, or from its wave, by the comparison;
+  and `sheetcrawl speed FILE` gives the number where that is a speed; a sheet that only curls or lies
+  has the speed 0, and the comparison reads its number from its shape, or from its wave;
 * those that name none are no scenes that a file can say: they hold edges or load points, refer to a
   curved surface, have a drive that jumps along the sheet or does not repeat (voltages of actuators, one
   front, one pulse), or are formulas of a laminate. They are in the Python module that stands under each
