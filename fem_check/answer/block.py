@@ -33,6 +33,7 @@ LABEL = 10
 
 LEVEL_WORDS = {
     "strip": "the closed-form balance of a narrow strip",
+    "line": "the balance of a one-dimensional body with its weight per length",
     "first order": "small-strain theory",
     "second order": "second-order theory in alpha",
     "cycle": "a cycle of static shapes",

@@ -11,7 +11,7 @@ from linear_theory.scene.scene import Scene
 RAMP = 0.5
 """Periods in which growth rises before those that are counted, of `simulate`."""
 
-PRICES = {"strip": 0.006, "first order": 0.09, "second order": 0.13}
+PRICES = {"strip": 0.006, "line": 0.006, "first order": 0.09, "second order": 0.13}
 """Processor seconds of a level of `predict` for the paper's sheet to 2 %, to a factor of 5."""
 
 PLATE = 0.3

@@ -5,6 +5,8 @@
     second order  V_1 alpha + V_2 alpha^2 of the nonlinear sheet                 tenths of a second
     cycle         the nonlinear sheet itself, statics and friction balance       tenths of a second up
 
+Aside of them stands `line`, another body: one-dimensional, with its weight per length (eqs 5 to 7).
+
 The target is the planar nonlinear sheet with the stated growth law, area measure and load, so stiff
 that friction does not change its shape. The last level is that sheet; the distance of the others to it
 is known where it was measured (`linear_theory.speed.model_error`).
@@ -42,11 +44,23 @@ Level = Callable[[Scene, Tolerance], CrawlSpeed]
 
 def strip(scene: Scene, tolerance: Tolerance) -> CrawlSpeed:
     """A narrow strip as long as the sheet. Raises ValueError for a wave that depends on x."""
-    if scene.drive.depends_on_x:
-        raise ValueError("method = 'strip': must be 'cycle' for a wave that depends on x")
-    found, distance = line_crawl(scene, tolerance, "strip"), model_error("strip", scene)
+    found, distance = _narrow(scene, tolerance, "strip"), model_error("strip", scene)
     found = with_power_error(found, "strip", scene)
     return replace(found, model_error=distance, deformation=drawn_deformation(scene))
+
+
+def line(scene: Scene, tolerance: Tolerance) -> CrawlSpeed:
+    """A one-dimensional body as long as the sheet. Raises ValueError for a wave that depends on x.
+
+    How far a sheet is from it is not known: two sheets of one drive may move to either side of it.
+    """
+    return _narrow(scene, tolerance, "line")
+
+
+def _narrow(scene: Scene, tolerance: Tolerance, body: str) -> CrawlSpeed:
+    if scene.drive.depends_on_x:
+        raise ValueError(f"method = {body!r}: must be 'cycle' for a wave that depends on x")
+    return line_crawl(scene, tolerance, body)
 
 
 def first_order(scene: Scene, tolerance: Tolerance) -> CrawlSpeed:
@@ -90,6 +104,9 @@ LEVELS: dict[str, Level] = {
     "cycle": cycle,
 }
 """The levels by name, cheapest first; the last one is the target."""
+
+ASIDE: dict[str, Level] = {"line": line}
+"""Answered by name only: a body that is not the target, nor on the way to it."""
 
 TARGET = "cycle"
 """Name of the level that is the target."""

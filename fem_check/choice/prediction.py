@@ -6,7 +6,7 @@ import warnings
 from dataclasses import replace
 
 from fem_check.choice.bending import BENDING, bending_answer
-from fem_check.choice.levels import LEVELS, TARGET_EFFECTS, distance
+from fem_check.choice.levels import ASIDE, LEVELS, TARGET_EFFECTS, distance
 from fem_check.choice.reach import check_width
 from fem_check.choice.result import Passed, Prediction, not_estimated, total_error
 from fem_check.choice.settings import SHARE
@@ -31,7 +31,7 @@ from linear_theory.sheet.rectangle import Sheet
 from linear_theory.speed.reach import warn_if_beyond
 from linear_theory.wave.protocol import Wave
 
-METHODS = ("auto", *LEVELS)
+METHODS = ("auto", *LEVELS, *ASIDE)
 
 
 def predict(
@@ -56,15 +56,16 @@ def predict(
     `crawl_speed`, or a `Scene`. method = "auto" tries "strip", "first order", "second order" and
     "cycle" in this order and returns the first whose numerical plus model error is below
     max(rtol |mean|, atol), atol = 1e-3 rtol alpha^2 L/T unless given; a level whose model error is
-    unknown (see `model_error`) is skipped. The name of a level as method selects that level.
+    unknown (see `model_error`) is skipped. The name of a level as method selects that level,
+    and "line" the one-dimensional body of eqs 5 to 7, with its weight per length, which is no sheet.
     `converged` is False if even the last level misses the tolerance. `left_out` lists what the target
     neglects (bending, and with it the thickness; the ground; deformation by friction). A scene with
     Bending has a cycle of its own shapes as target, and "second order", on level ground, and "cycle" as
     levels; `solve` answers those that neither represents. progress: True prints on stderr, a function
     is called with a `linear_theory.common.progress.Progress`.
 
-    Raises ValueError for bad input, for sheets wider than 20 lengths unless by method "strip" or
-    "first order", and what the chosen level raises. Warns as `crawl_speed` does, for
+    Raises ValueError for bad input, for sheets wider than 20 lengths unless by method "strip", "line"
+    or "first order", and what the chosen level raises. Warns as `crawl_speed` does, for
     the level that gives the answer.
 
     >>> from fem_check import predict
@@ -144,7 +145,7 @@ def _answer(scene: Scene, level: str, tolerance: Tolerance, reason: str) -> Pred
         for kind in (ViscousRegimeWarning, BeyondReachWarning):  # `predict` warns, for the answer
             warnings.simplefilter("ignore", kind)
         with part_of(level):
-            speed = LEVELS[level](scene, tolerance.share(SHARE))
+            speed = (LEVELS | ASIDE)[level](scene, tolerance.share(SHARE))
     lacking, omitted = not_estimated(level, speed), left_out(TARGET_EFFECTS)
     error = speed.error if lacking else total_error(speed)
     converged = not speed.beyond_reach and error <= tolerance.allowed(speed.mean)

@@ -10,7 +10,7 @@ As far as it was measured: a sine at alpha = 0.1 on sheets 5, 10 and 20 lengths 
 order, which does not reach 1 %; to 0.1 % the cycle takes more than a minute at 20.
 """
 
-ANY_WIDTH = ("strip", "first order")
+ANY_WIDTH = ("strip", "line", "first order")
 
 
 def check_width(scene: Scene, method: str) -> None:

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 from fem_check.answer.block import block
 from fem_check.answer.energy import measure
 from fem_check.answer.record import row
-from fem_check.choice.levels import TARGET
+from fem_check.choice.levels import ASIDE, TARGET
 from linear_theory.common.drawable import Drawable
 from linear_theory.common.estimate import Estimate
 from linear_theory.common.shown import Shown, number
@@ -19,6 +19,7 @@ from linear_theory.scene.scene import Scene
 from linear_theory.speed.result import CrawlSpeed, speed_in_words
 
 BY_FRICTION = "deformation by friction, taken as too weak"
+TO_A_SHEET = "distance to a sheet"
 
 
 @dataclass(frozen=True)
@@ -155,9 +156,11 @@ class Passed(Shown, _Passed):
 def not_estimated(level: str, speed: CrawlSpeed) -> tuple[str, ...]:
     """Parts of the model error of a level that it does not estimate, in words.
 
-    A cycle of shapes is exact but for the deformation by friction, where a scene has its coefficient.
+    A cycle of shapes is exact but for the deformation by friction, where a scene has its coefficient; a
+    one-dimensional body is what was asked for, and no sheet.
     """
-    return (BY_FRICTION,) if level == TARGET and math.isnan(speed.model_error) else ()
+    parts = {TARGET: (BY_FRICTION,), **dict.fromkeys(ASIDE, (TO_A_SHEET,))}
+    return parts.get(level, ()) if math.isnan(speed.model_error) else ()
 
 
 def total_error(speed: CrawlSpeed) -> float:

@@ -37,11 +37,11 @@ def solve(
     """How fast any scene crawls, by the cheapest level that represents all that it names.
 
     level: "auto", or one by name: "predict" for a rectangle that stretches in its plane (or "strip",
-    "first order", "second order", levels of it), "cycle" for a cycle of static shapes, "stepped" for
-    steps in time. A sheet that bends is taken by "auto" to a cycle of its shapes; "predict" tries the
-    plate on its ground first, "second order" asks for it. rtol: of the speed. periods: of steps in
-    time, after the growth has risen; steps: to a period, instead of the tolerance. progress: True
-    prints on stderr, a function is called with a `Progress`.
+    "first order", "second order", levels of it; "line", a one-dimensional body), "cycle" for a cycle of
+    static shapes, "stepped" for steps in time. A sheet that bends is taken by "auto" to a cycle of its
+    shapes; "predict" tries the plate on its ground first, "second order" asks for it. rtol: of the
+    speed. periods: of steps in time, after the growth has risen; steps: to a period, instead of the
+    tolerance. progress: True prints on stderr, a function is called with a `Progress`.
 
     Raises ValueError for a scene that no level, or not the one asked for, represents, and what
     `predict`, `cycle_speed` and `simulate` raise, which return more: shapes, and the motion in time.

@@ -7,7 +7,7 @@ stepped   all effects, step by step in time
 Asked for by name "predict" answers a sheet that bends, too, by the plate or a cycle of its shapes.
 """
 
-from fem_check.choice.levels import LEVELS
+from fem_check.choice.levels import ASIDE, LEVELS
 from fem_check.choice.reach import check_width
 from fem_check.shell.abilities import CYCLE, STEPPED
 from linear_theory.common import validation
@@ -17,7 +17,7 @@ from linear_theory.scene.scene import Scene
 WAYS: dict[str, Level] = {"predict": THEORY, "cycle": CYCLE, "stepped": STEPPED}
 """By name, cheapest first."""
 
-THEORIES = tuple(level for level in LEVELS if level not in WAYS)
+THEORIES = (*(level for level in LEVELS if level not in WAYS), *ASIDE)
 """Levels of `predict` that may be asked for by name, too."""
 
 ANSWERS = ("auto", *WAYS, *THEORIES)

@@ -82,9 +82,10 @@ class Options:
     atol: Annotated[str | None, In(group=COST)] = None
     """Absolute tolerance for the same error, a speed."""
     method: Annotated[
-        Literal["auto", "strip", "first order", "second order", "cycle"], In(group=COST)
+        Literal["auto", "strip", "first order", "second order", "cycle", "line"], In(group=COST)
     ] = "auto"
-    """Level of theory; auto chooses the cheapest that is known to meet the tolerance."""
+    """Level of theory; auto chooses the cheapest that is known to meet the tolerance. "line" is the
+    one-dimensional body of eqs 5 to 7, with its weight per length."""
 
     json: Annotated[bool, In(group=OUTPUT)] = False
     """Print the answer as JSON, in the units of the question."""

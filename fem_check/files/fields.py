@@ -39,7 +39,7 @@ def tables_in(annotation: Any) -> Iterator[type[Table]]:
         yield from tables_in(part)
 
 
-Level = Literal["auto", "predict", "cycle", "stepped", "strip", "first order", "second order"]
+Level = Literal["auto", "predict", "cycle", "stepped", "strip", "first order", "second order", "line"]
 """By which a scene is answered: `choice.ways.ANSWERS`."""
 
 SMALLEST = 1e-100

@@ -242,7 +242,8 @@ class RunTable(Table):
 
     level: Level = "auto"
     """"auto" takes the cheapest that can represent the scene; "predict" may take any theory or a cycle
-    of shapes that meets the tolerance, of a sheet that bends, too, "second order" that theory alone."""
+    of shapes that meets the tolerance, of a sheet that bends, too, "second order" that theory alone;
+    "line" is a one-dimensional body."""
     rtol: PositiveShare | None = None
     """Relative error of the speed, e.g. "1 %", which it is unless given."""
     periods: Natural = 2

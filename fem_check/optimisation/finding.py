@@ -24,7 +24,7 @@ from linear_theory.optimisation.search import Climbed, climb
 
 Array = NDArray[np.float64]
 
-LADDER = ("strip", "first order", "second order", "cycle", "stepped")
+LADDER = ("line", "strip", "first order", "second order", "cycle", "stepped")
 """Levels, each checked by the next one that represents the scene."""
 
 ROUNDING = 1e-12

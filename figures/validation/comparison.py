@@ -139,9 +139,9 @@ class Closed:
 class Comparison:
     """Published numbers of one problem, and the calculation of all of them.
 
-    name: short, unique; problem: what is computed, one sentence; scene: file in SCENES where the
-    problem is a scene that `sheetcrawl` answers; slow: the cheap form is not, and the tests only check
-    the table. Numbers and those computed stand in the same order.
+    name: short, unique; problem: what is computed, one sentence; scenes: files in SCENES that the
+    calculation reads, where the problem is a scene of the package; slow: the cheap form is
+    not, and the tests only check the table. Numbers and those computed stand in the same order.
     """
 
     name: str
@@ -149,17 +149,17 @@ class Comparison:
     source: Source
     numbers: tuple[Number, ...]
     calculation: Calculation
-    scene: str = ""
+    scenes: tuple[str, ...] = ()
     slow: bool = False
 
     @property
     def files(self) -> tuple[Path, ...]:
-        """The scene file, and a table of samples that it reads."""
-        if not self.scene:
-            return ()
-        path = SCENES / self.scene
-        samples = tomllib.loads(path.read_text(encoding="utf-8"))["wave"].get("csv")
-        return (path, SCENES / samples) if samples else (path,)
+        """The scene files, and the tables of samples that they read."""
+        found = [SCENES / scene for scene in self.scenes]
+        for path in tuple(found):
+            samples = tomllib.loads(path.read_text(encoding="utf-8")).get("wave", {}).get("csv")
+            found += [SCENES / samples] if samples else []
+        return tuple(found)
 
     @property
     def identity(self) -> str:

@@ -1,11 +1,11 @@
 """Crawlers in one dimension."""
 
-import warnings
 from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
+from fem_check import predict
 from figures.validation.comparison import (
     ByRefinement,
     ByTolerance,
@@ -14,21 +14,16 @@ from figures.validation.comparison import (
     Number,
     Source,
 )
-from linear_theory import (
-    Coulomb,
-    Directional,
-    Estimate,
-    FieldWave,
-    SineWave,
-    Tanh,
-    TravellingWave,
-    Viscous,
-    line_balance,
-)
-from linear_theory.common.errors import ViscousRegimeWarning
-from linear_theory.friction.law import FrictionLaw
+from figures.validation.scene_files import BySceneFiles, answer, scene_of
+from linear_theory import Estimate, FieldWave, TravellingWave, line_balance
 
 Array = NDArray[np.float64]
+
+SQUARE = "viscous_square_wave.toml"
+GAPS = "pulses_with_gaps.toml"
+DIRECTIONAL = ("directional_sine_small.toml", "directional_sine_large.toml")
+BREATHING = ("breathing_dry.toml", "breathing_viscous.toml")
+RECIPROCAL = ("reciprocal_dry.toml", "reciprocal_tanh.toml")
 
 VISCOUS = Source(
     "A. DeSimone, A. Tatone, Eur. Phys. J. E 35:85 (2012); D. Agostinelli, F. Alouges, A. DeSimone, "
@@ -44,28 +39,13 @@ NOSELLI = Source(
 )
 
 
-def ratchet(r: float, form: FrictionLaw) -> Directional:
-    """Friction with (mu_b - mu_f)/(mu_b + mu_f) = r."""
-    return Directional(1 - r, 1 + r, form=form)  # type: ignore[arg-type]
-
-
-def square_wave(count: int, share: float = 0.3, stretch: float = 0.4) -> tuple[float]:
-    """V nT/L under viscous friction of a share of the body that is stretched by 1 + `stretch`.
-
-    Of `count` harmonics of the square, each times the mean over a step of 1/count (Lanczos), which
-    keeps the series from overshooting.
-    """
-    k = np.arange(1, count + 1)
-    smooth = np.sinc(k / (count + 1))
-    cosine = 2 * np.sin(np.pi * k * share) / (np.pi * k) * smooth
-    wave = TravellingWave(cosine, np.zeros(count), mean=share)
-    return (line_balance(wave, stretch, friction=Viscous()).mean,)
-
-
-def exponential(load: str) -> Sequence[Estimate]:
-    """V T/L of a sine with stretch exp(0.25 c) under viscous friction."""
-    found = line_balance(SineWave(), 0.25, load=load, friction=Viscous(), growth_law="exp")
-    return [found.estimate]
+def truncated(name: str, count: int) -> tuple[float]:
+    """V T/L of a scene file whose wave is a Fourier series, of its first `count` harmonics."""
+    scene = scene_of(name)
+    wave = scene.wave
+    assert isinstance(wave, TravellingWave)
+    series = wave.cosine[:count], wave.sine[:count], wave.count, wave.period, wave.mean
+    return (predict(scene.but(wave=TravellingWave(*series)), method="line").mean,)
 
 
 def pulse(y: Array, t: Array) -> Array:
@@ -81,45 +61,10 @@ def single_pulse(rtol: float, alpha: float = 0.2) -> Sequence[Estimate]:
     return [line_balance(wave, alpha, length=1.0, rtol=rtol).estimate]
 
 
-def pulses_with_gaps(points: int, alpha: float = 0.5) -> tuple[float]:
-    """V T/L of a train of cosine pulses with gaps between them, dry."""
-    phase = 2 * np.pi * np.arange(points) / points
-    c = np.where(abs(phase - 3) < 1, np.cos((phase - 3) * np.pi / 2) ** 2, 0.0)
-    return (line_balance(TravellingWave.from_samples(c), alpha).mean,)
-
-
-def directional_sine() -> Sequence[Estimate]:
-    """n T V/L of a sine with stretch 1 + alpha c: (0.1, 0.5), (0.3, 0.5) of (alpha, r), and V/alpha as
-    alpha tends to 0 at r = 0.5."""
-    dry = ratchet(0.5, Coulomb())
-    small, large = (line_balance(SineWave(), alpha, friction=dry) for alpha in (0.1, 0.3))
-    limit = Estimate(small.first_order, 1e-12)
-    return [small.estimate, large.estimate, limit]
-
-
-def breathing(rtol: float, r: float = 0.3, alpha: float = 0.4) -> Sequence[Estimate]:
-    """Net displacement per period over the range of the length: dry, and viscous."""
-    wave = FieldWave(lambda x, y, t: np.sin(2 * np.pi * t) + 0 * x * y, period=1.0)
-    found = []
-    for form in (Coulomb(), Viscous()):
-        speed = line_balance(wave, alpha, friction=ratchet(r, form), length=1.0, rtol=rtol)
-        found.append(Estimate(speed.mean / (2 * alpha), speed.error / (2 * alpha)))
-    return found
-
-
-def reciprocal(rtol: float) -> Sequence[Estimate]:
-    """V T/L of a body of one degree of freedom, uneven in time: dry, and under tanh at 0.2 L/T."""
-
-    def uneven(x: Array, y: Array, t: Array) -> Array:
-        course = np.sin(2 * np.pi * t + 0.8 * np.sin(2 * np.pi * t))
-        return np.asarray(course * np.where(y > 0, 1.0, -0.4) + 0 * x)
-
-    wave = FieldWave(uneven, period=1.0)
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", ViscousRegimeWarning)
-        still = line_balance(wave, 0.2, length=1.0, load="material", rtol=rtol, atol=1e-5)
-        moves = line_balance(wave, 0.2, length=1.0, friction=Tanh(0.2), rtol=rtol)
-    return [Estimate(still.mean, still.error + 1e-9), moves.estimate]
+def directional_limit() -> Sequence[Estimate]:
+    """n T V/L of a sine at two amplitudes, r = 0.5, and V/alpha as alpha tends to 0."""
+    small, large = (answer(name).speed for name in DIRECTIONAL)
+    return [small.estimate, large.estimate, Estimate(small.first_order, 1e-12)]
 
 
 COMPARISONS = (
@@ -128,14 +73,16 @@ COMPARISONS = (
         "a travelling wave of which 0.3 of the body is stretched by 1.4, viscous friction per length",
         VISCOUS,
         (Number("V nT/L = f(1 - f) e^2/(1 + f e)", 0.3 * 0.7 * 0.16 / 1.12, 1e-15),),
-        ByRefinement(square_wave, {"count": 4000}, {"count": 1000}),
+        ByRefinement(truncated, {"count": 400}, {"count": 100}, {"name": SQUARE}),
+        scenes=(SQUARE,),
     ),
     Comparison(
         "viscous sine of any strain",
         "stretch exp(0.25 sin), viscous friction constant per length",
         VISCOUS,
         (Number("V T/L = I0(2 alpha)/I0(alpha) - I0(alpha)", 0.03137291332, 5e-12),),
-        ByTolerance(exponential, shared={"load": "current"}),
+        BySceneFiles(("viscous_sine.toml",), coarse=0.1),
+        scenes=("viscous_sine.toml",),
     ),
     Comparison(
         "viscous friction per mass",
@@ -145,8 +92,8 @@ COMPARISONS = (
             Confirmed.READ,
         ),
         (Number("V T/L", 0.0, 0.0),),
-        ByTolerance(exponential, shared={"load": "material"}),
-        scene="viscous_mass.toml",
+        BySceneFiles(("viscous_mass.toml",), coarse=0.1),
+        scenes=("viscous_mass.toml",),
     ),
     Comparison(
         "single pulse, dry",
@@ -168,7 +115,8 @@ COMPARISONS = (
             Confirmed.DERIVED,
         ),
         (Number("V = -(mean lambda - 1)/(nT), L/T", -0.5 / (2 * np.pi), 1e-15),),
-        ByRefinement(pulses_with_gaps, {"points": 1024}, {"points": 256}),
+        ByRefinement(truncated, {"count": 160}, {"count": 40}, {"name": GAPS}),
+        scenes=(GAPS,),
     ),
     Comparison(
         "directional crawler, sine",
@@ -179,7 +127,8 @@ COMPARISONS = (
             Number("n T V/L, alpha = 0.3", 0.2454053, 5e-8),
             Number("V/alpha as alpha -> 0: sin(pi r/2)", np.sin(np.pi / 4), 1e-15),
         ),
-        ByTolerance(directional_sine),
+        ByTolerance(directional_limit),
+        scenes=DIRECTIONAL,
     ),
     Comparison(
         "directional crawler, breathing",
@@ -193,11 +142,12 @@ COMPARISONS = (
                 1e-15,
             ),
         ),
-        ByTolerance(breathing, {"rtol": 1e-4}, {"rtol": 1e-3}),
+        BySceneFiles(BREATHING, coarse=2e-3, unit=0.8),
+        scenes=BREATHING,
     ),
     Comparison(
         "reciprocal body",
-        "one degree of freedom, uneven in time",
+        "one degree of freedom, c = (0.3 + 1.4 y) q(t), q uneven in time",
         Source(
             "G. L. Wagner, E. Lauga, J. Theor. Biol. 324:42 (2013), arXiv:1303.2669",
             Confirmed.READ,
@@ -213,6 +163,7 @@ COMPARISONS = (
                 "is that the body moves at all",
             ),
         ),
-        ByTolerance(reciprocal, {"rtol": 3e-3}, {"rtol": 1e-2}),
+        BySceneFiles(RECIPROCAL, coarse=0.1),
+        scenes=RECIPROCAL,
     ),
 )

@@ -5,7 +5,6 @@ from collections.abc import Sequence
 import numpy as np
 
 from fem_check.excitable import Adaptive, BumpStart, Excitation, FitzHughNagumo, wave_train
-from fem_check.excitable import excitable_preset as preset
 from fem_check.excitable.record import Record
 from figures.validation.comparison import (
     ByRefinement,
@@ -15,7 +14,10 @@ from figures.validation.comparison import (
     Number,
     Source,
 )
+from figures.validation.scene_files import scene_of
 from linear_theory import Estimate, Sheet
+
+TRAIN = "wave_train.toml"
 
 NUMERICS = Source(
     "Travelling waves by Fourier series and Newton's method, in the regime of P. Carter, A. Scheel, "
@@ -61,7 +63,9 @@ def pulses(size: float) -> tuple[float, ...]:
 
 def train() -> Sequence[Estimate]:
     """Speed and period of the train of wavelength 1."""
-    found = wave_train(preset("nu = -0.1"))
+    wave = scene_of(TRAIN).wave
+    assert isinstance(wave, Excitation)
+    found = wave_train(wave.equation)
     return [
         Estimate(found.speed, found.speed_error),
         Estimate(found.period, found.period_error),
@@ -93,5 +97,6 @@ COMPARISONS = (
         NUMERICS,
         (Number("speed", 0.02517, 5e-6), Number("period", 39.73, 5e-3)),
         ByTolerance(train),
+        scenes=(TRAIN,),
     ),
 )

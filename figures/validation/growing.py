@@ -17,6 +17,16 @@ TRIAL = Source(
 
 RATIOS = (25.0, 75.0, 250.0)
 
+
+def _plates(nu: str) -> tuple[str, ...]:
+    """Scene files of the plates of RATIOS."""
+    return tuple(f"plate_{nu}_{ratio:g}.toml" for ratio in RATIOS)
+
+
+LARGE = ("plate_half_2500.toml",)
+EDGES = ("edge_growth_half.toml", "edge_growth_zero.toml")
+BILAYER, DISK = "bilayer_strip.toml", "disk_cap.toml"
+
 COMPARISONS = (
     Comparison(
         "bilayer strip",
@@ -26,7 +36,8 @@ COMPARISONS = (
             Confirmed.DERIVED,
         ),
         (Number("curvature h/d", 1.5, 1e-15),),
-        ByRefinement(bilayer_strip, {"elements": 16}, {"elements": 8}),
+        ByRefinement(bilayer_strip, {"elements": 32}, {"elements": 16}, {"name": BILAYER}),
+        scenes=(BILAYER,),
     ),
     Comparison(
         "plate with natural curvature, nu = 1/2",
@@ -36,7 +47,8 @@ COMPARISONS = (
             Number(f"kappa_0 W^2/h = {ratio:g}", value, 5e-4)
             for ratio, value in zip(RATIOS, (0.798, 0.776, 0.757), strict=True)
         ),
-        ByRefinement(plate_with_curvature, {"n": 10}, {"n": 5}, {"ratios": RATIOS, "poisson": 0.5}),
+        ByRefinement(plate_with_curvature, {"n": 10}, {"n": 5}, {"names": _plates("half")}),
+        scenes=_plates("half"),
     ),
     Comparison(
         "plate with natural curvature, nu = 0",
@@ -46,7 +58,8 @@ COMPARISONS = (
             Number(f"kappa_0 W^2/h = {ratio:g}", value, 5e-4)
             for ratio, value in zip(RATIOS, (0.635, 0.575, 0.539), strict=True)
         ),
-        ByRefinement(plate_with_curvature, {"n": 10}, {"n": 5}, {"ratios": RATIOS, "poisson": 0.0}),
+        ByRefinement(plate_with_curvature, {"n": 10}, {"n": 5}, {"names": _plates("zero")}),
+        scenes=_plates("zero"),
     ),
     Comparison(
         "very large plate with natural curvature",
@@ -60,12 +73,8 @@ COMPARISONS = (
                 why="a layer of width (h/kappa_0)^(1/2) along the edges stays bent both ways",
             ),
         ),
-        ByRefinement(
-            plate_with_curvature,
-            {"n": 12},
-            {"n": 8},
-            {"ratios": (2500.0,), "poisson": 0.5, "curvature": 3.0},
-        ),
+        ByRefinement(plate_with_curvature, {"n": 12}, {"n": 8}, {"names": LARGE}),
+        scenes=LARGE,
         slow=True,
     ),
     Comparison(
@@ -82,10 +91,11 @@ COMPARISONS = (
         ),
         ByRefinement(
             edge_growth,
-            {"aspect": 32.0},
-            {"aspect": 16.0},
-            {"poissons": (0.5, 0.0), "n": 4},
+            {"shortened": 1.0},
+            {"shortened": 0.5},
+            {"names": EDGES, "n": 4},
         ),
+        scenes=EDGES,
         slow=True,
     ),
     Comparison(
@@ -106,7 +116,8 @@ COMPARISONS = (
                 why="there the curvature is uniform; here it is that averaged over the disk",
             ),
         ),
-        ByRefinement(disk, {"refinements": 4}, {"refinements": 3}, {"poisson": 0.3}),
+        ByRefinement(disk, {"refinements": 4}, {"refinements": 3}, {"name": DISK}),
+        scenes=(DISK,),
         slow=True,
     ),
 )

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from figures.common.command import write_page
 from figures.measure.validation import TABLE, Row
-from figures.validation.catalogue import COMPARISONS, SUBJECTS
+from figures.validation.catalogue import COMPARISONS, MODULES, SUBJECTS
 from figures.validation.comparison import SCENES, Comparison, Confirmed
 from linear_theory.common.shown import with_error
 
@@ -36,13 +36,35 @@ there was confirmed:
 
 """
 
+AGAIN = """To compute numbers again:
+
+* a comparison that names **scene files** reads them. `sheetcrawl check FILE` says what a file holds,
+  and `sheetcrawl speed FILE` gives the number where that is a speed; a sheet that only curls or lies
+  has the speed 0, and the comparison reads its number from its shape, or from its wave;
+* those that name none are no scenes that a file can say: they hold edges or load points, refer to a
+  curved surface, have a drive that jumps along the sheet or does not repeat (voltages of actuators, one
+  front, one pulse), or are formulas of a laminate. They are in the Python module that stands under each
+  heading.
+
+`python -m figures.measure.validation --only "NAME"` computes the numbers of any comparison and prints
+them.
+
+![Distances of all numbers](../figures/gallery/validation.png)
+
+Each line is a number, in the order of the tables below. Bar: accuracy there and error here together;
+mark: distance of the two numbers, at the left edge where it is below 1e-9. Both are relative, and
+absolute where the number there is 0. Drawn by `python -m figures.draw.validation`.
+"""
+
 
 def page(rows: Sequence[Row]) -> str:
     """The page of a table."""
     found = {(row.comparison, row.number): row for row in rows}
-    lines = [HEAD + "\n".join(_grades()), "", *_summary(found), ""]
+    lines = [HEAD + "\n".join(_grades()), "", *_summary(found), "", AGAIN]
     for subject, comparisons in SUBJECTS.items():
-        lines += [f"## {subject}", "", *_table(comparisons, found), "", *_sources(comparisons), ""]
+        place = Path(str(MODULES[subject].__file__)).relative_to(ROOT).as_posix()
+        lines += [f"## {subject}", "", f"Module: `{place}`.", "", *_table(comparisons, found), ""]
+        lines += [*_sources(comparisons), ""]
     return "\n".join(lines).rstrip() + "\n"
 
 
@@ -111,9 +133,9 @@ def _sources(comparisons: Sequence[Comparison]) -> Iterator[str]:
         source = comparison.source
         remark = f" ({source.remark})" if source.remark else ""
         scene = ""
-        if comparison.scene:
-            place = (SCENES / comparison.scene).relative_to(ROOT).as_posix()
-            scene = f" Scene file: `{place}`."
+        if comparison.scenes:
+            shown = [f"`{(SCENES / s).relative_to(ROOT).as_posix()}`" for s in comparison.scenes]
+            scene = f" Scene file{'s' * (len(shown) > 1)}: {', '.join(shown)}."
         yield f"* **{comparison.name}**: {comparison.problem}. {source.text}{remark}.{scene}"
 
 

@@ -3,6 +3,7 @@
 from figures.validation.comparison import ByRefinement, Comparison, Confirmed, Number, Source
 from figures.validation.problems.plane import cook, curved_beam, heated_strip, straight_beam
 
+MIDDLE = "grows_in_middle.toml"
 MACNEAL = "R. H. MacNeal, R. L. Harder, Finite Elem. Anal. Des. 1:3 (1985)"
 
 COMPARISONS = (
@@ -56,6 +57,9 @@ COMPARISONS = (
             Confirmed.DERIVED,
         ),
         (Number("strain along the strip over alpha", 2 / 3, 1e-15),),
-        ByRefinement(heated_strip, {"length": 8.0, "size": 0.25}, {"length": 5.0, "size": 0.5}),
+        ByRefinement(
+            heated_strip, {"length": 8.0, "size": 0.25}, {"length": 5.0, "size": 0.5}, {"name": MIDDLE}
+        ),
+        scenes=(MIDDLE,),
     ),
 )

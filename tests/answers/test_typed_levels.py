@@ -1,14 +1,17 @@
 """Levels by name wherever they can be typed: files, sweeps, runs; above all of sheets that bend."""
 
+import math
 import time
 from pathlib import Path
 from typing import Any, get_args
 
+import numpy as np
 import pytest
 
 from fem_check import Gravity, Ground, RunSettings, predict, solve
 from fem_check.choice.asked import way_for
 from fem_check.choice.expected import expected_seconds
+from fem_check.choice.result import TO_A_SHEET
 from fem_check.choice.settings import SHARE
 from fem_check.choice.solving import solved
 from fem_check.choice.ways import ANSWERS, way_of
@@ -22,7 +25,8 @@ from fem_check.sweeps import Grid
 from fem_check.sweeps.cost import _price
 from fem_check.sweeps.plan import plan_of
 from figures.measure import saddle
-from linear_theory import Scene, Sheet, SineWave, Tanh, crawl_speed
+from linear_theory import FieldWave, Scene, Sheet, SineWave, Tanh, crawl_speed, line_speed
+from linear_theory.line.closed_form import line_speed_viscous
 
 BEND = """[wave]
 period = 1.0
@@ -163,3 +167,20 @@ def test_the_expected_cost_of_the_plate_is_of_the_right_size(bending: Scene) -> 
     solve(bending, "second order", rtol=0.02)
     spent = time.process_time() - start
     assert 1 / 15 < spent / expected_seconds(bending, "second order", RunSettings()) < 15
+
+
+@pytest.mark.parametrize("friction", ["coulomb", "viscous"])
+def test_a_body_on_a_line_is_that_of_the_closed_form(friction: str) -> None:
+    """Eqs 5 to 7: its error is its own, for it is no sheet whose distance could be known."""
+    found = predict(Sheet(), SineWave(), 0.25, "linear", friction=friction, method="line")
+    exact = float({"coulomb": line_speed, "viscous": line_speed_viscous}[friction](0.25))
+    assert abs(found.mean - exact) <= found.error + 1e-15
+    assert (found.level, found.converged, found.not_in_error) == ("line", True, (TO_A_SHEET,))
+    assert math.isnan(found.model_error)
+
+
+def test_auto_never_takes_a_body_on_a_line() -> None:
+    assert predict(Sheet(), SineWave(), 0.25, rtol=0.3).level == "strip"
+    wide = FieldWave(lambda x, y, t: np.sin(2 * np.pi * (y - t)) * (1 + x), period=1.0)
+    with pytest.raises(ValueError, match="method = 'line': must be 'cycle'"):
+        predict(Sheet(), wide, 0.1, method="line")

@@ -1,16 +1,22 @@
 """The validation page: its table is complete and fresh, its verdicts follow, its numbers come again."""
 
 import math
+import re
 from dataclasses import replace
+from pathlib import Path
 
 import mpmath as mp
 import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
 from scipy.special import ellipe, ellipeinc, ellipk, ellipkinc, i0
 
 from fem_check.command.program import main
+from fem_check.files import SceneFile, read
+from figures.draw.validation import figure as validation_figure
 from figures.measure import naghdi, validation
-from figures.validation import crawlers, plates, shells
+from figures.validation import comparison as comparison_module
+from figures.validation import crawlers, plates, scene_files, shells
 from figures.validation import page as validation_page
 from figures.validation.catalogue import COMPARISONS, SUBJECTS
 from figures.validation.comparison import SCENES, ByRefinement, Confirmed, agree
@@ -40,6 +46,27 @@ def test_the_page_is_that_of_the_table() -> None:
     assert validation_page.PAGE.read_text(encoding="utf-8") == validation_page.page(rows)
 
 
+def test_the_figure_is_that_of_the_table() -> None:
+    """As many marks of each kind as the page says, each outside of its bar where numbers differ."""
+    text = validation_page.PAGE.read_text(encoding="utf-8")
+    told = re.search(r"(\d+) agree\s+within errors, (\d+) differ, of which (\d+) are", text)
+    assert told is not None
+    agree_, differ, unexplained = map(int, told.groups())
+    drawn = [
+        line
+        for part in validation_figure.columns(validation_figure.lines(list(ROWS.values())))
+        for line in part
+    ]
+    verdicts = [line.verdict for line in drawn]
+    assert verdicts.count(validation_figure.AGREES) == agree_
+    assert verdicts.count(validation_figure.DIFFERS) == differ - unexplained
+    assert verdicts.count(validation_figure.OPEN) == unexplained
+    for line in drawn:
+        if line.verdict not in ("", validation_figure.AGREES):
+            assert line.apart > line.allowed
+    assert [line.label for line in drawn if line.label in COMPARISONS] == list(COMPARISONS)
+
+
 def test_a_number_that_differs_has_words() -> None:
     for (name, k), row in ROWS.items():
         if not row.agrees:
@@ -64,9 +91,17 @@ def test_names_are_unique_and_sources_named() -> None:
 
 
 @pytest.mark.parametrize("name", CHEAP)
-def test_numbers_come_again(name: str) -> None:
-    """The cheap form differs from the table by both errors at most."""
+def test_numbers_come_again(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The cheap form differs from the table by both errors at most, and reads the scene files named."""
+    files: set[str] = set()
+
+    def reading(path: Path) -> SceneFile:
+        files.add(path.name)
+        return read(path)
+
+    monkeypatch.setattr(scene_files, "read", reading)
     found = COMPARISONS[name].calculation.cheap()
+    assert files == set(COMPARISONS[name].scenes)
     assert len(found) == len(COMPARISONS[name].numbers)
     for k, cheap in enumerate(found):
         row = ROWS[name, k]
@@ -83,17 +118,29 @@ def test_a_change_of_inputs_makes_a_row_stale() -> None:
     assert replace(comparison, numbers=other).identity != comparison.identity
 
 
-def test_one_comparison_by_name(tmp_path: object) -> None:
-    out = tmp_path / "some.csv"  # type: ignore[operator]
-    validation.main(["--only", "piezo foil: numbers", "--out", str(out)])
-    assert len(validation.TABLE.read(out)) == 8
+def test_another_scene_makes_a_row_stale(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    named = COMPARISONS["viscous sine of any strain"]
+    before = named.identity
+    text = named.files[0].read_text()
+    monkeypatch.setattr(comparison_module, "SCENES", tmp_path)
+    for alpha, same in ((0.25, True), (0.26, False)):
+        (tmp_path / named.scenes[0]).write_text(text.replace("alpha = 0.25", f"alpha = {alpha}"))
+        assert (named.identity == before) is same
+
+
+def test_one_comparison_by_name(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    out = tmp_path / "some.csv"
+    for _ in range(2):  # the second time nothing is left to fill in, and all the same it is printed
+        validation.main(["--only", "piezo foil: numbers", "--out", str(out)])
+        assert len(validation.TABLE.read(out)) == 8
+        assert "weight, Pa: there 23.5 +- 0.05, here 23.541364 +- " in capsys.readouterr().out
     with pytest.raises(SystemExit, match="must be one of"):
         validation.main(["--only", "nothing", "--out", str(out)])
 
 
 @pytest.mark.parametrize("path", sorted(SCENES.glob("*.toml")), ids=lambda path: path.stem)
-def test_scene_files_are_used_and_checked(path: object, capsys: pytest.CaptureFixture[str]) -> None:
-    assert path.name in {comparison.scene for comparison in COMPARISONS.values()}  # type: ignore[attr-defined]
+def test_scene_files_are_used_and_checked(path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert path.name in {s for comparison in COMPARISONS.values() for s in comparison.scenes}
     with pytest.raises(SystemExit) as ended:
         main(["check", str(path)])
     assert ended.value.code in (0, None)
@@ -107,6 +154,17 @@ def test_published_numbers_by_other_means() -> None:
     zero = mp.findroot(lambda x: mp.besselj(-mp.mpf(1) / 3, x), 1.87)
     column = COMPARISONS["column under its own weight"].numbers[0]
     assert column.value == pytest.approx(float(9 * zero**2 / 4), abs=column.accuracy)
+    a, b, v0 = 0.6, 0.4, 0.01
+    sliding = COMPARISONS["block that slides, with inertia"]
+    path = solve_ivp(
+        lambda t, u: (-u[1], a - b * np.tanh(u[1] / v0)),
+        (0, 2.5),
+        (0, 0),
+        rtol=1e-9,
+        atol=1e-12,
+        t_eval=(0.5, 1.5, 2.5),
+    ).y[0]
+    assert np.diff(path) == pytest.approx([n.value for n in sliding.numbers], abs=1e-7)
     s, area = np.linspace(-1, 1, 2001), 0.1 * 16 / 15
     y = 0.1 * s - 0.8 + 1.6 * 0.5
     assert np.trapezoid(crawlers.pulse(y, 0.5), y) == pytest.approx(area, rel=1e-4)

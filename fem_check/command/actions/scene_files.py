@@ -24,6 +24,7 @@ WAYS = {
     "cycle": "static shapes through one period, then the balance of friction on them",
     "stepped": "in time, with friction that acts back on the shape",
     "strip": "the closed-form balance of a narrow strip",
+    "line": "the balance of a one-dimensional body with its weight per length",
     "first order": "small-strain theory",
     "second order": "theory to second order in growth and curvature",
 }

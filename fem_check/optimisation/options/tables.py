@@ -55,7 +55,8 @@ class OptimiseTable(Table):
     )
     """To be large; cost of transport: to be small."""
     level: (
-        Literal["auto", "predict", "cycle", "stepped", "strip", "first order", "second order"] | None
+        Literal["auto", "predict", "cycle", "stepped", "strip", "first order", "second order", "line"]
+        | None
     ) = None
     """Instead of that of the scene."""
     rtol: PositiveShare | None = None

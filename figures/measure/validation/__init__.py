@@ -3,8 +3,8 @@
     python -m figures.measure.validation [--out FILE] [--only NAME]
 
 Writes figures/data/validation.csv, one row for every number, and goes on where the file ends; a row
-whose comparison has changed since, its numbers, its inputs or its scene file, is computed again. Ten
-minutes of one core.
+whose comparison has changed since, its numbers, its inputs or its scene files, is computed again. Ten
+minutes of one core. --only computes the numbers of one comparison in any case, and prints them.
 """
 
 import time
@@ -101,3 +101,14 @@ def main(arguments: Sequence[str] | None = None) -> None:
         raise SystemExit(f"--only {options.only!r}: must be one of {', '.join(COMPARISONS)}")
     wanted = [key for key in keys() if options.only in ("", key[0])]
     Filling(TABLE, options.out, lambda r: (r.comparison, r.number), fresh).fill(wanted, row)
+    if options.only:
+        print("\n".join(map(told, map(row, wanted))))
+
+
+def told(row: Row) -> str:
+    """A number in a line."""
+    name = COMPARISONS[row.comparison].numbers[row.number].name
+    pairs = (row.there, row.accuracy), (row.here, row.error)
+    there, here = (f"{value:.10g} +- {error:.2g}" for value, error in pairs)
+    verdict = "agree" if row.agrees else "differ"
+    return f"{name}: there {there}, here {here}: they {verdict}; {row.seconds:.2g} s"

@@ -1,7 +1,6 @@
 """Plates, strips and disks that bend because they grow."""
 
 from collections.abc import Callable
-from functools import partial
 
 import numpy as np
 import skfem
@@ -16,8 +15,10 @@ from fem_check.shell.statics.equilibrium import Equilibrium
 from fem_check.shell.statics.newton import Minimiser
 from fem_check.shell.statics.potential import Potential
 from fem_check.shell.statics.ramp import ramp
-from figures.validation.problems.sheets import ELEMENTS, at, koiter, shell
-from linear_theory import bilayer
+from figures.validation.problems.settled import natural_curvature, settled
+from figures.validation.problems.sheets import ELEMENTS, at, koiter
+from figures.validation.scene_files import scene_of
+from linear_theory import Scene
 from linear_theory.growth.growth import Growth
 
 Array = NDArray[np.float64]
@@ -35,51 +36,45 @@ def _towards_edge(end: float, count: int, power: float = 2.0) -> Array:
     return np.asarray(end * (1 - (1 - np.linspace(0, 1, count + 1)) ** power))
 
 
-def plate_with_curvature(
-    ratios: tuple[float, ...], poisson: float, n: int, curvature: float = 3.0, width: float = 0.5
-) -> tuple[float, ...]:
-    """Mean curvature over kappa_0 of a free 2 : 1 plate with natural curvature kappa_0, averaged.
+def plate_with_curvature(names: tuple[str, ...], n: int) -> tuple[float, ...]:
+    """Mean curvature over kappa_0 of the free plates of scene files, averaged.
 
-    ratios: kappa_0 W^2/h. A quarter on n x 2 n cells, finer towards the free edges, where a layer of
-    width (h/kappa_0)^(1/2) stays bent both ways.
+    kappa_0: their natural curvature. A quarter on n x 2 n cells, finer towards the free edges, where a
+    layer of width (h/kappa_0)^(1/2) stays bent both ways.
     """
-    grid = [_towards_edge(width / 2, n), _towards_edge(width, 2 * n)]
+    return tuple(_curved_plate(scene_of(name), n) for name in names)
+
+
+def _curved_plate(scene: Scene, n: int) -> float:
+    body, curvature = scene.sheet, natural_curvature(scene)
+    grid = [_towards_edge(body.width / 2, n), _towards_edge(body.length / 2, 2 * n)]
     sheet = Discretisation(skfem.MeshQuad.init_tensor(*grid), ELEMENTS["bfs"]())
     supports = Supports(sheet).symmetric(at(0, 0), 0).symmetric(at(1, 0), 1)
     supports.held[sheet.dofs_at((0.0, 0.0))["u"], 2] = True
-    found = []
-    for ratio in ratios:
-        thickness = curvature * width**2 / ratio
-
-        def problem(share: float, h: float = thickness) -> Potential:
-            bent = share * curvature
-            rest = tensor_state(sheet.interior, [1, 1, 0], [bent, bent, 0])
-            return Potential(sheet, koiter(Material(h, poisson)), rest)
-
-        result = ramp(
-            Minimiser(supports, iterations=100), problem, sheet.zeros(), first=0.1, follow=1e-3
-        )
-        assert not result.buckled
-        mean = np.average(mean_curvatures(sheet, result.state), weights=sheet.interior.measure)
-        found.append(float(mean / curvature))
-    return tuple(found)
-
-
-def bilayer_strip(elements: int, mismatch: float = 0.004, thickness: float = 0.02) -> tuple[float]:
-    """Curvature h/mismatch of a narrow strip of two equal layers, nu = 0, at its middle."""
-    alpha, coupling = bilayer(mismatch, thickness)
-    sheet = shell("bfs", (0, 0.02, 1), (0, 0.5, elements))
-    supports = Supports(sheet).symmetric(at(0, 0), 0).symmetric(at(1, 0), 1)
-    supports.held[sheet.dofs_at((0.0, 0.0))["u"], 2] = True
-    material = Material(thickness, 0.0)
+    material = Material(body.thickness, body.poisson)
 
     def problem(share: float) -> Potential:
-        growth = Growth(share * alpha, curvature_coupling=share * coupling)
-        return Potential(sheet, koiter(material), grown_state(sheet.interior, 1.0, growth))
+        bent = share * curvature
+        rest = tensor_state(sheet.interior, [1, 1, 0], [bent, bent, 0])
+        return Potential(sheet, koiter(material), rest)
 
-    result = ramp(Minimiser(supports), problem, sheet.zeros(), first=0.5)
-    state = PointState(sheet.point((0.0, 0.0)), result.state, (1, 2, 3, 4, 5))
-    return (float(-state.curvature[1, 0] / state.metric[1, 0] * thickness / mismatch),)
+    result = ramp(Minimiser(supports, iterations=100), problem, sheet.zeros(), first=0.1, follow=1e-3)
+    assert not result.buckled
+    mean = np.average(mean_curvatures(sheet, result.state), weights=sheet.interior.measure)
+    return float(mean / curvature)
+
+
+def bilayer_strip(name: str, elements: int, mismatch: float = 1e-3) -> tuple[float]:
+    """Curvature h/mismatch of the strip of a scene file at its middle, with so many elements along.
+
+    mismatch: strain by which one layer of the file is longer than the other one.
+    """
+    scene = scene_of(name)
+    shape = settled(scene.but(cells=(1, elements)))
+    there = shape.sheet.point((0.0, 0.0))
+    state = PointState(there, shape.state, (1, 2, 3, 4, 5))
+    curvature = abs(state.curvature[1, 0] / state.metric[1, 0])
+    return (float(curvature * scene.sheet.thickness / mismatch),)
 
 
 def _critical(flat: Callable[[float], bool], low: float, high: float, steps: int) -> float:
@@ -90,38 +85,46 @@ def _critical(flat: Callable[[float], bool], low: float, high: float, steps: int
     return (low + high) / 2
 
 
-def edge_growth(
-    poissons: tuple[float, ...], aspect: float, n: int, thickness: float = 0.002
-) -> tuple[float, ...]:
-    """alpha W^2/h^2 at which a flat strip whose edges grow, c = (2 x/W)^2, bends into a saddle.
+def edge_growth(names: tuple[str, ...], n: int, shortened: float = 1.0) -> tuple[float, ...]:
+    """alpha W^2/h^2 at which the flat strips of scene files, whose edges grow, bend into a saddle.
 
-    Of width 1 and length `aspect`, free; a quarter on n cells across and 4 n along, finer to its end.
+    shortened: share of their length. A quarter on n cells across and 4 n along, finer to its end.
     """
-    x, y = np.linspace(0, 0.5, n + 1), _towards_edge(aspect / 2, 4 * n)
+    return tuple(_edge_growth(scene_of(name), n, shortened) for name in names)
+
+
+def _edge_growth(scene: Scene, n: int, shortened: float) -> float:
+    body = scene.sheet
+    x = np.linspace(0, body.width / 2, n + 1)
+    y = _towards_edge(shortened * body.length / 2, 4 * n)
     sheet = Discretisation(skfem.MeshQuad.init_tensor(x, y), ELEMENTS["bfs"]())
     supports = Supports(sheet).symmetric(at(0, 0), 0).symmetric(at(1, 0), 1)
     supports.held[sheet.dofs_at((0.0, 0.0))["u"], 2] = True
-    minimiser = Minimiser(supports)
-    c = (2 * sheet.interior.parameters.reshape(2, -1)[0]) ** 2
+    minimiser, material = Minimiser(supports), Material(body.thickness, body.poisson)
+    across = sheet.interior.parameters[0]
+    c = scene.drive.value(across, np.zeros_like(across), 0.0).reshape(-1)
+    unit = (body.thickness / body.width) ** 2
 
-    def flat(ratio: float, poisson: float) -> bool:
-        rest = grown_state(sheet.interior, c, Growth(ratio * thickness**2))
-        potential = Potential(sheet, koiter(Material(thickness, poisson)), rest)
+    def flat(ratio: float) -> bool:
+        rest = grown_state(sheet.interior, c, Growth(ratio * unit))
+        potential = Potential(sheet, koiter(material), rest)
         return not minimiser.minimise(potential, sheet.zeros()).buckled
 
-    return tuple(_critical(partial(flat, poisson=nu), 2.0, 12.0, 14) for nu in poissons)
+    return _critical(flat, 2.0, 12.0, 14)
 
 
-def disk(poisson: float, refinements: int, thickness: float = 0.01) -> tuple[float, float]:
-    """kappa_0 R^2/h at which the cap of a disk with natural curvature stops to be a minimum, and
-    kappa R^2/h, its mean curvature there.
+def disk(name: str, refinements: int) -> tuple[float, float]:
+    """kappa_0 R^2/h at which the cap of the disk of a scene file, R = 1, stops to be a minimum as its
+    natural curvature rises from 0, and kappa R^2/h, its mean curvature there.
 
-    Argyris triangles of a circle whose boundary points lie on it; radius 1.
+    Argyris triangles of a circle whose boundary points lie on it.
     """
+    body = scene_of(name).sheet
+    thickness = body.thickness
     mesh = skfem.MeshTri.init_circle(refinements)
     sheet = Discretisation(mesh, ELEMENTS["argyris"]())
     minimiser = Minimiser(Supports(sheet).anchor((0, 0)), iterations=100)
-    material = Material(thickness, poisson)
+    material = Material(thickness, body.poisson)
     area = sheet.interior.measure
 
     def problem(ratio: float) -> Potential:

@@ -1,5 +1,7 @@
 """Sheets that stretch and do not bend, under loads in their plane."""
 
+from dataclasses import replace
+
 import numpy as np
 import skfem
 from numpy.typing import NDArray
@@ -14,7 +16,7 @@ from fem_check.shell.kinematics.surface import AnnulusSector
 from fem_check.shell.material import Material
 from fem_check.shell.statics.potential import Load, Potential
 from figures.validation.problems.sheets import at, displacement, first_step
-from linear_theory import FieldWave, Sheet
+from figures.validation.scene_files import scene_of
 
 Array = NDArray[np.float64]
 
@@ -75,9 +77,8 @@ def curved_beam(n: int) -> tuple[float, float]:
     return tip, tip
 
 
-def heated_strip(length: float, size: float) -> tuple[float]:
-    """Strain along a strip of width 1 in its middle, growth c = 1 - (2 x)^2."""
-    sheet = Sheet(length=length, width=1.0, poisson=0.3)
-    wave = FieldWave(lambda x, y, t: (1 - (2 * x) ** 2) * np.cos(2 * np.pi * t) + 0 * y, period=1.0)
-    field = plane_stress_field(sheet, wave, size=size)
+def heated_strip(name: str, length: float, size: float) -> tuple[float]:
+    """Strain along the strip of a scene file in its middle, at t = 0, of another length."""
+    scene = scene_of(name)
+    field = plane_stress_field(replace(scene.sheet, length=length), scene.wave, size=size)
     return (float(field.strain(0.0, 0.0, 0.0)[1]),)

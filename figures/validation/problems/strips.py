@@ -16,7 +16,9 @@ from fem_check.shell.material import Material
 from fem_check.shell.statics.newton import Minimiser
 from fem_check.shell.statics.potential import Potential
 from fem_check.shell.statics.ramp import ramp
+from figures.validation.problems.settled import natural_curvature, on_ground, settled
 from figures.validation.problems.sheets import affine, at, koiter, shell
+from figures.validation.scene_files import scene_of
 
 Array = NDArray[np.float64]
 
@@ -106,20 +108,35 @@ def uniform_strip(
     return strip.lying(lambda s: np.full_like(s, curvature), elements)
 
 
+def of_scene(name: str, stiffness: float, elements: int) -> tuple[HeavyStrip, Shape]:
+    """Half of the strip of a scene file, bent along it only, on ground of another stiffness."""
+    scene = scene_of(name)
+    sheet, weight = scene.sheet, scene.find(Gravity).weight
+    strip = HeavyStrip(sheet.length / 2, sheet.width, sheet.thickness, weight, stiffness, sheet.poisson)
+    curvature = natural_curvature(scene)
+    return strip, strip.lying(lambda s: np.full_like(s, curvature), elements)
+
+
+def tip_heights(names: tuple[str, ...], stiffness: float, elements: int) -> tuple[float, ...]:
+    """Heights of the ends of the strips of scene files above their middles, on other ground."""
+    found = []
+    for name in names:
+        scene = on_ground(scene_of(name), stiffness).but(cells=(1, elements))
+        shape, end = settled(scene), scene.sheet.length / 2
+        found.append(float(shape.position(0.0, end)[2] - shape.position(0.0, 0.0)[2]))
+    return tuple(found)
+
+
 def rises(
-    curvatures: tuple[float, ...],
-    stiffness: float,
-    elements: int,
-    poisson: float = 0.0,
-    wide: bool = False,
+    curvatures: tuple[float, ...], stiffness: float, elements: int, poisson: float = 0.3
 ) -> tuple[float, ...]:
-    """Heights of the ends above the middle."""
-    shapes = (uniform_strip(c, stiffness, elements, poisson, wide) for c in curvatures)
+    """Heights of the ends of wide sheets above their middles."""
+    shapes = (uniform_strip(c, stiffness, elements, poisson, wide=True) for c in curvatures)
     return tuple(shape.rise for shape in shapes)
 
 
-def free_lengths(curvatures: tuple[float, ...], softest: float, elements: int) -> tuple[float, ...]:
-    """Lengths off rigid ground: the limit of those off three grounds.
+def free_lengths(names: tuple[str, ...], softest: float, elements: int) -> tuple[float, ...]:
+    """Lengths of the strips of scene files off rigid ground: the limit of those off three grounds.
 
     They are 16 times as stiff as each other; the limit is that in powers of the width of the layer in
     which the ground lets go of the strip, stiffness^(-1/8).
@@ -128,21 +145,21 @@ def free_lengths(curvatures: tuple[float, ...], softest: float, elements: int) -
     widths = grounds**-0.125
 
     found = []
-    for curvature in curvatures:
-        lengths = [uniform_strip(curvature, k, elements).free for k in grounds]
+    for name in names:
+        lengths = [of_scene(name, k, elements)[1].free for k in grounds]
         found.append(float(np.polynomial.Polynomial.fit(widths, lengths, 2)(0.0)))
     return tuple(found)
 
 
-def end_forces(curvatures: tuple[float, ...], stiffness: float, elements: int) -> tuple[float, ...]:
+def end_forces(names: tuple[str, ...], stiffness: float, elements: int) -> tuple[float, ...]:
     """Force of the ground per width where it lets go, beyond the weight that lies there, over q l.
 
     Over the layer, a third of the length l off the ground to either side of that place.
     """
     found = []
-    for curvature in curvatures:
-        shape = uniform_strip(curvature, stiffness, elements)
-        strip, free = HeavyStrip(stiffness=stiffness), shape.free
+    for name in names:
+        strip, shape = of_scene(name, stiffness, elements)
+        free = shape.free
         edge = strip.half - free
         fine = np.linspace(edge - free / 3, edge, 4001)
         depth = np.minimum(np.interp(fine, shape.along, shape.height), 0)

@@ -1,0 +1,1 @@
+"""The figure of the numbers that others published: `python -m figures.draw.validation`."""
