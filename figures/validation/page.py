@@ -76,9 +76,10 @@ def _grades() -> Iterator[str]:
 def _summary(found: Mapping[tuple[str, int], Row]) -> Iterator[str]:
     apart = [row for row in found.values() if not row.agrees]
     unexplained = [row for row in apart if _why(row).startswith(UNEXPLAINED)]
+    told = f", of which {len(unexplained)} are not explained" if unexplained else ", each explained"
     yield (
         f"**{len(found)} numbers of {len(COMPARISONS)} comparisons: {len(found) - len(apart)} agree "
-        f"within errors, {len(apart)} differ, of which {len(unexplained)} are not explained.**"
+        f"within errors, {len(apart)} differ{told}.**"
     )
 
 
