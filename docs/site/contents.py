@@ -12,7 +12,9 @@ EXAMPLES = ROOT / "figures" / "examples"
 API = (
     *("linear_theory", "linear_theory.friction.law", "linear_theory.friction.isotropic"),
     *("fem_check", "fem_check.output", "fem_check.shell.effects", "fem_check.shell.effects.effect"),
-    *("fem_check.shell.material", "fem_check.sweeps", "fem_check.optimisation"),
+    *("fem_check.shell.material", "fem_check.files", "fem_check.runs", "fem_check.sweeps"),
+    *("fem_check.optimisation", "fem_check.outlines.best", "fem_check.outlines.gradient"),
+    *("fem_check.outlines.shapes", "linear_theory.line.best.dry", "linear_theory.line.best.viscous"),
 )
 """Modules of the API reference, and those that the index of equations names."""
 
