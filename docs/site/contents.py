@@ -65,7 +65,6 @@ HOWTO = {
 
 REFERENCE = {
     "Reference": {
-        "levels": "Which call, which level",
         "conventions": "Conventions",
         "equations": "Equations of the paper",
         "saddle": "V in growth and curvature",
@@ -95,6 +94,7 @@ def pages() -> list[Page]:
     start = [
         Page("Start", "sheetcrawl", ROOT / "README.md", "index.html"),
         Page("Start", "Tutorial", docs / "tutorial.md", "tutorial.html"),
+        Page("Start", "Which call, which level", docs / "levels.md", "levels.html"),
     ]
     howto = [
         Page(section, title, docs / "howto" / f"{name}.md", f"howto/{name}.html")

@@ -44,9 +44,7 @@ GROUPS: dict[str, dict[str, tuple[str, ...]]] = {
             *("Scene", "Material", "Membrane", "Bending", "Gravity", "Ground", "Friction", "Inertia"),
             *("SelfContact", "DeadLoad", "Terrain", "HeightMap", "Outline", "bilayer"),
         ),
-        "Excitable waves": (
-            *("FitzHughNagumo", "excitable_preset", "Excitation", "StrainFeedback"),
-        ),
+        "Excitable waves": (*("FitzHughNagumo", "excitable_preset", "Excitation", "StrainFeedback"),),
         "Many scenes, the best scene": (
             *("sweep", "optimise", "Harmonics", "Bound", "Robust", "cycle_gradient"),
         ),
