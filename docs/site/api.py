@@ -48,16 +48,21 @@ def write(folder: Path) -> None:
     """All pages of the reference into the folder."""
     pdoc.render.configure(docformat="markdown", template_directory=TEMPLATES)
     pdoc.render.env.filters["format_signature"] = signature
-    pdoc.render.env.globals["groups"] = {
-        name: {title: _rows(name, names) for title, names in groups.items()}
-        for name, groups in GROUPS.items()
-    }
+    pdoc.render.env.globals["groups"] = {name: overview(name) for name in GROUPS}
     pdoc.pdoc(*modules(), output_directory=folder)
     for path in folder.rglob("*.html"):
         text = path.read_text()
         for long, short in SHORTER.items():
             text = text.replace(escape(long), short)
         path.write_text(without_dead_anchors(text))
+
+
+def overview(module: str) -> dict[str, list[tuple[str, str]]]:
+    """The public names of a package with what they are, by group; those of no group come last."""
+    listed = {name for names in GROUPS[module].values() for name in names}
+    others = tuple(n for n in importlib.import_module(module).__all__ if n not in listed)
+    groups = {**GROUPS[module], **({"Further names": others} if others else {})}
+    return {title: _rows(module, names) for title, names in groups.items()}
 
 
 def signature(found: inspect.Signature, colon: bool) -> str:

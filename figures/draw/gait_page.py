@@ -21,10 +21,10 @@ SAME = 1e-3
 
 HEAD = """# The paper's gaits: what of sections 3.2 to 3.4 holds
 
-What Miller and Dunkel say of sheets that bend, of trapezoids and of uneven ground, statement by statement, each
-with a verdict and the numbers behind it. Their section 3.2 drives a sheet that bends by the waves of eq. 12 and maps
-its speed over alpha and beta. Three of its numbers leave open what was computed, so that every reading is run by
-name:
+What Miller and Dunkel say of sheets that bend, of trapezoids and of uneven ground, statement by
+statement, each with a verdict and the numbers behind it. Their section 3.2 drives a sheet that bends by
+the waves of eq. 12 and maps its speed over alpha and beta. Three of its numbers leave open what was
+computed, so that every reading is run by name:
 
 * **The wave.** With the printed numbers eq. 12 has no travelling wave of order one on the sheet.
   The threshold −0.1 has one, for twenty cycles: the preset "nu = -0.1"
@@ -116,7 +116,7 @@ def _gaits(found: Found) -> Iterator[str]:
 def _bilayers(found: Found) -> Iterator[str]:
     yield "## Two layers, one of which grows\n"
     yield "The paper: on both lines beta = ±100 alpha (kappa in 1/L) the sheet runs along the wave.\n"
-    yield "| friction | kappa/alpha | " + " | ".join(f"α = {sign_of(a)}" for a in _alphas()) + " |"
+    yield "| friction | kappa/alpha | " + " | ".join(f"at {sign_of(a)}" for a in _alphas()) + " |"
     yield "| --- " * (2 + len(_alphas())) + "|"
     for law in FRICTIONS:
         for way in (1, -1):

@@ -60,7 +60,7 @@ def page(records: list[Record]) -> str:
     lines = [
         "# Hard cases",
         "",
-        f"What the solvers do with small parameters, large growth, rough waves, corners and stuck",
+        "What the solvers do with small parameters, large growth, rough waves, corners and stuck",
         f"sheets: {len(records)} cases with a reference value from elsewhere, {counts}.",
         "",
         *(f"* **{name}**: {words}." for name, words in VERDICTS.items()),

@@ -59,8 +59,8 @@ def page(data: Numbers) -> str:
     lines = [
         "# Sweeps: kills and overhead",
         *_paragraph(
-            "Is anything lost when a sweep is killed, and what does it cost beside its scenes? How to use "
-            "sweeps: [Many scenes](howto/many_scenes.md). Made by `python -m tests.sweeps.sweeps_page` "
+            "Is anything lost when a sweep is killed, and what does it cost beside its scenes? How to "
+            "use sweeps: [Many scenes](howto/many_scenes.md). Made by `python -m tests.sweeps.sweeps_page` "
             "from `tests/sweeps/sweep_kills.py` and `tests/sweeps/sweep_cost.py`."
         ),
         *("", "## Kills"),
