@@ -5,6 +5,7 @@ import inspect
 import re
 from collections.abc import Callable, MutableMapping, Sequence
 from html import escape
+from itertools import pairwise
 from typing import Any
 
 from markdown_it import MarkdownIt
@@ -40,7 +41,7 @@ def html_of(text: str, link: Link, api: Link) -> str:
     for rule in ("fence", "code_block"):
         markdown.add_render_rule(rule, _fence)
     tokens = markdown.parse(text)
-    for before, token in zip(tokens, tokens[1:], strict=False):
+    for before, token in pairwise(tokens):
         if before.type == "td_open" and NUMBER.fullmatch(token.content):
             before.attrSet("class", "short")
     for token in tokens:

@@ -85,7 +85,7 @@ class Options:
     load: Annotated[Literal["current", "grown", "material"], In(group=MODEL)] = "current"
     """Normal load: proportional to the current or the grown area, or conserved with the material."""
     friction: Annotated[Literal["coulomb", "dry", "tanh", "viscous"], In(group=MODEL)] = "coulomb"
-    """Friction law: dry (by either name), dry but regularised at small slip, or proportional to the slip."""
+    """Friction law: dry (two names), dry but regularised at small slip, or proportional to the slip."""
     slip_speed: Annotated[str | None, In(group=MODEL)] = None
     """Slip speed of tanh friction, e.g. "0.1 mm/s"."""
     forward: Annotated[float | None, In(group=MODEL)] = None

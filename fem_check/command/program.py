@@ -77,7 +77,8 @@ def _run(arguments: Sequence[str]) -> int:
         _complain(f"{word!r}: must follow an option; see sheetcrawl {command} --help")
         return BAD_ARGUMENTS
     except UnknownOptionError as problem:
-        _complain(elsewhere(problem.token.keyword or "") or str(problem))
+        typed = (problem.token.keyword or problem.token.value).split("=")[0]
+        _complain(elsewhere(typed) or str(problem))
         return BAD_ARGUMENTS
     except (CycloptsError, ValueError) as problem:
         for line in getattr(problem, "mistakes", (str(problem),)):  # of a scene file, all of them

@@ -45,8 +45,8 @@ IN_A_FILE = {
     "--ground": "[ground]",
     "--outline": "[outline]",
 }
-"""Options that `speed` does not have, since they do not change the speed of a stiff sheet on level ground,
-and where a scene file has them."""
+"""Options that `speed` does not have, as they do not matter for a stiff flat sheet on level ground, and
+where a scene file has them."""
 
 
 def elsewhere(name: str) -> str:

@@ -60,8 +60,9 @@ def page(data: Numbers) -> str:
         "# Sweeps: kills and overhead",
         *_paragraph(
             "Is anything lost when a sweep is killed, and what does it cost beside its scenes? How to "
-            "use sweeps: [Many scenes](howto/many_scenes.md). Made by `python -m tests.sweeps.sweeps_page` "
-            "from `tests/sweeps/sweep_kills.py` and `tests/sweeps/sweep_cost.py`."
+            "use sweeps: [Many scenes](howto/many_scenes.md). Made by `python -m "
+            "tests.sweeps.sweeps_page` from `tests/sweeps/sweep_kills.py` and "
+            "`tests/sweeps/sweep_cost.py`."
         ),
         *("", "## Kills"),
         *_paragraph(

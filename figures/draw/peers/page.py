@@ -32,8 +32,8 @@ move at the end. Time is that of one core; of the other codes without setting up
 For the strip this package looks for the state of rest without the motion towards it, which the other
 codes, made for motion, step through: 3 s (MuJoCo) and 1.5 s (Newton).
 
-In short: MuJoCo flex is the fastest on the block while errors of a thousandth will do; on the strip only
-this package comes to an answer that no longer changes.
+In short: MuJoCo flex is the fastest on the block while errors of a thousandth will do; on the strip
+only this package comes to an answer that no longer changes.
 
 Made by `python -m figures.draw.peers.page` from figures/data/peers.csv, which `make peers` measures in
 an environment of their own for the other codes, build/peers-venv, from requirements-peers.lock.

@@ -36,7 +36,8 @@ HEAD = """# V to second order in growth and curvature
 
 The theory of a sheet that bends a little and never leaves its ground: its speed in a tenth of a second,
 why bending one way helps and the other way harms, and how far the theory reaches. Such a sheet presses
-its ground harder here than there. To second order in the growth coupling alpha and the curvature coupling beta (eq. 4, rest curvature −beta c),
+its ground harder here than there. To second order in the growth coupling alpha and the curvature
+coupling beta (eq. 4, rest curvature −beta c),
 
     V = V_a alpha + V_aa alpha² + V_ab alpha beta + V_bb beta²,
 
