@@ -20,6 +20,8 @@ from linear_theory.common.quadrature import Array
 TEMPLATES = Path(__file__).parent / "templates"
 
 SHORTER = {
+    repr(ArrayLike): "ArrayLike",  # within another annotation
+    inspect.formatannotation(ArrayLike | None): "ArrayLike | None",
     inspect.formatannotation(ArrayLike): "ArrayLike",
     inspect.formatannotation(Array): "Array",
     "numpy.float64": "float",
