@@ -1,4 +1,4 @@
-"""The page on the gaits of the seed paper, docs/gaits.md, from `figures.measure.paper.gait_map`.
+"""The page on the gaits of the paper, docs/gaits.md, from `figures.measure.paper.gait_map`.
 
 python -m figures.draw.gait_page [--out FILE]
 """

@@ -1,4 +1,4 @@
-"""The statements of sections 3.2 to 3.4 of the seed paper, each with its verdict, from the tables."""
+"""The statements of sections 3.2 to 3.4 of the paper, each with its verdict, from the tables."""
 
 import math
 from collections.abc import Iterator, Sequence
