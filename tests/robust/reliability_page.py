@@ -91,11 +91,10 @@ REST = """## Everything else
 SETTINGS = """## Threads, processes, a busy machine
 
 `python -m tests.robust.trials.settings` asks {asked} of the random questions one after the other, and
-again in other circumstances; all answers and errors must have the same bits. Seconds are those of a
-clock, for all of them.
+again in other circumstances; all answers and errors must have the same bits.
 
-| setting | asked | other bits | seconds |
-| --- | --- | --- | --- |
+| setting | asked | other bits |
+| --- | --- | --- |
 """
 
 TAIL = """## Elsewhere
