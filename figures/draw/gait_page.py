@@ -115,7 +115,7 @@ def _gaits(found: Found) -> Iterator[str]:
 
 def _bilayers(found: Found) -> Iterator[str]:
     yield "## Two layers, one of which grows\n"
-    yield "The paper: on both lines beta = ±100 alpha (kappa in 1/L) the sheet runs along the wave. "
+    yield "The paper: on both lines beta = ±100 alpha (kappa in 1/L) the sheet runs along the wave."
     yield "V at six values of alpha:\n"
     yield "| friction | kappa/alpha | " + " | ".join(f"at {sign_of(a)}" for a in _alphas()) + " |"
     yield "| --- " * (2 + len(_alphas())) + "|"
