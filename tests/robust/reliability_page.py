@@ -66,6 +66,9 @@ WIDTH = 104
 
 HEAD = """# Reliability in figures
 
+How often the program was asked something at random, and how often it was wrong: stated errors below the
+true ones, damaged files, bad command lines, kills.
+
 Made by `python -m tests.robust.reliability_page`. An error is *understated* if the true one is larger
 than the stated one and that of the better answer together.
 
@@ -90,8 +93,8 @@ REST = """## Everything else
 
 SETTINGS = """## Threads, processes, a busy machine
 
-`python -m tests.robust.trials.settings` asks {asked} of the random questions one after the other, and
-again in other circumstances; all answers and errors must have the same bits.
+`python -m tests.robust.trials.settings` asks {asked} of the random questions one after the other,
+and again in other circumstances; all answers and errors must have the same bits.
 
 | setting | asked | other bits |
 | --- | --- | --- |
@@ -169,7 +172,7 @@ def rest(rows: Sequence[table.Row]) -> list[str]:
 def in_settings() -> str:
     """The same questions in other circumstances."""
     rows = settings.TABLE.read()
-    lines = (f"| {row.setting} | {row.asked} | {row.different} | {row.seconds:.0f} |" for row in rows)
+    lines = (f"| {row.setting} | {row.asked} | {row.different} |" for row in rows)
     return SETTINGS.format(asked=rows[0].asked) + "\n".join(lines) + "\n"
 
 
