@@ -342,7 +342,7 @@ def test_choices_are_those_of_the_library(name):
         "growth_law": GROWTH_LAWS,
         "area": tuple(Reference),
         "load": LOADS,
-        "friction": LAWS,
+        "friction": [name for law in LAWS for name in ((law, "dry") if law == "coulomb" else (law,))],
         "method": METHODS,
     }
     choices = get_args(get_type_hints(Options)[name])
