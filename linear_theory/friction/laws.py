@@ -197,6 +197,10 @@ def checked_law(law: FrictionLaw, components: int, argument: str = "friction") -
     return law
 
 
+DRY = "dry"
+"""Another name of Coulomb's law, that of scene files and of answers."""
+
+
 def friction_law(
     friction: object = "coulomb", slip_speed: object = None, argument: str = "friction"
 ) -> FrictionLaw:
@@ -209,8 +213,9 @@ def friction_law(
         if slip_speed is not None:
             raise ValueError(f"slip_speed = {shown(slip_speed)}: must be None beside {shown(friction)}")
         return checked_law(friction, 2, argument)
-    named = Coulomb.name if isinstance(friction, str) and friction == "dry" else friction
-    name = validation.choice(argument, named, FRICTION_LAWS)
+    if isinstance(friction, str) and friction == DRY:
+        friction = Coulomb.name
+    name = validation.choice(argument, friction, FRICTION_LAWS)
     if name == Tanh.name:
         if slip_speed is None:
             raise ValueError(f"slip_speed = None: must be > 0 for {argument} = 'tanh'")
