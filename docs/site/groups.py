@@ -19,7 +19,7 @@ GROUPS: dict[str, dict[str, tuple[str, ...]]] = {
         ),
         "Speed of a sheet": (
             *("crawl_speed", "field_speed", "second_order", "rigid_path", "friction_field"),
-            *("speed_gradient", "cost_gradient"),
+            *("speed_gradient", "power_gradient", "cost_gradient"),
         ),
         "Speed of a body on a line": (
             *("line_speed", "line_balance", "line_cycle_speed", "line_power", "line_speed_tanh"),
@@ -28,7 +28,14 @@ GROUPS: dict[str, dict[str, tuple[str, ...]]] = {
         ),
         "Deformation of a sheet": ("airy_series", "ritz_field"),
         "What calls return": (
-            *("CrawlSpeed", "Estimate", "SecondOrder", "SpeedGradient", "CostGradient"),
+            *(
+                "CrawlSpeed",
+                "Estimate",
+                "SecondOrder",
+                "SpeedGradient",
+                "PowerGradient",
+                "CostGradient",
+            ),
             *("AirySeries", "RitzField"),
         ),
         "Errors and warnings": (
@@ -44,6 +51,7 @@ GROUPS: dict[str, dict[str, tuple[str, ...]]] = {
             *("Scene", "Material", "Membrane", "Bending", "Gravity", "Ground", "Friction", "Inertia"),
             *("SelfContact", "DeadLoad", "Terrain", "HeightMap", "Outline", "bilayer"),
         ),
+        "The best outline": ("best_outline", "outline_gradient", "Trapezoid", "LegendreShape"),
         "Excitable waves": (*("FitzHughNagumo", "excitable_preset", "Excitation", "StrainFeedback"),),
         "Many scenes, the best scene": (
             *("sweep", "optimise", "Harmonics", "Bound", "Robust", "cycle_gradient"),

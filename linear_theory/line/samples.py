@@ -70,8 +70,8 @@ BLOCK = 1 << 16
 
 
 class Snapshot(NamedTuple):
-    """Speed, its coefficients of alpha and alpha^2, largest speed, part at rest and power of friction
-    over mu times the weight, each (times,)."""
+    """Speed, its coefficients of alpha and alpha^2 (nan unless asked for), largest speed, part at rest
+    and power of friction over mu times the weight, each (times,)."""
 
     velocity: Array
     first: Array
@@ -92,10 +92,10 @@ def sampled_balance(
     drive.check()
     sampled, period = partial(_snapshots, drive.fine, alpha, law, growth), drive.period
     cells, times = _first_cells(drive, tolerance.rtol), FEWEST
+    doubled = _Doubled(sampled, period)
     space = time = math.inf
     while True:
-        instants: Array = period / times * np.arange(float(times))
-        fine, coarse = sampled(instants, 2 * cells), sampled(instants, cells)
+        fine, coarse = doubled.at(times, 2 * cells, coefficients=True), doubled.at(times, cells)
         mean = float(fine.velocity.mean())
         # A difference may vanish by chance; a quarter of the one before, for second order, does not.
         last_space, space = space, CHANCE * abs(mean - float(coarse.velocity.mean()))
@@ -118,7 +118,7 @@ def sampled_balance(
     return LineMotion(
         mean=mean,
         error=in_space + in_time + 16 * EPS * fastest,
-        times=instants,
+        times=_instants(period, times),
         velocity=fine.velocity,
         fastest=fastest,
         first=float(fine.first.mean()),
@@ -127,6 +127,30 @@ def sampled_balance(
         power=_mean_power(fine.power, coarse.power, drive.hidden(period / times) * abs(alpha)),
         friction=fine.power,
     )
+
+
+def _instants(period: float, times: int) -> Array:
+    return np.asarray(period / times * np.arange(float(times)))
+
+
+class _Doubled:
+    """Snapshots of a period at equidistant times, of which every second is known from half as many."""
+
+    def __init__(self, sampled: Callable[..., Snapshot], period: float) -> None:
+        self._sampled, self._period = sampled, period
+        self._kept: dict[int, Snapshot] = {}
+
+    def at(self, times: int, cells: int, coefficients: bool = False) -> Snapshot:
+        """With coefficients always asked for, or never, of the same number of cells or of more."""
+        instants, found = _instants(self._period, times), self._kept.get(cells)
+        if found is None or found.velocity.size not in (times, times // 2):
+            found = self._sampled(instants, cells, coefficients)
+        elif found.velocity.size < times:
+            between = self._sampled(instants[1::2], cells, coefficients)
+            pairs = zip(found, between, strict=True)
+            found = Snapshot(*(np.stack(pair, axis=1).ravel() for pair in pairs))
+        self._kept[cells] = found
+        return found
 
 
 def _mean_power(fine: Array, coarse: Array, hidden: float) -> Estimate:
@@ -199,18 +223,30 @@ class _Checks(NamedTuple):
 
 
 def _snapshots(
-    drive: Drive, alpha: float, law: FrictionLaw, growth: Piece, times: Array, cells: int
+    drive: Drive,
+    alpha: float,
+    law: FrictionLaw,
+    growth: Piece,
+    times: Array,
+    cells: int,
+    coefficients: bool = False,
 ) -> Snapshot:
     step = max(1, BLOCK // cells)
     parts = [
-        _snapshot(drive, alpha, law, growth, times[i : i + step, None], cells)
+        _snapshot(drive, alpha, law, growth, times[i : i + step, None], cells, coefficients)
         for i in range(0, times.size, step)
     ]
     return Snapshot(*(np.concatenate(column) for column in zip(*parts, strict=True)))
 
 
 def _snapshot(
-    drive: Drive, alpha: float, law: FrictionLaw, growth: Piece, times: Array, cells: int
+    drive: Drive,
+    alpha: float,
+    law: FrictionLaw,
+    growth: Piece,
+    times: Array,
+    cells: int,
+    coefficients: bool,
 ) -> Snapshot:
     y = np.linspace(-0.5, 0.5, cells + 1)
     place = drive.sheet.length * y
@@ -225,14 +261,15 @@ def _snapshot(
         share = share_slower(law, alpha)
         level, _ = _weighted_quantile(g, weight, share)
         velocity = -alpha * level
-        first, second = _dry_coefficients(c, rate, growth, share, mu)
     else:
         velocity = -alpha * np.sum(weight * _middle(g), axis=1) / weight.sum(axis=1)
-        first, second = _viscous_coefficients(c, rate, growth, mu)
         if not is_viscous(law):
             velocity = _regularised_speed(alpha * g, weight, law, velocity)
-    if law.width > 0 and not _point_law(law).reversible:
-        first = second = np.full(times.size, math.nan)
+    first = second = np.full(times.size, math.nan)
+    if coefficients and law.width == 0:
+        first, second = _dry_coefficients(c, rate, growth, share, mu)
+    elif coefficients and _point_law(law).reversible:
+        first, second = _viscous_coefficients(c, rate, growth, mu)
     slip = velocity[:, None] + alpha * g
     tolerance = REST_SPEED * np.ptp(slip, axis=1, keepdims=True)
     ends = _Ends.of(slip)
