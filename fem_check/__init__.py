@@ -1,4 +1,8 @@
-"""Finite elements that check the linear theory: plane stress, and a nonlinear shell for any alpha."""
+"""The nonlinear sheet, scenes with their effects, and the calls that choose a level of theory.
+
+Start with `predict`, the speed of a flat sheet to a tolerance, or `solve`, that of any scene;
+`simulate` gives the motion in time of a sheet that bends, slips and leaves the ground.
+"""
 
 import lazy_loader
 

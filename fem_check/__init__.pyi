@@ -1,7 +1,4 @@
-"""Finite elements that check the linear theory: plane stress, and a nonlinear shell for any alpha.
-
-Read by `lazy_loader` as it runs, and by type checkers.
-"""
+"""Names of `fem_check` for lazy_loader and for type checkers."""
 
 from .choice.prediction import predict
 from .choice.result import Prediction

@@ -1,4 +1,8 @@
-"""Speed of a sheet driven by a travelling wave of growth: closed forms, series, friction balance."""
+"""Sheets, waves, friction laws, and the speed of a sheet by closed forms, series and friction balance.
+
+Small strain, or a body on a line at any strain; without finite elements and without pictures. For the
+nonlinear sheet, and for a level chosen by tolerance, see `fem_check.predict`.
+"""
 
 from linear_theory.common.errors import (
     BeyondReachWarning,

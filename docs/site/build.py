@@ -16,6 +16,7 @@ from pathlib import Path
 
 from docs.site import api, examples, links, markup
 from docs.site.contents import ROOT, Page, pages
+from docs.site.pictures import sized
 from figures.common.command import parser
 from figures.common.output import tracked
 
@@ -37,7 +38,8 @@ def build(folder: Path, reference: bool = True, only: Sequence[str] = ()) -> Non
     for page in tracked("documentation", shown):
         target = folder / page.target
         target.parent.mkdir(parents=True, exist_ok=True)
-        target.write_text(framed(page, body(page, folder, shown), shown))
+        content = sized(body(page, folder, shown), target.parent)
+        target.write_text(framed(page, content, shown))
 
 
 def body(page: Page, folder: Path, shown: Sequence[Page]) -> str:

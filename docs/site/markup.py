@@ -5,6 +5,7 @@ import inspect
 import re
 from collections.abc import Callable, MutableMapping, Sequence
 from html import escape
+from itertools import pairwise
 from typing import Any
 
 from markdown_it import MarkdownIt
@@ -22,6 +23,12 @@ CODE = HtmlFormatter(cssclass="code")
 SHORT = 30
 """Characters of code in the text below which it is kept on one line."""
 
+NUMBER = re.compile(r"(?=.{1,12}$)\(?[+−-]?\d[^A-DF-Za-df-z]*( ?[a-zµ%]{1,3})?\)?")
+"""A cell of a table with a short number and its unit, kept on one line."""
+
+BREAKS = re.compile(r"(::|[/_.](?=\w))")
+"""After which a long name in the text may go on in the next line."""
+
 LANGUAGES = {"python", "bash", "toml", "bibtex"}
 
 
@@ -34,6 +41,9 @@ def html_of(text: str, link: Link, api: Link) -> str:
     for rule in ("fence", "code_block"):
         markdown.add_render_rule(rule, _fence)
     tokens = markdown.parse(text)
+    for before, token in pairwise(tokens):
+        if before.type == "td_open" and NUMBER.fullmatch(token.content):
+            before.attrSet("class", "short")
     for token in tokens:
         for child in token.children or ():
             _relink(child, link)
@@ -93,12 +103,12 @@ def _relink(token: Token, link: Link) -> None:
 
 def _to_api(token: Token, api: Link) -> None:
     target = api(token.content) if re.fullmatch(r"[A-Za-z_][\w.]*", token.content) else ""
+    text = BREAKS.sub(r"\1<wbr>", escape(token.content))
+    shown = f"<code>{text}</code>"
     if target:
-        token.type, token.content = "html_inline", _linked(target, token.content)
-
-
-def _linked(target: str, text: str) -> str:
-    return f'<a href="{escape(target)}"><code>{escape(text)}</code></a>'
+        token.type, token.content = "html_inline", f'<a href="{escape(target)}">{shown}</a>'
+    elif len(token.content) >= SHORT:
+        token.type, token.content = "html_inline", shown
 
 
 def _heading(

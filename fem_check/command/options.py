@@ -34,24 +34,47 @@ class Options:
     """Period of the wave, e.g. "8 s"; 1 by default."""
     count: Annotated[int, In(group=WAVE)] = 1
     """Number of waves on the sheet; a negative number runs towards -y."""
-    wave: Annotated[str | None, In(group=WAVE)] = None
-    """An excitable wave instead (eq. 12), on its periodic orbit: excitable:pulse-train. Its
-    unit of time is that of the reaction; other numbers are plain."""
-    pulse: Annotated[float | None, In(group=WAVE)] = None
-    """A smooth pulse instead of a sine; its width at half height in wavelengths, 0.02 to 1:
-    c = exp(k (cos phi - 1)), k = ln 2/(1 - cos(pi share)), phi = 2 pi (count y/L - t/T)."""
+    wave: Annotated[
+        str | None,
+        In(
+            group=WAVE,
+            help="An excitable wave instead (eq. 12), on its periodic orbit: "
+            "excitable:pulse-train. Its unit of time is that of the reaction; other numbers are plain.",
+        ),
+    ] = None
+    pulse: Annotated[
+        float | None,
+        In(
+            group=WAVE,
+            help="A smooth pulse instead of a sine; its width at half height in wavelengths, 0.02 "
+            "to 1: c = exp(k (cos phi - 1)), k = ln 2/(1 - cos(pi share)), phi = 2 pi (count "
+            "y/L - t/T).",
+        ),
+    ] = None
     sine: Amplitudes = ()
     """Amplitudes of sin phi, sin 2 phi, ... instead of one sine."""
     cosine: Amplitudes = ()
     """Amplitudes of cos phi, cos 2 phi, ..."""
-    wave_csv: Annotated[str | None, In(group=WAVE)] = None
-    """A measured wave instead: a file with the columns y, t, c (and x where c depends on it), in the
-    units of --length and --period; y from the middle of the sheet. Without units, --period may be left
-    out and is found from samples of more than one period."""
+    wave_csv: Annotated[
+        str | None,
+        In(
+            group=WAVE,
+            help="A measured wave instead: a file with the columns y, t, c (and x where c depends "
+            "on it), in the units of --length and --period; y from the middle of the sheet. "
+            "Without units, --period may be left out and is found from samples of more than "
+            "one period.",
+        ),
+    ] = None
 
-    growth: Annotated[str | None, In(group=GROWTH)] = None
-    """Growth of lengths at the crest of the wave, e.g. "12 %". It sets alpha by the growth law: the
-    stretch, exp(alpha c), 1 + alpha c or (1 + 2 alpha c)^(1/2), is 1.12 where c is largest."""
+    growth: Annotated[
+        str | None,
+        In(
+            group=GROWTH,
+            help='Growth of lengths at the crest of the wave, e.g. "12 %". It sets alpha by the '
+            "growth law: the stretch, exp(alpha c), 1 + alpha c or (1 + 2 alpha c)^(1/2), is "
+            "1.12 where c is largest.",
+        ),
+    ] = None
     alpha: Annotated[float | None, In(group=GROWTH)] = None
     """The growth coupling, instead of --growth; may be negative."""
     growth_law: Annotated[Literal["exp", "linear", "metric"], In(group=GROWTH)] = "exp"
@@ -61,8 +84,8 @@ class Options:
 
     load: Annotated[Literal["current", "grown", "material"], In(group=MODEL)] = "current"
     """Normal load: proportional to the current or the grown area, or conserved with the material."""
-    friction: Annotated[Literal["coulomb", "tanh", "viscous"], In(group=MODEL)] = "coulomb"
-    """Friction law: dry, dry but regularised at small slip, or proportional to the slip."""
+    friction: Annotated[Literal["coulomb", "dry", "tanh", "viscous"], In(group=MODEL)] = "coulomb"
+    """Friction law: dry (two names), dry but regularised at small slip, or proportional to the slip."""
     slip_speed: Annotated[str | None, In(group=MODEL)] = None
     """Slip speed of tanh friction, e.g. "0.1 mm/s"."""
     forward: Annotated[float | None, In(group=MODEL)] = None
@@ -71,9 +94,14 @@ class Options:
     """Likewise towards -y; both or none."""
     sideways: Annotated[float | None, In(group=MODEL)] = None
     """Likewise across; the mean of both unless given."""
-    heading: Annotated[str | None, In(group=MODEL)] = None
-    """Where "forward" points, e.g. "10 deg" or "0.2 rad", anticlockwise from +y; along +y unless
-    given."""
+    heading: Annotated[
+        str | None,
+        In(
+            group=MODEL,
+            help='Where "forward" points, e.g. "10 deg" or "0.2 rad", anticlockwise from +y; along '
+            "+y unless given.",
+        ),
+    ] = None
     fixed_to: Annotated[Literal["body", "ground"], In(group=MODEL)] = "body"
     """What the direction belongs to: "body" for bristles below the sheet, "ground" for fur or grass."""
 

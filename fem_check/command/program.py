@@ -63,9 +63,10 @@ def _fit_words() -> None:
 
 def _run(arguments: Sequence[str]) -> int:
     """Run the command given by the arguments and return its exit status."""
-    from cyclopts import CycloptsError, UnusedCliTokensError
+    from cyclopts import CycloptsError, UnknownOptionError, UnusedCliTokensError
 
     from fem_check.command.app import app
+    from fem_check.command.typed import elsewhere
     from fem_check.command.words import tidied
 
     try:
@@ -73,7 +74,11 @@ def _run(arguments: Sequence[str]) -> int:
     except UnusedCliTokensError as problem:
         command = tidied(arguments)[0]
         word = (problem.unused_tokens or [""])[0]
-        _complain(f"{word!r}: must follow an option, such as --growth; see sheetcrawl {command} --help")
+        _complain(f"{word!r}: must follow an option; see sheetcrawl {command} --help")
+        return BAD_ARGUMENTS
+    except UnknownOptionError as problem:
+        typed = (problem.token.keyword or problem.token.value).split("=")[0]
+        _complain(elsewhere(typed) or str(problem))
         return BAD_ARGUMENTS
     except (CycloptsError, ValueError) as problem:
         for line in getattr(problem, "mistakes", (str(problem),)):  # of a scene file, all of them

@@ -138,9 +138,9 @@ PARAVIEW_HELP = f"""Write the motion of a finished run for ParaView (.xdmf), wit
 
 SWEEP_HELP = f"""Answer many scenes that differ in some fields, and keep a record of each in one file.
 
-What the file holds is not computed again: after Ctrl-C, a crash or a power cut the same command goes
-on. Scenes that fail have a record with the reason. Needs the extra, but for --workers 1:
-pip install 'sheetcrawl[sweep]'
+What the file holds is not computed again: after Ctrl-C, a crash or a power
+cut the same command goes on. Scenes that fail have a record with the reason.
+More than one worker needs the extra: pip install 'sheetcrawl[sweep]'
 
   {SWEEPS[0][1]}
   {SWEEPS[1][1]}
@@ -149,8 +149,8 @@ pip install 'sheetcrawl[sweep]'
 
 OPTIMISE_HELP = f"""Find the best scene between bounds, and say why it is held to be the best.
 
-Answers are kept in a file: after Ctrl-C or a crash the same command goes on. The exit status is 1 where
-the certificate does not hold.
+Answers are kept in a file: after Ctrl-C or a crash the same command goes on.
+The exit status is 1 where the certificate does not hold.
 
   {OPTIMISED[0][1]}
   {OPTIMISED[1][1]}
@@ -160,8 +160,9 @@ EXPLORE = "sheetcrawl explore --port 8800 --no-browser"
 
 EXPLORE_HELP = f"""A page with sliders in the browser: shape, friction, V(alpha) and cost, with errors.
 
-What small strain answers is drawn at once, the nonlinear answer follows. The page is served to this
-computer alone and needs no network; Ctrl-C ends. Needs the extra: pip install 'sheetcrawl[explorer]'
+What small strain answers is drawn at once, the nonlinear answer follows.
+The page is served to this computer alone and needs no network; Ctrl-C ends it.
+Needs the extra: pip install 'sheetcrawl[explorer]'
 
   {EXPLORE}
 """
@@ -191,6 +192,7 @@ Other commands
   sheetcrawl run scene.toml       all of a scene to a folder: pictures, film, report.html
   sheetcrawl check scene.toml     what a scene file says, by which level it is answered, at what cost
   sheetcrawl sweep sweep.toml     many scenes on many cores; sheetcrawl new sweep writes such a file
+  sheetcrawl new optimise         the best wave or scene between bounds: a file for sheetcrawl optimise
   sheetcrawl explore              a page with sliders, in the browser
   sheetcrawl examples             more examples, pictures and films; what to do in Python
   sheetcrawl --install-completion shell completion of commands and options

@@ -36,6 +36,33 @@ def share(name: str, text: str) -> float:
     return found.into("dimensionless")
 
 
+IN_A_FILE = {
+    **dict.fromkeys(("--mu", "--coefficient", "--friction-coefficient"), "[friction] coefficient"),
+    **dict.fromkeys(("--incline", "--slope"), "[gravity] incline"),
+    **dict.fromkeys(("--weight", "--density"), "[gravity] weight or density"),
+    "--young": "[sheet] young",
+    "--bending": "[bending]",
+    "--ground": "[ground]",
+    "--outline": "[outline]",
+}
+"""Options that `speed` does not have, as they do not matter for a stiff flat sheet on level ground, and
+where a scene file has them."""
+
+
+def elsewhere(name: str) -> str:
+    """Where a scene file has what an option that is not there asks for; "" for other options.
+
+    >>> from fem_check.command.typed import elsewhere
+    >>> print(elsewhere("--young"))
+    --young: is for scene files, as [sheet] young; sheetcrawl new hydrogel writes one to change
+    """
+    if name not in IN_A_FILE:
+        return ""
+    table = IN_A_FILE[name]
+    mu = "; a stiff sheet on dry ground has the same speed for any" if "coefficient" in table else ""
+    return f"{name}: is for scene files, as {table}{mu}; sheetcrawl new hydrogel writes one to change"
+
+
 def option(name: str) -> str:
     """As it is typed."""
     return f"--{name.replace('_', '-')}"

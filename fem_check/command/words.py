@@ -1,6 +1,7 @@
 """Command-line arguments, rewritten from the typed form to the one that the parser accepts."""
 
 from collections.abc import Sequence
+from difflib import get_close_matches
 
 COMMANDS = (
     *("speed", "run", "show", "movie", "plot", "paraview", "sweep", "optimise"),
@@ -24,7 +25,9 @@ def tidied(arguments: Sequence[str]) -> list[str]:
     if words and words[0].startswith("--") and words[0].split("=")[0] not in OWN:
         words.insert(0, "speed")
     if words and not words[0].startswith("-") and words[0] not in COMMANDS:
-        raise ValueError(f"{words[0]!r} is not a command: must be {_listed(COMMANDS)}")
+        near = get_close_matches(words[0], COMMANDS, n=1)
+        meant = f"; did you mean {near[0]}?" if near else f": must be {_listed(COMMANDS)}"
+        raise ValueError(f"{words[0]!r} is not a command{meant}")
     groups: list[list[str]] = [[]]
     for word in words:
         if word.startswith("--"):

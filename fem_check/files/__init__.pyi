@@ -1,4 +1,6 @@
-"""What `fem_check.files` offers: read by `lazy_loader` as it runs, and by type checkers."""
+"""Scene files: read, checked and written, with their units and settings."""
+
+# Read by lazy_loader as it runs, and by type checkers.
 
 from .mistakes import SceneFileError
 from .parts.scene_file import RunSettings, SceneFile

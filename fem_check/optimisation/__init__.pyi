@@ -1,4 +1,6 @@
-"""What `fem_check.optimisation` offers: read by `lazy_loader` as it runs, and by type checkers."""
+"""The best scene between bounds: what may change, what is to be large, and the certificate."""
+
+# Read by lazy_loader as it runs, and by type checkers.
 
 from .objectives import CostOfTransport, Distance, Speed
 from .optimising import optimise

@@ -1,4 +1,6 @@
-"""What `fem_check.runs` offers: read by `lazy_loader` as it runs, and by type checkers."""
+"""Scenes run to folders: the answer, the motion as arrays, pictures, a film and a page to look at."""
+
+# Read by lazy_loader as it runs, and by type checkers.
 
 from .capture import recorded
 from .finished import Finished, finished

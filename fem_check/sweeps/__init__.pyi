@@ -1,4 +1,6 @@
-"""What `fem_check.sweeps` offers: read by `lazy_loader` as it runs, and by type checkers."""
+"""Sweeps: many scenes that differ in some fields, answered on many cores, kept in one file."""
+
+# Read by lazy_loader as it runs, and by type checkers.
 
 from .cost import expected
 from .plan import Plan

@@ -1,4 +1,4 @@
-"""Figure 2 of the seed paper: a gait in space, its wave, and how it moves along the sheet.
+"""Figure 2 of the paper: a gait in space, its wave, and how it moves along the sheet.
 
     python -m figures.draw.fig2 [--out FOLDER] [--formats png pdf]
 

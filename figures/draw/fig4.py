@@ -1,4 +1,4 @@
-"""Figure 4 of the seed paper: speed over growth and rest curvature, with its gaits in three readings.
+"""Figure 4 of the paper: speed over growth and rest curvature, with its gaits in three readings.
 
     python -m figures.draw.fig4 [--out FOLDER] [--formats png pdf]
 

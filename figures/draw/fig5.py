@@ -1,4 +1,4 @@
-"""Figure 5 of the seed paper: speed of trapezoids of one area.
+"""Figure 5 of the paper: speed of trapezoids of one area.
 
     python -m figures.draw.fig5 [--out FOLDER] [--formats png pdf]
 

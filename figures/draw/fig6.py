@@ -1,4 +1,4 @@
-"""Figure 6 of the seed paper: speed on uneven ground.
+"""Figure 6 of the paper: speed on uneven ground.
 
     python -m figures.draw.fig6 [--out FOLDER] [--formats png pdf]
 

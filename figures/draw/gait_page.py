@@ -1,4 +1,4 @@
-"""The page on the gaits of the seed paper, docs/gaits.md, from `figures.measure.paper.gait_map`.
+"""The page on the gaits of the paper, docs/gaits.md, from `figures.measure.paper.gait_map`.
 
 python -m figures.draw.gait_page [--out FILE]
 """
@@ -20,14 +20,12 @@ COMMAND = "python -m figures.draw.gait_page"
 SAME = 1e-3
 """V of the second and the third cycle that differ by less, L a cycle, have one sign or none."""
 
-HEAD = """# What of sections 3.2 to 3.4 holds
+HEAD = """# The paper's gaits: what of sections 3.2 to 3.4 holds
 
-Made by `python -m figures.draw.gait_page` from the tables gait_map, trapezoids, terrain and decisive in
-figures/data, which `make gaits` fills: 6 to 30 s of one core for each gait.
-
-Section 3.2 of the seed paper drives a sheet that bends by the waves of eq. 12 and maps its speed
-over alpha and beta. Three of its numbers leave open what was computed, so that every reading is run
-by name:
+What Miller and Dunkel say of sheets that bend, of trapezoids and of uneven ground, statement by
+statement, each with a verdict and the numbers behind it. Their section 3.2 drives a sheet that bends by
+the waves of eq. 12 and maps its speed over alpha and beta. Three of its numbers leave open what was
+computed, so that every reading is run by name:
 
 * **The wave.** With the printed numbers eq. 12 has no travelling wave of order one on the sheet.
   The threshold −0.1 has one, for twenty cycles: the preset "nu = -0.1"
@@ -40,6 +38,9 @@ by name:
 The ground is the printed one, 4 × 8 elements, 64 steps a cycle, no inertia. V is in L a cycle,
 positive along the wave, of the third cycle; where the second one has another sign, both are given.
 *crosses*: the sheet passes through itself at some time, which no real sheet does.
+
+Made by `python -m figures.draw.gait_page` from the tables gait_map, trapezoids, terrain and decisive in
+figures/data, which `make gaits` fills: 6 to 30 s of one core for each gait.
 
 """
 
@@ -116,13 +117,14 @@ def _gaits(found: Found) -> Iterator[str]:
 
 def _bilayers(found: Found) -> Iterator[str]:
     yield "## Two layers, one of which grows\n"
-    yield "The paper: on both lines beta = ±100 alpha (kappa in 1/L) the sheet runs along the wave.\n"
-    yield "| friction | line | " + " | ".join(f"alpha = {sign_of(a)}" for a in _alphas()) + " |"
+    yield "The paper: on both lines beta = ±100 alpha (kappa in 1/L) the sheet runs along the wave."
+    yield "V at six values of alpha:\n"
+    yield "| friction | kappa/alpha | " + " | ".join(f"at {sign_of(a)}" for a in _alphas()) + " |"
     yield "| --- " * (2 + len(_alphas())) + "|"
     for law in FRICTIONS:
         for way in (1, -1):
             cells = [told(found(a, way * 100 * a, law)) for a in _alphas()]
-            yield f"| {law} | kappa = {'+' if way > 0 else '−'}100 alpha | {' | '.join(cells)} |"
+            yield f"| {law} | {'+' if way > 0 else '−'}100/L | {' | '.join(cells)} |"
     yield ""
     yield (
         "The layer that grows being the upper or the lower one is the sign of the line; expansion\n"

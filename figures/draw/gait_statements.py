@@ -1,4 +1,4 @@
-"""The statements of sections 3.2 to 3.4 of the seed paper, each with its verdict, from the tables."""
+"""The statements of sections 3.2 to 3.4 of the paper, each with its verdict, from the tables."""
 
 import math
 from collections.abc import Iterator, Sequence
@@ -176,4 +176,4 @@ def _assumptions(changed: dict[Any, Any]) -> Iterator[tuple[str, str, str]]:
         depth = max(changed[gait, "viscous", "none"].depth for gait in decisive.GAITS)
         deep = f"; but points sink by up to {depth:.2f} L" if change == "stiff ground" else ""
         verdict = "yes for V, within the errors" if same else "no"
-        yield words, f"{verdict}: with {change} {'; '.join(told)}{deep}", "figures/data/decisive.csv"
+        yield words, f"{verdict}: with a {change}, {'; '.join(told)}{deep}", "figures/data/decisive.csv"

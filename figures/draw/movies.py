@@ -1,4 +1,4 @@
-"""Movies 1 to 4 of the seed paper.
+"""Movies 1 to 4 of the paper.
 
     python -m figures.draw.movies [--out FOLDER] [--which 1234] [--suffix .gif] [--width 480]
 

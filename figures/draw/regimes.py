@@ -6,7 +6,7 @@ Lines are theory, symbols simulations of the nonlinear sheet, by static shapes a
 estimated errors are smaller. Shaded are the slip speeds at which the nonlinear sheet meets dry and
 viscous friction (`CrawlSpeed.regime`). Speeds are read from the table of `figures.measure.regimes`.
 
-Bars mark where the seed paper's law, v0 = 1 with L = 1, stands for alpha from 0.02 to 0.4 if the
+Bars mark where the paper's law, v0 = 1 with L = 1, stands for alpha from 0.02 to 0.4 if the
 period is T = L/v0, or 29.5 L/v0, to which its eqs 12 settle: v0/(alpha L/T) is T/alpha in these units.
 The paper states no period, so what it prints does not show that its simulations were of dry friction:
 they were if T was below 0.09 alpha L/v0 (0.023 L/v0 at alpha = 0.25), and of viscous friction, with

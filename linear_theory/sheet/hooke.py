@@ -1,7 +1,7 @@
 """Isotropic plane stress with growth, per unit alpha and Young modulus 1.
 
 The strain is the elastic one plus alpha c times the identity (plane stress), not (1 + nu) alpha c
-as eq. 10b of the seed paper prints: that is the plane-strain form and contradicts its eq. 14.
+as eq. 10b of the paper prints: that is the plane-strain form and contradicts its eq. 14.
 Symmetric tensors have their components (xx, yy, xy) on the first axis.
 """
 

@@ -13,7 +13,7 @@ class Sheet(Value):
     """A flat rectangular sheet, |x| <= width/2, |y| <= length/2, of Young modulus 1.
 
     Lengths are in any one unit (length = 1 makes them multiples of L). The defaults are
-    the sheet of the seed paper: L x L/2, nu = 1/2, h = 0.03 L.
+    the sheet of the paper: L x L/2, nu = 1/2, h = 0.03 L.
 
     Raises ValueError for sizes that are not finite and positive and for a Poisson ratio
     outside (-1, 1/2].

@@ -8,7 +8,7 @@ with n = `count` waves on the sheet. Splitting the sums into parts even and odd 
 as a linear theory requires: one elastic problem for each of cos(2 pi r y/L) and sin(2 pi r y/L),
 r = |k n|, times a factor that depends on t alone.
 
-Sign convention: n > 0 runs towards +y. The printed amplitudes of the seed paper (appendix A.1,
+Sign convention: n > 0 runs towards +y. The printed amplitudes of the paper (appendix A.1,
 a_r = delta_1r cos wt, b_s = delta_1s sin wt) belong to cos(2 pi y/L - wt), not to this sine.
 """
 
@@ -255,7 +255,7 @@ def _roundoff(samples: Array) -> float:
 
 @dataclass(frozen=True, eq=False)
 class SineWave(TravellingWave):
-    """c(y, t) = sin(2 pi count y/L - 2 pi t/period), the wave of the seed paper's section 3.1.
+    """c(y, t) = sin(2 pi count y/L - 2 pi t/period), the wave of the paper's section 3.1.
 
     count: any non-zero integer; count > 0 runs towards +y. period in units of time. Raises ValueError
     otherwise.

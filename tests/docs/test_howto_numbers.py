@@ -12,6 +12,7 @@ from fem_check.excitable.presets import PRESETS
 from fem_check.shell.effects.contact.self_contact import GAP
 from figures.draw.directional import select
 from figures.measure import directional, directional_cost, excitable, saddle, schemes
+from linear_theory.friction.regime import DRY_RATIO
 
 HOWTO = Path(__file__).parents[2] / "docs" / "howto"
 
@@ -71,3 +72,10 @@ def test_presets_do_what_the_page_says() -> None:
     periods = {row.preset: row.period for row in excitable.TABLE.read()}  # of the last cycle
     for name in ("printed", "nu = -0.1", "nu = -0.05"):
         assert f"period {periods[name]:.0f}" in told[name]
+
+
+def test_friction_does_not_deform_the_sheet_of_silicone() -> None:
+    strain = 0.4 * 1100.0 * 9.81 * 0.08 / 1e6  # mu rho g L/E
+    assert f"1 MPa it is {strain:.4f}," in text_of("measurement")
+    assert f"at a {round(1 / DRY_RATIO)}th of".replace("20th", "twentieth") in text_of("scene_file")
+    assert round(1 / DRY_RATIO) == 20  # "twenty times as fast" in the message about slip_speed

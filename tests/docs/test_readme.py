@@ -18,6 +18,7 @@ from linear_theory import Sheet, SineWave, __version__, crawl_speed
 
 ROOT = Path(__file__).parents[2]
 README, CONVENTIONS = ROOT / "README.md", ROOT / "docs" / "conventions.md"
+LEVELS = ROOT / "docs" / "levels.md"
 COST = re.compile(r"took .*")
 """Of the block, which depends on the machine."""
 
@@ -28,7 +29,7 @@ def test_the_block_is_what_the_command_prints(capsys, monkeypatch):
         r"\$ sheetcrawl (.*?)\n\n```\n(.*?)```", README.read_text(), re.DOTALL
     ).groups()
     with pytest.raises(SystemExit) as end:
-        main(shlex.split(command))
+        main(shlex.split(command.replace("\\\n", " ")))
     assert end.value.code == 0
     assert COST.sub("", capsys.readouterr().out).strip() == COST.sub("", shown).strip()
 
@@ -66,7 +67,7 @@ def test_gallery_is_there():
 
 
 def test_numbers_in_the_text_are_those_of_the_tables():
-    text = " ".join(f"{README.read_text()} {CONVENTIONS.read_text()}".split())
+    text = " ".join(f"{LEVELS.read_text()} {CONVENTIONS.read_text()}".split())
     (reach,) = (r for r in reach_table.REACHES.read() if (r.width, r.poisson) == (0.5, 0.5))
     shares = [f"{alpha:.2f}" for alpha in (reach.second_order_1, reach.second_order_5)]
     assert f"up to alpha = {', '.join(shares)} and {reach.second_order_10:.2f}." in text

@@ -4,19 +4,24 @@ import contextlib
 import io
 import re
 from pathlib import Path
+from types import ModuleType
 
 import pytest
 
-from docs.site import api, links, markup
+import fem_check
+import linear_theory
+from docs.site import api, links, markup, pictures
 from docs.site.build import build
 from docs.site.contents import ROOT, Page, pages, scripts
 from docs.site.examples import parts
+from docs.site.groups import GROUPS
+from fem_check.output.look import CM_PER_INCH, COLUMN_CM
 
 ONE = "against_the_paper"
 """The example that is run here; `tests/docs/test_examples.py` runs them all."""
 
 WRITTEN = [page for page in pages() if page.source.suffix == ".md"]
-GUIDES = [page for page in WRITTEN if page.section == "How to" or page.title == "Tutorial"]
+GUIDES = [page for page in WRITTEN if page.target.startswith(("howto/", "tutorial"))]
 
 
 @pytest.fixture(scope="module")
@@ -62,6 +67,42 @@ def test_names_of_the_code_lead_to_the_reference(site: Path) -> None:
     assert 'href="api/fem_check.html#Membrane"' in text
     assert 'href="api/linear_theory/sheet/hooke.html#strain"' in text
     assert markup.found("linear_theory.nothing", api.modules()) == ""
+
+
+@pytest.mark.parametrize("package", [linear_theory, fem_check], ids=lambda package: package.__name__)
+def test_the_reference_opens_with_all_public_names_by_group(package: ModuleType) -> None:
+    listed = [name for names in GROUPS[package.__name__].values() for name in names]
+    assert len(listed) == len(set(listed))
+    assert set(listed) <= set(package.__all__)
+    shown = [row for rows in api.overview(package.__name__).values() for row in rows]
+    assert sorted(name for name, _ in shown) == sorted(package.__all__)
+    assert all(len(what) > 3 for _, what in shown)
+
+
+def test_the_reference_names_arrays_as_the_source_does(site: Path) -> None:
+    for name in ("linear_theory", "fem_check"):
+        text = re.sub(r"<[^>]+>", "", (site / "api" / f"{name}.html").read_text())
+        signatures = re.sub(r"View Source.*?\n\n\n", "", text, flags=re.DOTALL)
+        assert "numpy._typing" not in signatures
+        assert "ArrayLike" in signatures or name == "fem_check"
+
+
+def test_pictures_are_as_wide_as_in_print(site: Path) -> None:
+    column = ROOT / "figures" / "gallery" / "reach.png"
+    assert pictures.print_width(column) == pytest.approx(COLUMN_CM / CM_PER_INCH, rel=5e-3)
+    assert pictures.print_width(ROOT / "README.md") == 0.0
+    shown = re.search(r'reach\.png" width="(\d+)"', (site / "levels.html").read_text())
+    assert shown
+    assert int(shown[1]) == pytest.approx(COLUMN_CM / CM_PER_INCH * 96 * pictures.SCALE, rel=5e-3)
+    assert re.search(r'crawl\.gif" alt', (site / "index.html").read_text())
+
+
+def test_numbers_stay_on_one_line_and_long_names_break_at_their_parts() -> None:
+    row = "| (4.0e-16) | 12 words | `tests/a/test_of_a_long_name.py` |"
+    html = markup.html_of(f"| a | b | c |\n| --- | --- | --- |\n{row}", str, lambda name: "")
+    assert '<td class="short">(4.0e-16)</td>' in html
+    assert "<td>12 words</td>" in html
+    assert "<code>tests/<wbr>a/<wbr>test_<wbr>of_<wbr>a_<wbr>long_<wbr>name.<wbr>py</code>" in html
 
 
 def test_links_that_lead_nowhere_are_noticed(tmp_path: Path) -> None:

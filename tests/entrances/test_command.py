@@ -153,8 +153,12 @@ def test_wave_of_harmonics_and_all_options(capsys):
         ([*SPEED, "--movie", "crawl.avi"], "must end in .gif or .mp4"),
         ([*SPEED, "--json", "--csv"], "--json: must not be combined with --csv"),
         ([*SPEED, "12"], "'12': must follow an option"),
-        (["run", "a.toml", "r1"], "'r1': must follow an option, such as --growth; see sheetcrawl run"),
+        (["run", "a.toml", "r1"], "'r1': must follow an option; see sheetcrawl run"),
         (["crawl"], "'crawl' is not a command: must be speed, run, show, movie, "),
+        (["spede"], "'spede' is not a command; did you mean speed?"),
+        ([*SPEED, "--mu", "0.4"], "--mu: is for scene files, as [friction] coefficient; a stiff sheet"),
+        ([*SPEED, "--young", "1 MPa"], "--young: is for scene files, as [sheet] young"),
+        ([*SPEED, "--growht", "1 %"], "Did you mean --growth?"),
     ],
 )
 def test_bad_arguments_get_one_line_and_status_2(capsys, arguments, named):
@@ -338,7 +342,7 @@ def test_choices_are_those_of_the_library(name):
         "growth_law": GROWTH_LAWS,
         "area": tuple(Reference),
         "load": LOADS,
-        "friction": LAWS,
+        "friction": [name for law in LAWS for name in ((law, "dry") if law == "coulomb" else (law,))],
         "method": METHODS,
     }
     choices = get_args(get_type_hints(Options)[name])

@@ -30,6 +30,7 @@ from linear_theory import (
     line_balance,
 )
 from linear_theory.common.pairs import PAIRS, pairs_among, product
+from linear_theory.friction.laws import friction_law
 
 Array = NDArray[np.float64]
 
@@ -470,6 +471,12 @@ def test_the_balance_is_where_the_potential_is_least(law: FrictionLaw, t: float)
         assert not found[[0, 2]].any()
     else:
         assert abs(found[[0, 2]]).min() > 1e-2 * abs(found[1])
+
+
+def test_dry_is_a_name_of_coulombs_law() -> None:
+    assert friction_law("dry") == Coulomb()
+    with pytest.raises(ValueError, match="slip_speed"):
+        friction_law("dry", 0.1)
 
 
 def test_bodies_on_a_line_refuse_laws_without_a_name() -> None:

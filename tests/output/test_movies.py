@@ -109,7 +109,7 @@ def test_words_are_in_the_units_that_were_asked_for(speed):
     moving = moving_of(speed)
     stage = Stage(moving, Units("mm", "s", 40.0, 8.0), 2, 4, 420, 1.0)
     words = stage._words(stage._frames[4])
-    assert words == f"t = 8.00 s    way +{40 * speed.mean:.1f} mm"
+    assert words == f"t = 8.00 s    moved +{40 * speed.mean:.1f} mm"
 
 
 def test_colours_of_growth_are_opposite_about_white():

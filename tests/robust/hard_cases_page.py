@@ -60,14 +60,17 @@ def page(records: list[Record]) -> str:
     lines = [
         "# Hard cases",
         "",
-        "Made by `python -m tests.robust.hard_cases_page` from `tests/robust/problems/`, the table",
-        f"that also drives `tests/robust/test_problems.py`. {len(records)} cases: {counts}.",
+        "What the solvers do with small parameters, large growth, rough waves, corners and stuck",
+        f"sheets: {len(records)} cases with a reference value from elsewhere, {counts}.",
         "",
         *(f"* **{name}**: {words}." for name, words in VERDICTS.items()),
         "",
         "Errors are relative to the reference (absolute where that is 0). The bound is what the solver",
         "claims for itself plus what is uncertain in the reference; where it estimates no error, the",
         "bound is what the case demands, in (brackets). Times are in seconds, the reference included.",
+        "",
+        "Made by `python -m tests.robust.hard_cases_page` from `tests/robust/problems/`, the table",
+        "that also drives `tests/robust/test_problems.py`.",
     ]
     for family in dict.fromkeys(r["family"] for r in records):
         lines += ["", f"## {family}", "", *_table([r for r in records if r["family"] == family])]

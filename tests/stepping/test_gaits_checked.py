@@ -49,7 +49,7 @@ def test_the_page_has_the_counts_of_the_tables() -> None:
     assert f"Of {len(rows)} gaits" in said
     assert f"{len(rows) - stopped} end with a speed and {stopped} stop with the reason" in said
     seconds = [row.seconds for row in rows]
-    assert f"in {np.mean(seconds):.0f} s on the mean and {max(seconds):.0f} s at most" in said
+    assert f"in {np.mean(seconds):.0f} s on average and {max(seconds):.0f} s at most" in said
     crossed, snapped = (sum(getattr(r, name) > 0 for r in rows) for name in ("crossed", "snapped"))
     assert f"{crossed} pass through themselves and {snapped} jump" in said
     assert f"{sum(row.outcome == 'converged' for row in rows)} meet 10 %" in said

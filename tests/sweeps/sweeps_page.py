@@ -59,13 +59,15 @@ def page(data: Numbers) -> str:
     lines = [
         "# Sweeps: kills and overhead",
         *_paragraph(
-            "Made by `python -m tests.sweeps.sweeps_page` from `tests/sweeps/sweep_kills.py` and "
-            "`tests/sweeps/sweep_cost.py`. How to use sweeps: [Many scenes](howto/many_scenes.md)."
+            "Is anything lost when a sweep is killed, and what does it cost beside its scenes? How to "
+            "use sweeps: [Many scenes](howto/many_scenes.md). Made by `python -m "
+            "tests.sweeps.sweeps_page` from `tests/sweeps/sweep_kills.py` and "
+            "`tests/sweeps/sweep_cost.py`."
         ),
         *("", "## Kills"),
         *_paragraph(
             f"A sweep of {data['scenes']} scenes was killed by SIGKILL at a random instant, "
-            f"{len(trials)} times, and then gone on with: after the death of a worker by itself, else "
+            f"{len(trials)} times, and then continued: after the death of a worker by itself, else "
             "by the same command. Nothing lost, no record twice and the same numbers: "
             f"{fine} of {len(trials)}."
         ),

@@ -77,7 +77,10 @@ class Effects:
             if name in table.model_fields_set:
                 raise ValueError(f"{name}: must be left out, gravity and ground say it")
         if table.slip_speed is None:
-            raise ValueError("slip_speed: must be given with a coefficient, such as '0.1 mm/s'")
+            raise ValueError(
+                "slip_speed: must be given with a coefficient, such as '0.01 mm/s': friction is dry "
+                "where the sheet slides twenty times as fast, viscous where it is slower"
+            )
         assert table.coefficient is not None
         return Friction(table.coefficient, law=law_of(table, self.system))
 

@@ -170,7 +170,8 @@ class Stage:
         decimals = max(0, 2 - int(np.floor(np.log10(span))))
         way = round(way, digits) + 0.0  # no minus before 0.0
         title = f"{self._title}    " if self._title else ""
-        words = f"{title}t = {time:.{decimals}f} {units.time}    way {way:+.{digits}f} {units.length}"
+        moved = f"moved {way:+.{digits}f} {units.length}"
+        words = f"{title}t = {time:.{decimals}f} {units.time}    {moved}"
         return words.replace("-", "\N{MINUS SIGN}")
 
     def _shown(self, frame: Frame) -> Frame:

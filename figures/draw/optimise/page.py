@@ -33,15 +33,16 @@ OWN = {"strip": "strip", "first order": "first", "second order": "second", "cycl
 
 HEAD = f"""# What optimisation buys
 
-Made by `{COMMAND}` from the tables optimisation_buys and best_numbers in
-figures/data.
-
-Five sheets, all with a Poisson ratio of ½ and one wave on the sheet, alpha = {buys.ALPHA:g}.
+Is it worth looking for a better wave than a sine, and which level should look for it? Five sheets, all
+with a Poisson ratio of ½ and one wave on the sheet, alpha = {buys.ALPHA:g}.
 Each crawls under a sine, and under the best wave of two harmonics that is no larger than the sine: in
 one search |c| <= 1, in the other the mean square of c is at most ½. The search finds its speeds by one
 level; the wave that it ends with is then run on the **nonlinear sheet** (a cycle of static shapes), and
 so is the sine. A gain of 2 is twice the speed of the sine there, whatever the level of the search has
-claimed.
+claimed. How to search for your own wave: [the best wave, the best scene](howto/optimise.md).
+
+Made by `{COMMAND}` from the tables optimisation_buys and best_numbers in
+figures/data.
 """
 
 FIGURE = """## The best waves

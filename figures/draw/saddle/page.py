@@ -34,11 +34,10 @@ SHEETS = {
 
 HEAD = """# V to second order in growth and curvature
 
-Made by `python -m figures.draw.saddle.page` from the tables saddle, saddle_range, bent_alone and
-lower_face in figures/data.
-
-A sheet that lies on its ground and bends a little presses it harder here than there. To second order in
-the growth coupling alpha and the curvature coupling beta (eq. 4, rest curvature −beta c),
+The theory of a sheet that bends a little and never leaves its ground: its speed in a tenth of a second,
+why bending one way helps and the other way harms, and how far the theory reaches. Such a sheet presses
+its ground harder here than there. To second order in the growth coupling alpha and the curvature
+coupling beta (eq. 4, rest curvature −beta c),
 
     V = V_a alpha + V_aa alpha² + V_ab alpha beta + V_bb beta²,
 
@@ -47,6 +46,9 @@ with V_a = 0 for a sine. `second_order(scene).coefficients` gives all four with 
 do not on the stiffest grounds, with (D/s)^(1/4) of some 0.005 L. `crawl_speed(scene, order=2)` gives
 the speed of a scene with `Bending`, `Gravity` and level `Ground`, with its power, cost of transport and
 efficiency.
+
+Made by `python -m figures.draw.saddle.page` from the tables saddle, saddle_range, bent_alone and
+lower_face in figures/data.
 
 **The theory.** On a ground linearised about the depth at which it carries the weight (eq. 2:
 s = 2 sqrt(k ρg)) the deflection beta w, upwards, obeys D∇⁴w + s w = −D(1 + ν)∇²c with free edges. The

@@ -1,1 +1,1 @@
-"""Bending gaits of the seed paper, sections 3.2 to 3.4."""
+"""Bending gaits of the paper, sections 3.2 to 3.4."""

@@ -1,4 +1,4 @@
-"""V over growth and rest curvature, figure 4 of the seed paper, by steps in time.
+"""V over growth and rest curvature, figure 4 of the paper, by steps in time.
 
     python -m figures.measure.paper.gait_map [--out FILE] [--points 21] [--friction both] [--workers 2]
 

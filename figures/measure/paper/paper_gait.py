@@ -1,4 +1,4 @@
-"""The bending sheet of the seed paper and its speed; what can be read in two ways has a name.
+"""The bending sheet of the paper and its speed; what can be read in two ways has a name.
 
 The paper's sheet, weight and ground, driven by an excitable wave from its start: the second and third
 cycle count. A curvature kappa per c, in 1/L, serves all readings of the paper's beta: "printed" kappa =

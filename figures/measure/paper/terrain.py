@@ -1,4 +1,4 @@
-"""V on uneven ground, figure 6 of the seed paper, by steps in time.
+"""V on uneven ground, figure 6 of the paper, by steps in time.
 
     python -m figures.measure.paper.terrain [--out FILE] [--form cosine] [--friction dry] [--points 7]
 

@@ -1,4 +1,4 @@
-"""V of trapezoids of one area, figure 5 of the seed paper, by steps in time.
+"""V of trapezoids of one area, figure 5 of the paper, by steps in time.
 
     python -m figures.measure.paper.trapezoids [--out FILE] [--reading thickness] [--friction viscous]
 

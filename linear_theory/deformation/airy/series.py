@@ -1,4 +1,4 @@
-"""The Airy-stress series of a rectangular sheet (eqs 10, 14, 15 and appendix A.1 of the seed paper)."""
+"""The Airy-stress series of a rectangular sheet (eqs 10, 14, 15 and appendix A.1 of the paper)."""
 
 import math
 import time

@@ -1,6 +1,6 @@
 """The infinite amplitude systems of the Airy series, truncated, with or without their tails.
 
-The stress function of eq. 15 (seed paper, appendix A.1) joins two families of terms. Each term is a
+The stress function of eq. 15 (the paper, appendix A.1) joins two families of terms. Each term is a
 trigonometric function along one side of the sheet times a hyperbolic one across it. Free edges couple
 the families. With the signs (-1)^m, (-1)^r, (-1)^((s-1)/2) taken out of the amplitudes ("barred"),
 both pairs (A, C: growth even in y; B, D: odd) read, for every wave number k of one family,

@@ -39,7 +39,7 @@ def resolving_degrees(sheet: Sheet, order: int) -> Pair:
 def first_degrees(sheet: Sheet, order: int, rtol: float) -> Pair:
     """Degrees that reach rtol in most cases, rather a little low than high.
 
-    The factor is measured on the sheet of the seed paper. In a strip narrower than the wave, stress is
+    The factor is measured on the sheet of the paper. In a strip narrower than the wave, stress is
     confined to the ends, where it is of second order in width times wave number; its displacements are
     of the same order, on scales and areas that shrink with the width.
     """

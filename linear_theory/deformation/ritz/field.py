@@ -1,6 +1,6 @@
 """Legendre-Ritz solution of the growing sheet: polynomial displacements of least elastic energy.
 
-It solves eqs 10 and 14 of the seed paper (free edges, growth strain c I) without an Airy function: an
+It solves eqs 10 and 14 of the paper (free edges, growth strain c I) without an Airy function: an
 independent second solution for the same field, and the only one for waves that depend on x.
 
 The exact solution is singular at the corners (u ~ distance**2.74), so that the error decreases with the

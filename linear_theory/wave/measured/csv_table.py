@@ -114,8 +114,8 @@ def _check_header(path: str, header: list[str], names: Names, places: dict[str, 
             raise ValueError(
                 f"{path} has no column {names[key]!r}, but {', '.join(header) or 'none'}: columns must "
                 f"be separated by commas, semicolons or tabs and named in the first line, {wanted} "
-                f"(and {names['x']}, where c depends on it); in Python, {key}='...' "
-                "says which one it is"
+                f"(and {names['x']}, where c depends on it); rename it there, "
+                f"or say {key}='...' in Python"
             )
 
 

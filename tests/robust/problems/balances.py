@@ -245,7 +245,7 @@ PROBLEMS: tuple[Problem, ...] = family(
         case(
             f"speed: slip speed {speed:g} wave speeds",
             "stiff",
-            "friction turns round in a layer" if speed < 1 else "friction is all but viscous",
+            "friction changes sign over the slip speed" if speed < 1 else "friction is all but viscous",
             "its limit, dry or viscous friction, by Ritz",
             lambda v=speed: slip(v),
         )

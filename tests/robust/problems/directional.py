@@ -181,7 +181,7 @@ PROBLEMS: tuple[Problem, ...] = family(
     case(
         "direction: tanh of slip speed 1e-06 on a line",
         "stiff",
-        "the force turns round in a layer of that width",
+        "the force changes sign over that slip speed",
         FORMULA,
         lambda: sharp_tanh(1e-6),
     ),

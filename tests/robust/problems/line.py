@@ -154,7 +154,7 @@ PROBLEMS: tuple[Problem, ...] = family(
         case(
             f"line: slip speed {slip:g} wave speeds",
             "stiff",
-            "the force turns round in a layer of that width"
+            "the force changes sign over that slip speed"
             if slip < 1
             else "friction is all but viscous",
             "adaptive quadrature of the balance, mpmath",

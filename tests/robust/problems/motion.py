@@ -324,7 +324,7 @@ PROBLEMS: tuple[Problem, ...] = family(
         case(
             f"step: slip speed {slip:g} wave speeds",
             "stiff",
-            "friction turns round in a layer" if slip < 1 else "friction is viscous",
+            "friction changes sign over the slip speed" if slip < 1 else "friction is viscous",
             "cycle of shapes with the same law",
             lambda v=slip: slipping(v),
         )

@@ -1,6 +1,6 @@
 """Whether a sheet could have taken another way, so that only a further run tells its error.
 
-The forward gait of the seed paper, dry, on flat ground, takes 48 steps a cycle to V = 0.109 and 64 or
+The forward gait of the paper, dry, on flat ground, takes 48 steps a cycle to V = 0.109 and 64 or
 more to 0.121, each with errors of its steps of 0.003: the steps themselves do not show it.
 """
 
