@@ -48,8 +48,9 @@ class HalfField(PlaneStressField):
         if self._kept is None or self._kept[0] != order:
             position, area, displacements, dilations = super()._on_cells(grid, order)
             right = position[0].mean((1, 2)) > 0
-            values = position[:, right], area[right], displacements[:, :, right], dilations[:, right]
-            self._kept = order, values
+            displacements = np.ascontiguousarray(displacements[:, :, right])
+            dilations = np.ascontiguousarray(dilations[:, right])
+            self._kept = order, (position[:, right], area[right], displacements, dilations)
         return self._kept[1]
 
     def _for_times(self, t: Array) -> "HalfField":

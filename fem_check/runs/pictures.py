@@ -66,6 +66,7 @@ def save(recording: Recording, paths: list[Path], units: Units | None, name: str
         for path in paths:
             with styled(), replacing(path) as part:
                 figure.savefig(part, dpi=DPI, metadata=METADATA[path.suffix.lower()])
+            figure.set_layout_engine("none")  # the others are laid out as the first, in half the time
     finally:
         plt.close(figure)
 

@@ -188,8 +188,10 @@ class LinearField(Shown, ABC):
             x, y, area = grid.points(order)
             strains = self._strains(x, y)
             position = np.stack(np.broadcast_arrays(x, y))
-            values = position, area, self._displacements(x, y), strains[:, 0] + strains[:, 1]
-            self._kept = key, values
+            # contiguous, else the product with the amplitudes copies them for every batch of times
+            displacements = np.ascontiguousarray(self._displacements(x, y))
+            dilations = np.ascontiguousarray(strains[:, 0] + strains[:, 1])
+            self._kept = key, (position, area, displacements, dilations)
         return self._kept[1]
 
     def _checked(self, x: ArrayLike, y: ArrayLike, t: ArrayLike) -> tuple[Array, Array, Array]:

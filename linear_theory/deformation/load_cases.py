@@ -6,6 +6,8 @@ For waves that are Fourier series in y and t a few growth fields serve all times
 other wave the fields are c and dc/dt themselves at the requested times (`Snapshots`).
 """
 
+from collections.abc import Callable
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -20,6 +22,9 @@ SAMPLES = 16
 
 MOST_TIMES = 512
 """Largest number of different times of a general wave in one call."""
+
+BLOCK = 1 << 16
+"""Points times times for which a wave is asked in one call: few enough to stay in the cache."""
 
 
 class Harmonics:
@@ -77,12 +82,11 @@ class Snapshots:
 
     def growths(self, x: Array, y: Array) -> Array:
         """Growth of each case, (2 T, *broadcast(x, y).shape)."""
-        rates = [self.drive.rate(x, y, t) for t in self.times]
-        return np.concatenate([self.values(x, y), np.stack(rates)])
+        return np.concatenate([self.values(x, y), self._at_times(self.drive.rate, x, y)])
 
     def values(self, x: Array, y: Array) -> Array:
         """c at each of the times, (T, *broadcast(x, y).shape), without the costly rates."""
-        return np.stack([self.drive.value(x, y, t) for t in self.times])
+        return self._at_times(self.drive.value, x, y)
 
     def samples(self) -> Array:
         """Amplitudes at the times, (2 T, T)."""
@@ -94,6 +98,13 @@ class Snapshots:
         if times.size > MOST_TIMES:
             raise ValueError(f"t has {times.size} different times: must be <= {MOST_TIMES} in one call")
         return Snapshots(self.drive, times)
+
+    def _at_times(self, function: Callable[[Array, Array, Array], Array], x: Array, y: Array) -> Array:
+        """A function at all of the times, (T, *broadcast(x, y).shape), of several in one call."""
+        points = np.broadcast(x, y)
+        times = self.times.reshape(-1, *(1,) * points.ndim)
+        step = max(1, BLOCK // max(points.size, 1))
+        return np.concatenate([function(x, y, times[i : i + step]) for i in range(0, len(times), step)])
 
     def _picked(self, t: Array) -> Array:
         return np.asarray(self.times.reshape(-1, *(1,) * t.ndim) == t, float)

@@ -338,10 +338,10 @@ class Scene(Shown):
 
     @cached_property
     def extremes(self) -> Array:
-        """c on a grid of points and times, to detect growth for which no rest state exists.
+        """c on a grid of times and points, to detect growth for which no rest state exists.
 
         Of a wave that the strain acts back on, as it is without that.
         """
         x, y = np.array([-0.5, 0, 0.5]) * self.sheet.width, np.linspace(-0.5, 0.5, 33)
         x, y, times = x[:, None], self.sheet.length * y, np.append(phases(self.period, 64), 0.0)
-        return np.stack([self.drive.alone.value(x, y, t) for t in times])
+        return self.drive.alone.value(x, y, times[:, None, None])

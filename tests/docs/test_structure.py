@@ -4,6 +4,7 @@ import ast
 import inspect
 import re
 from collections.abc import Iterator
+from functools import cache
 from pathlib import Path
 from types import ModuleType
 
@@ -51,14 +52,22 @@ LAYERS = (
 """Each imports from itself and from those before it; the first that fits a module is its layer."""
 
 
-def modules() -> Iterator[tuple[str, ast.Module]]:
-    for top in ("linear_theory", "fem_check", "figures", "paper", "docs"):
+TOPS = ("linear_theory", "fem_check", "figures", "paper", "docs")
+
+
+def modules() -> Iterator[tuple[str, Path]]:
+    for top in TOPS:
         for path in sorted((ROOT / top).rglob("*.py")):
-            name = ".".join(path.relative_to(ROOT).with_suffix("").parts).removesuffix(".__init__")
-            yield name, ast.parse(path.read_text())
+            yield ".".join(path.relative_to(ROOT).with_suffix("").parts).removesuffix(".__init__"), path
 
 
 MODULES = dict(modules())
+
+
+@cache
+def parsed(name: str) -> ast.Module:
+    """Parsed when a test asks: the files are listed by every process that collects tests."""
+    return ast.parse(MODULES[name].read_text())
 
 
 def layer(name: str) -> int:
@@ -85,17 +94,14 @@ def imported(tree: ast.Module) -> Iterator[str]:
             yield from (name if name in MODULES else node.module for name in whole)
 
 
-TOPS = {"linear_theory", "fem_check", "figures", "paper", "docs"}
-
-
 @pytest.mark.parametrize("name", MODULES)
 def test_no_import_points_upward(name: str) -> None:
-    above = [other for other in imported(MODULES[name]) if layer(other) > layer(name)]
+    above = [other for other in imported(parsed(name)) if layer(other) > layer(name)]
     assert not above
 
 
 def test_modules_do_not_import_each_other_in_a_circle() -> None:
-    graph = {name: set(imported(tree)) - {name} for name, tree in MODULES.items()}
+    graph = {name: set(imported(parsed(name))) - {name} for name in MODULES}
     done: set[str] = set()
 
     def visit(name: str, path: tuple[str, ...]) -> None:
@@ -154,10 +160,10 @@ WORDS = {
 def test_no_option_is_interpreted_as_a_string(option: str) -> None:
     """No comparison with the name of an option, no table by its names, outside of its definition."""
     faults = []
-    for name, tree in MODULES.items():
+    for name in MODULES:
         if not name.startswith(("linear_theory", "fem_check")):
             continue
-        for node in ast.walk(tree):
+        for node in ast.walk(parsed(name)):
             parts: list[ast.expr | None] = []
             if isinstance(node, ast.Compare):
                 parts = [node.left, *node.comparators]

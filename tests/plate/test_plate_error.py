@@ -33,21 +33,24 @@ ROWS = model_error.TABLE.read()
 PAPER = saddle.PLACES["paper"]
 
 
-FITTED = [row for row in ROWS if row.number < rule.FITTED and model_error.within(row)]
-HELD = [row for row in ROWS if row.number >= rule.FITTED and model_error.within(row)]
+def rows(fitted: bool) -> list[Row]:
+    """Within reach of the bound: those that it was made of, or the others."""
+    return [row for row in ROWS if (row.number < rule.FITTED) == fitted and model_error.within(row)]
 
 
 def test_the_bound_is_from_rows_that_it_covers_with_room() -> None:
-    assert len(FITTED) >= 20
-    seen = [row for row in FITTED if model_error.off(row) > row.error]
+    known = rows(fitted=True)
+    assert len(known) >= 20
+    seen = [row for row in known if model_error.off(row) > row.error]
     assert len(seen) >= 10
     assert max(model_error.off(row) / model_error.bound_of(row) for row in seen) < 0.7
 
 
 def test_the_bound_covers_scenes_that_it_was_not_made_of() -> None:
-    assert len(HELD) >= 20
-    missed = [row for row in HELD if not model_error.off(row) <= model_error.bound_of(row) + row.error]
-    assert len(missed) <= 0.05 * len(HELD), missed
+    held = rows(fitted=False)
+    assert len(held) >= 20
+    missed = [row for row in held if not model_error.off(row) <= model_error.bound_of(row) + row.error]
+    assert len(missed) <= 0.05 * len(held), missed
 
 
 @cache

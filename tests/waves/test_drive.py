@@ -254,14 +254,14 @@ def random_tremor(seed: int) -> FieldWave:
 
 def sorted_line(wave: FieldWave, times: int, points: int = 400, alpha: float = ALPHA) -> float:
     """`line_reference` of any wave, its rate by differences of fourth order."""
-    y, h, found = (np.arange(points) + 0.5) / points - 0.5, 2e-6, []
-    for t in (np.arange(times) + 0.3) / times:
-        near, far = (wave.value(0.0, y, t + k * h) - wave.value(0.0, y, t - k * h) for k in (1, 2))
-        rate = (8 * near - far) / (12 * h)
+    y, t, h = (np.arange(points) + 0.5) / points - 0.5, (np.arange(times)[:, None] + 0.3) / times, 2e-6
+    near, far = (wave.value(0.0, y, t + k * h) - wave.value(0.0, y, t - k * h) for k in (1, 2))
+    found = []
+    for c, rate in zip(wave.value(0.0, y, t), (8 * near - far) / (12 * h), strict=True):
         v = alpha * (np.cumsum(rate) - rate / 2) / points
         v -= v.mean()
         order = np.argsort(v)
-        weight = (1 + alpha * wave.value(0.0, y, t))[order]
+        weight = (1 + alpha * c)[order]
         found.append(-np.interp(weight.sum() / 2, np.cumsum(weight) - weight / 2, v[order]))
     return float(np.mean(found))
 

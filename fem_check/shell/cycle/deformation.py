@@ -116,6 +116,6 @@ class _AtPoints(CycleMotion):
     def places(self, times: Array) -> Array:
         """Positions in the frame of the body, (components, times, points)."""
         values, _ = time_factors(times, self.shapes.scene.period, self._highest)
-        position = np.tensordot(values, self._jets[:, 0], 1).swapaxes(0, 1)
+        position = np.tensordot(values, self._places, 1).swapaxes(0, 1)
         seen, _ = self._frame.seen(times, position[:2], np.zeros_like(position[:2]))
         return np.concatenate([seen, position[2:]])

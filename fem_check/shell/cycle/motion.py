@@ -78,8 +78,8 @@ class CycleMotion:
         """
         times = np.asarray(times, float)
         values, slopes = time_factors(times, self.shapes.scene.period, self._highest)
-        position = np.tensordot(values, self._jets[:, 0], 1).swapaxes(0, 1)
-        velocity = np.tensordot(slopes, self._jets[:, 0, :2], 1).swapaxes(0, 1)
+        position = np.tensordot(values, self._places, 1).swapaxes(0, 1)
+        velocity = np.tensordot(slopes, self._plane, 1).swapaxes(0, 1)
         load = self._load(times, values, position)
         _check_load(load, times)
         if self.map is not None:
@@ -143,9 +143,23 @@ class CycleMotion:
         jets[0] += self.region.reference[list(entries)]
         return jets
 
+    # Contiguous parts of these: tensordot would copy a slice for every batch of times.
+
+    @cached_property
+    def _places(self) -> Array:
+        return np.ascontiguousarray(self._jets[:, 0])
+
+    @cached_property
+    def _plane(self) -> Array:
+        return np.ascontiguousarray(self._jets[:, 0, :2])
+
+    @cached_property
+    def _tangents(self) -> Array:
+        return np.ascontiguousarray(self._jets[:, 1:])
+
     def _normal(self, values: Array, slopes: Array) -> tuple[Array, Array]:
         """Unit normal and its rate, (3, T, points), from the factors of the harmonics (T, 2K + 1)."""
-        tangents, rates = (np.tensordot(f, self._jets[:, 1:], 1) for f in (values, slopes))
+        tangents, rates = (np.tensordot(f, self._tangents, 1) for f in (values, slopes))
         (first, second), (first_rate, second_rate) = (
             t.transpose(1, 2, 0, 3) for t in (tangents, rates)
         )
@@ -166,7 +180,7 @@ class CycleMotion:
         if self.load is Load.MATERIAL:
             return np.broadcast_to(region.measure, (times.size, region.size))
         if self.load is Load.CURRENT:
-            first, second = np.tensordot(values, self._jets[:, 1:], 1).swapaxes(0, 1)
+            first, second = np.tensordot(values, self._tangents, 1).swapaxes(0, 1)
             return np.asarray(region.weights.ravel() * _area(first, second))
         if self.load is Load.GROWN:
             return self._grown_area(times)

@@ -119,14 +119,14 @@ def orthonormal(count: int, at: Array) -> Array:
 def evaluate(coefficients: Array, x: Array, y: Array) -> Array:
     """Sums of p_i(x) p_j(y) at points of [-1, 1]^2 that broadcast.
 
-    coefficients: (a, b, degrees x, degrees y); returns (a, b, *broadcast(x, y).shape). Points that
-    form a grid, in whatever order, cost a product of matrices.
+    coefficients: (a, b, degrees x, degrees y); returns (a, b, *broadcast(x, y).shape), contiguous.
+    Points that form a grid, in whatever order, cost a product of matrices.
     """
     nx, ny = coefficients.shape[2:]
     (xs, column), (ys, row) = (np.unique(v, return_inverse=True) for v in (x, y))
     if xs.size * ys.size <= 4 * np.broadcast(x, y).size:
         grid = orthonormal(nx, xs) @ coefficients @ orthonormal(ny, ys).T
-        return np.asarray(grid[..., column.reshape(x.shape), row.reshape(y.shape)])
+        return np.ascontiguousarray(grid[..., column.reshape(x.shape), row.reshape(y.shape)])
     across = np.tensordot(coefficients, orthonormal(nx, xs), (2, 1))  # (a, b, degrees y, xs)
     along = np.moveaxis(orthonormal(ny, y), -1, 0)
     return np.asarray(np.einsum("abj...,j...->ab...", across[..., column.reshape(x.shape)], along))

@@ -62,10 +62,10 @@ def sampled_balance(
     drive.check()
     sampled, period = partial(snapshots, drive.fine, alpha, law, growth), drive.period
     cells, times = _first_cells(drive, tolerance.rtol), FEWEST
+    doubled = _Doubled(sampled, period)
     space = time = math.inf
     while True:
-        instants: Array = period / times * np.arange(float(times))
-        fine, coarse = sampled(instants, 2 * cells), sampled(instants, cells)
+        fine, coarse = doubled.at(times, 2 * cells, coefficients=True), doubled.at(times, cells)
         mean = float(fine.velocity.mean())
         # A difference may vanish by chance; a quarter of the one before, for second order, does not.
         last_space, space = space, CHANCE * abs(mean - float(coarse.velocity.mean()))
@@ -88,7 +88,7 @@ def sampled_balance(
     return LineMotion(
         mean=mean,
         error=in_space + in_time + 16 * EPS * fastest,
-        times=instants,
+        times=_instants(period, times),
         velocity=fine.velocity,
         fastest=fastest,
         first=float(fine.first.mean()),
@@ -97,6 +97,30 @@ def sampled_balance(
         power=_mean_power(fine.power, coarse.power, drive.hidden(period / times) * abs(alpha)),
         friction=fine.power,
     )
+
+
+def _instants(period: float, times: int) -> Array:
+    return np.asarray(period / times * np.arange(float(times)))
+
+
+class _Doubled:
+    """Snapshots of a period at equidistant times, of which every second is known from half as many."""
+
+    def __init__(self, sampled: Callable[..., Snapshot], period: float) -> None:
+        self._sampled, self._period = sampled, period
+        self._kept: dict[int, Snapshot] = {}
+
+    def at(self, times: int, cells: int, coefficients: bool = False) -> Snapshot:
+        """With coefficients always asked for, or never, of the same number of cells or of more."""
+        instants, found = _instants(self._period, times), self._kept.get(cells)
+        if found is None or found.velocity.size not in (times, times // 2):
+            found = self._sampled(instants, cells, coefficients)
+        elif found.velocity.size < times:
+            between = self._sampled(instants[1::2], cells, coefficients)
+            pairs = zip(found, between, strict=True)
+            found = Snapshot(*(np.stack(pair, axis=1).ravel() for pair in pairs))
+        self._kept[cells] = found
+        return found
 
 
 def _mean_power(fine: Array, coarse: Array, hidden: float) -> Estimate:

@@ -26,8 +26,8 @@ BLOCK = 1 << 16
 
 
 class Snapshot(NamedTuple):
-    """Speed, its coefficients of alpha and alpha^2, largest speed, part at rest and power of friction
-    over mu times the weight, each (times,)."""
+    """Speed, its coefficients of alpha and alpha^2 (nan unless asked for), largest speed, part at rest
+    and power of friction over mu times the weight, each (times,)."""
 
     velocity: Array
     first: Array
@@ -38,19 +38,31 @@ class Snapshot(NamedTuple):
 
 
 def snapshots(
-    drive: Drive, alpha: float, law: FrictionLaw, growth: Piece, times: Array, cells: int
+    drive: Drive,
+    alpha: float,
+    law: FrictionLaw,
+    growth: Piece,
+    times: Array,
+    cells: int,
+    coefficients: bool = False,
 ) -> Snapshot:
     """Speeds at these times (times,) on equal cells, the length of the body being 1."""
     step = max(1, BLOCK // cells)
     parts = [
-        _snapshot(drive, alpha, law, growth, times[i : i + step, None], cells)
+        _snapshot(drive, alpha, law, growth, times[i : i + step, None], cells, coefficients)
         for i in range(0, times.size, step)
     ]
     return Snapshot(*(np.concatenate(column) for column in zip(*parts, strict=True)))
 
 
 def _snapshot(
-    drive: Drive, alpha: float, law: FrictionLaw, growth: Piece, times: Array, cells: int
+    drive: Drive,
+    alpha: float,
+    law: FrictionLaw,
+    growth: Piece,
+    times: Array,
+    cells: int,
+    coefficients: bool,
 ) -> Snapshot:
     y = np.linspace(-0.5, 0.5, cells + 1)
     place = drive.sheet.length * y
@@ -65,14 +77,15 @@ def _snapshot(
         share = share_slower(law, alpha)
         level, _ = weighted_quantile(g, weight, share)
         velocity = -alpha * level
-        first, second = dry_coefficients(c, rate, growth, share, mu)
     else:
         velocity = -alpha * np.sum(weight * cell_means(g), axis=1) / weight.sum(axis=1)
-        first, second = viscous_coefficients(c, rate, growth, mu)
         if not _is_viscous(law):
             velocity = regularised_speed(alpha * g, weight, law, velocity)
-    if law.width > 0 and not _point_law(law).reversible:
-        first = second = np.full(times.size, math.nan)
+    first = second = np.full(times.size, math.nan)
+    if coefficients and law.width == 0:
+        first, second = dry_coefficients(c, rate, growth, share, mu)
+    elif coefficients and _point_law(law).reversible:
+        first, second = viscous_coefficients(c, rate, growth, mu)
     slip = velocity[:, None] + alpha * g
     tolerance = REST_SPEED * np.ptp(slip, axis=1, keepdims=True)
     ends = Ends.of(slip)

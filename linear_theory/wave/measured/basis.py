@@ -91,10 +91,15 @@ def _range(values: Array) -> Range:
 
 
 def _legendre(values: ArrayLike, within: Range, degree: int) -> Array:
+    """Orthonormal Legendre polynomials on a range, (*values.shape, degree + 1), by their recursion."""
     low, high = within
     local = (2 * np.asarray(values, float) - low - high) / (high - low)
-    found = np.polynomial.legendre.legvander(local, degree) * np.sqrt(2 * np.arange(degree + 1) + 1)
-    return np.asarray(found.reshape(*local.shape, degree + 1))
+    found = np.ones((degree + 1, *local.shape))
+    if degree > 0:
+        found[1] = local
+    for k in range(2, degree + 1):
+        found[k] = ((2 * k - 1) * local * found[k - 1] - (k - 1) * found[k - 2]) / k
+    return np.asarray(np.moveaxis(found, 0, -1) * np.sqrt(2 * np.arange(degree + 1) + 1))
 
 
 def _harmonics(angle: Array, count: int) -> Array:
