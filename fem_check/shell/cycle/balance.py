@@ -17,7 +17,8 @@ from fem_check.shell.cycle.frame import gyration
 from fem_check.shell.cycle.motion import CycleMotion, depth_of, is_mirrored
 from fem_check.shell.cycle.shapes import Shapes
 from fem_check.shell.kinematics.places import ROUNDOFF, distinct
-from linear_theory.balance.balance import Balance, RigidMotion
+from linear_theory.balance.balance import Balance
+from linear_theory.balance.rigid_motion import RigidMotion
 from linear_theory.balance.time_grid import TimeGrid, first_grid
 from linear_theory.common.estimate import Estimate
 from linear_theory.common.progress import track
