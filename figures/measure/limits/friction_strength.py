@@ -95,7 +95,15 @@ def trial(
     return Trial(number, *about, speeds[-1] / alpha, strong, tenth)
 
 
-def stepped(sheet: Sheet, wave: Wave, load: str, slip: float, alpha: float, strength: float) -> float:
+def stepped(
+    sheet: Sheet,
+    wave: Wave,
+    load: str,
+    slip: float,
+    alpha: float,
+    strength: float,
+    steps: int = STEPS,
+) -> float:
     """V of the last period, L/T."""
     weight = strength * alpha * sheet.thickness / sheet.length  # mu = E = 1
     effects = (membrane(sheet), Gravity(weight, load), Friction(1.0, slip))
@@ -103,7 +111,7 @@ def stepped(sheet: Sheet, wave: Wave, load: str, slip: float, alpha: float, stre
     scene = Scene(sheet, wave, alpha, effects=effects, cells=cells)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", ViscousRegimeWarning)  # viscous crawling is meant
-        return simulate(scene, PERIODS, steps=STEPS).mean_speed
+        return simulate(scene, PERIODS, steps=steps).mean_speed
 
 
 def compute(path: Path, scenes: int = SCENES, kept: Sequence[Trial] = ()) -> list[Trial]:
