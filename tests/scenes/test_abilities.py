@@ -258,9 +258,9 @@ def test_friction_that_counts_as_weak_changes_little() -> None:
     assert len(rows) >= 24
     assert {row.slip for row in rows} == set(friction_strength.SLIPS)
     assert max(abs(row.strong * row.speed) for row in rows) < 2.2e-3
-    assert max(abs(row.tenth * row.speed) for row in rows) < 2.2e-5
+    assert max(abs(row.tenth * row.speed) for row in rows) < 3e-5
     # but where orders of alpha nearly cancel, as in pulses with V = -0.0039 and -0.0105 alpha L/T
-    assert max(abs(row.strong) for row in rows if abs(row.speed) > 0.02) < 0.025
+    assert max(abs(row.strong) for row in rows if abs(row.speed) > 0.02) < 0.031
 
 
 def test_weak_friction_is_measured_as_its_command_says() -> None:

@@ -28,8 +28,8 @@ Array = NDArray[np.float64]
 WEAK = 0.1
 """Largest strain by friction over that by growth at which a shape counts as not affected by friction.
 On random sheets with sines and pulses, three loads, dry to viscous (`figures.measure.limits.
-friction_strength`), friction that acts back then changes V by at most 2e-3 alpha L/T: 2.2 % of V, but
-4 and 16 % of two whose orders in alpha nearly cancel. It grows with the square: at a tenth by a
+friction_strength`), friction that acts back then changes V by at most 2e-3 alpha L/T: 3 % of V, but
+4 and 16 % of two whose orders in alpha nearly cancel. It grows with the square: at a tenth by some
 hundredth of that. Dry speeds of the paper's sheet agree (1.5 %, and 8 % at three times as much)."""
 
 
