@@ -157,6 +157,7 @@ tables: $(STAMP)
 	$(RUN) -m figures.validation.page
 	$(RUN) -m tests.robust.hard_cases_page
 	$(RUN) -m tests.robust.trials.table
+	$(RUN) -m tests.robust.trials.settings
 	$(RUN) -m tests.robust.reliability_page
 	$(RUN) -m paper.numbers.shell
 	$(RUN) -m paper.derive

@@ -17,6 +17,9 @@ from .optimisation.optimising import optimise
 from .optimisation.options.constraints import Bound
 from .optimisation.options.robust import Robust
 from .optimisation.over import Harmonics
+from .outlines.best import best_outline
+from .outlines.gradient import outline_gradient
+from .outlines.shapes import LegendreShape, Trapezoid
 from .output.paraview import write_paraview
 from .plane_stress.field import PlaneStressField, plane_stress_field
 from .scene import Scene, bilayer
@@ -52,6 +55,7 @@ __all__ = [
     "Harmonics",
     "HeightMap",
     "Inertia",
+    "LegendreShape",
     "Material",
     "Membrane",
     "Newmark",
@@ -66,12 +70,15 @@ __all__ = [
     "StrainFeedback",
     "Terrain",
     "Trajectory",
+    "Trapezoid",
     "__version__",
+    "best_outline",
     "bilayer",
     "cycle_gradient",
     "cycle_speed",
     "excitable_preset",
     "optimise",
+    "outline_gradient",
     "plane_stress_field",
     "predict",
     "rigid_ground",

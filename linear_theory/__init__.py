@@ -18,7 +18,14 @@ from linear_theory.friction.laws import Coulomb, Tanh, Viscous
 from linear_theory.friction.load import Load
 from linear_theory.friction.maps import GivenMap, Mapped, Patches
 from linear_theory.friction.wrapped import OnLowerFace
-from linear_theory.gradient import CostGradient, SpeedGradient, cost_gradient, speed_gradient
+from linear_theory.gradient import (
+    CostGradient,
+    PowerGradient,
+    SpeedGradient,
+    cost_gradient,
+    power_gradient,
+    speed_gradient,
+)
 from linear_theory.growth.bilayer import bilayer
 from linear_theory.growth.growth import Growth
 from linear_theory.growth.laws import Exp, GrowthLaw, Linear, Metric
@@ -75,6 +82,7 @@ __all__ = [
     "NotConvergedError",
     "OnLowerFace",
     "Patches",
+    "PowerGradient",
     "RitzField",
     "SampledWave",
     "Scale",
@@ -104,6 +112,7 @@ __all__ = [
     "line_speed_series",
     "line_speed_tanh",
     "line_speed_viscous",
+    "power_gradient",
     "pulse_wave",
     "rigid_path",
     "ritz_field",

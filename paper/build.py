@@ -22,8 +22,8 @@ MAIN = ROOT / "paper" / "paper.typ"
 PATH = ROOT / "paper" / "out" / "sheetcrawl.pdf"
 FIGURES = "figures/out"
 
-PAGE_PPI = 110.0
-"""Resolution of the pages as PNG: legible on a screen."""
+PAGE_PPI = 200.0
+"""Resolution of the pages as PNG: below it, words in figures lose parts of their letters."""
 
 COMMANDS = {
     "docs/hard_cases.json": "python -m tests.robust.hard_cases_page",
@@ -48,6 +48,10 @@ COMMANDS = {
     "figures/data/gradients.csv": "python -m figures.measure.gradient",
     "figures/data/best_waves.csv": "python -m figures.measure.optimise.line",
     "figures/data/optimisation_buys.csv": "python -m figures.measure.optimise.buys",
+    "figures/data/best_outlines.csv": "python -m figures.measure.optimise.outlines",
+    "figures/data/best_numbers.csv": "python -m figures.measure.optimise.scan",
+    "figures/data/random_trials.csv": "python -m tests.robust.trials.table",
+    "figures/data/peers.csv": "make peers",
     "figures/data/validation.csv": "python -m figures.measure.validation",
     "docs/validation.md": "python -m figures.validation.page",
 }

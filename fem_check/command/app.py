@@ -140,10 +140,12 @@ def _new(
 
 
 @app.command(name="check", help=CHECK_HELP)
-def _check(scene: Annotated[Path, Parameter(help="A scene file.")], /) -> int:
-    from fem_check.command.actions.scene_files import check
+def _check(
+    file: Annotated[Path, Parameter(help="A scene file, or one of a sweep or of an optimisation.")], /
+) -> int:
+    from fem_check.command.actions.checking import check
 
-    return check(scene)
+    return check(file)
 
 
 @app.command(name="schema", help=SCHEMA_HELP)

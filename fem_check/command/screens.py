@@ -99,6 +99,8 @@ NEW_HELP = f"""Write a scene file with comments, to be made your own. It never o
 
 CHECK_HELP = f"""Say what a scene file would simulate, how and at what cost, or all its mistakes.
 
+Of a sweep, its scenes and their cost; of an optimisation, its limits and how the scene stands to them.
+
   {FILES[1][1]}
 """
 

@@ -14,7 +14,12 @@ class Table(BaseModel):
     """A table of a scene file: it knows its keys, takes no other, and converts nothing silently."""
 
     model_config = ConfigDict(
-        extra="forbid", strict=True, frozen=True, use_attribute_docstrings=True, allow_inf_nan=False
+        defer_build=True,
+        extra="forbid",
+        strict=True,
+        frozen=True,
+        use_attribute_docstrings=True,
+        allow_inf_nan=False,
     )
 
 

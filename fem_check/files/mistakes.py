@@ -9,6 +9,7 @@ from types import TracebackType
 from typing import TYPE_CHECKING, Any
 
 from fem_check.files.fields import Table, keys_at
+from fem_check.files.remedies import NO_NUMBER, NUMBERS, key_meant, number_meant, word_meant
 from linear_theory.common import validation
 from linear_theory.common.errors import SheetcrawlError
 
@@ -79,8 +80,9 @@ class Mistakes:
         self._more += len(errors[MOST:])
         for error in errors[:MOST]:
             place: Place = (table, *error["loc"])
-            hint = _owner(table, kind, error["loc"]) if error["type"] == "extra_forbidden" else ""
-            words = f": is not a key; {hint}" if hint else _words(error, keys_at(kind, place[1:-1]))
+            words = _words(error, keys_at(kind, place[1:-1]), place)
+            if error["type"] == "extra_forbidden" and (hint := _owner(table, kind, error["loc"])):
+                words = f": is not a key; {hint}"
             self.add(place, f"{_key(place)}{words}")
 
     @property
@@ -182,11 +184,15 @@ def _key(place: Place) -> str:
     return str(first) + "".join(f"[{part}]" if isinstance(part, int) else f".{part}" for part in rest)
 
 
-def _words(error: Any, keys: Iterable[str]) -> str:
+def _words(error: Any, keys: Iterable[str], place: Place) -> str:
     """What is wrong with the value of a key, and the value."""
     kind, given = error["type"], validation.shown(error["input"])
+    table, name = str(place[0]), str(place[-1])
     if kind == "extra_forbidden":
-        return f": is not a key; {nearest(str(error['loc'][-1]), keys)}"
+        meant = key_meant(table, name, error["input"]) if len(place) == 2 else ""
+        return f": is not a key; {meant or nearest(name, keys)}"
+    if isinstance(error["input"], str) and (kind in NUMBERS or error["msg"].endswith(NO_NUMBER)):
+        return f" = {given}: {number_meant(table, name, error['input'])}"
     if kind == "missing":
         return ": must be given"
     if kind == "model_type":
@@ -195,7 +201,8 @@ def _words(error: Any, keys: Iterable[str]) -> str:
         return f" = {given}: {error['ctx']['error']}"
     if kind == "literal_error" and isinstance(error["input"], str):
         hint = nearest(error["input"], re.findall(r"'([^']*)'", error["ctx"]["expected"]))
-        hint = f"; {hint}" if hint.startswith("did") else ""
+        hint = word_meant(table, name, error["input"]) or (hint if hint.startswith("did") else "")
+        hint = f"; {hint}" if hint else ""
         return f" = {given}: must be {error['ctx']['expected']}{hint}"
     words = re.sub(r"^\w+ should (be|have)", r"must \1", error["msg"])
     return f" = {given}: {words.replace(' after validation', '').replace('greater than 0', '> 0')}"

@@ -4,8 +4,10 @@ A gradient there costs about as much as the speed, for any number of unknowns. I
 names of the unknowns, of fields as in scene files, of harmonics "wave.cosine.0" for cos phi and so on.
 """
 
+import dataclasses
 import math
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from functools import partial
 from typing import NamedTuple
 
@@ -17,7 +19,13 @@ from fem_check.optimisation.unknowns import Unknowns
 from fem_check.shell.cycle.gradient import cycle_gradient
 from linear_theory.common.errors import SheetcrawlError
 from linear_theory.common.estimate import Estimate
-from linear_theory.gradient import Gradient, cost_gradient, parameters, speed_gradient
+from linear_theory.gradient import (
+    Gradient,
+    MotionGradient,
+    motion_gradient,
+    parameters,
+    speed_gradient,
+)
 from linear_theory.gradient.second.speed import check_second
 from linear_theory.optimisation.problem import Evaluation, Unusable
 from linear_theory.scene.level import THEORY
@@ -44,36 +52,67 @@ SAME = 1e-9
 
 
 class Way(NamedTuple):
-    """How a level is differentiated: gradients of speed and, if any, of cost.
+    """How a level is differentiated: gradients of the speed, and of all numbers of a motion, if any.
 
     check: raises ValueError for a scene that has none.
     """
 
     speed: Callable[..., Gradient]
-    cost: Callable[..., Gradient] | None = None
+    motion: Callable[..., MotionGradient] | None = None
     check: Callable[[Scene], None] = lambda scene: None
 
 
 WAYS: Mapping[str, Way] = {
-    "first order": Way(speed_gradient, cost_gradient, THEORY.require),
+    "first order": Way(speed_gradient, motion_gradient, THEORY.require),
     "second order": Way(
-        partial(speed_gradient, order=2), partial(cost_gradient, order=2), check_second
+        partial(speed_gradient, order=2), partial(motion_gradient, order=2), check_second
     ),
     "cycle": Way(cycle_gradient),
 }
 """Of the levels that have an adjoint."""
 
+REMEMBERED = 32
+"""Gradients of the last points."""
+
+
+class Found(NamedTuple):
+    """Gradients of the numbers of one motion; power: None where it was not asked for; cost: likewise,
+    or where it is infinite."""
+
+    speed: Gradient
+    power: Gradient | None = None
+    cost: Gradient | None = None
+
+
+@dataclass
+class Solves:
+    """The gradients of the last points, for all who ask for numbers of the same motions.
+
+    with_power: whether any of them asks for the power.
+    """
+
+    with_power: bool = False
+    known: dict[bytes, Found] = dataclasses.field(default_factory=dict)
+
+    def at(self, point: Array, work: Callable[[], Found]) -> Found:
+        """Those known of a point, or those of the work."""
+        key = point.tobytes()
+        if key not in self.known:
+            while len(self.known) >= REMEMBERED:
+                self.known.pop(next(iter(self.known)))
+            self.known[key] = work()
+        return self.known[key]
+
 
 class Adjoint:
-    """The objective of unknowns and its gradient; work: by which; rtol: of the speed."""
+    """The objective of unknowns and its gradient; rtol: of the speed."""
 
-    def __init__(self, unknowns: Unknowns, objective: Objective, way: Way, rtol: float) -> None:
+    def __init__(
+        self, unknowns: Unknowns, objective: Objective, way: Way, rtol: float, solves: Solves
+    ) -> None:
         self._unknowns, self._objective, self._rtol = unknowns, objective, rtol
-        self._is_cost = isinstance(objective, CostOfTransport)
-        self._work = way.cost if self._is_cost else way.speed
-        harmonics = unknowns.harmonics
-        waves = [] if harmonics is None else [_renamed(name) for name in harmonics.names]
-        self._names = [*(field.name for field in unknowns.fields), *waves]
+        self._way, self._solves = way, solves
+        self._names = unknowns.names
         self._parameters = parameters(self._names)
         region = unknowns.region
         aside = region.low + ASIDE * (region.high - region.low)
@@ -83,16 +122,21 @@ class Adjoint:
 
     @classmethod
     def of(
-        cls, unknowns: Unknowns, objective: Objective, rtol: float, level: str = "first order"
+        cls,
+        unknowns: Unknowns,
+        objective: Objective,
+        rtol: float,
+        level: str = "first order",
+        solves: Solves | None = None,
     ) -> "Adjoint | None":
         """None where there is no gradient of these unknowns, of this objective, or at this level."""
-        way, is_cost = WAYS.get(level), isinstance(objective, CostOfTransport)
-        if way is None or unknowns.scene.alpha == 0:
+        way, solves = WAYS.get(level), solves or Solves(objective.with_power)
+        if way is None or unknowns.scene.alpha == 0 or not objective.differentiable:
             return None
-        if (way.cost if is_cost else objective.slope(unknowns.scene)) is None:
+        if objective.with_power and way.motion is None:
             return None
         try:
-            return cls(unknowns, objective, way, rtol)
+            return cls(unknowns, objective, way, rtol, solves)
         except (ValueError, Unusable):
             return None  # a field that it does not know
 
@@ -116,24 +160,54 @@ class Adjoint:
 
     def __call__(self, point: Array) -> Evaluation:
         """See `linear_theory.optimisation.problem.Objective`."""
-        scene = self._unknowns.scene_at(point)
-        assert self._work is not None
+        scene, objective = self._unknowns.scene_at(point), self._objective
         try:
-            found = self._work(scene, self._names, rtol=self._rtol)
+            found = self._solves.at(point, lambda: self._found(scene))
         except (SheetcrawlError, ValueError, ArithmeticError) as problem:
             raise Unusable(" ".join(str(problem).split())) from None
-        if found.speed.beyond_reach:
-            raise Unusable(found.speed.beyond_reach)
-        value: Estimate = self._objective.of(found.speed, scene)
-        factor = 1.0 if self._is_cost else self._objective.slope(scene) or 0.0
-        chain = self._objective.sign * factor * self._chain(point)
+        speed = found.speed.speed
+        if speed.beyond_reach:
+            raise Unusable(speed.beyond_reach)
+        value: Estimate = objective.of(speed, scene)
+        values, errors = self._slopes(found, scene)
+        chain = self._chain(point)
+        gradient = chain * values
+        if by_period := objective.slopes(speed, scene).period:
+            gradient = gradient + by_period * self._periods(point)
+        doubt, kinks = abs(chain) * errors, "; ".join(found.speed.kinks)
         return Evaluation(
-            self._objective.sign * value.value,
-            value.error,
-            chain * found.values,
-            abs(chain) * found.errors,
-            "; ".join(found.kinks),
+            objective.sign * value.value, value.error, objective.sign * gradient, doubt, kinks
         )
+
+    def _found(self, scene: Scene) -> Found:
+        """By one solve, of what is asked for by any who share it."""
+        way, asked = self._way, {"over": self._names, "rtol": self._rtol}
+        if self._solves.with_power and way.motion is not None:
+            return Found(*way.motion(scene, **asked))
+        return Found(way.speed(scene, **asked))
+
+    def _slopes(self, found: Found, scene: Scene) -> tuple[Array, Array]:
+        """Derivatives of the number by the parameters, and their errors, at a fixed period."""
+        if isinstance(self._objective, CostOfTransport):  # its distance may be across, too
+            if found.cost is None:
+                raise Unusable("cost of transport: the sheet gets nowhere, or its error is not known")
+            return found.cost.values, found.cost.errors
+        slopes = self._objective.slopes(found.speed.speed, scene)
+        values, errors = slopes.speed * found.speed.values, abs(slopes.speed) * found.speed.errors
+        if slopes.power and found.power is not None:
+            values = values + slopes.power * found.power.values
+            errors = errors + abs(slopes.power) * found.power.errors
+        return values, errors
+
+    def _periods(self, point: Array) -> Array:
+        """Derivatives of the period by the unknowns."""
+        ends = [
+            [self._unknowns.scene_at(point + sign * move).period for sign in (1, -1)]
+            for move in SMALL * np.eye(point.size)[: len(self._unknowns.fields)]
+        ]
+        found = np.zeros(point.size)
+        found[: len(ends)] = [(one - other) / (2 * SMALL) for one, other in ends]
+        return found
 
     def _chain(self, point: Array) -> Array:
         """Derivatives of the parameters by the unknowns."""
@@ -145,9 +219,3 @@ class Adjoint:
         harmonics = unknowns.harmonics
         waves = [] if harmonics is None else [harmonics.unit] * harmonics.unknowns
         return np.array(found + waves)
-
-
-def _renamed(name: str) -> str:
-    """A harmonic as the gradient calls it: "wave.cosine.0" for "wave.cosine[1]"."""
-    table, bracket, number = name.partition("[")
-    return f"{table}.{int(number.rstrip(']')) - 1}" if bracket else name

@@ -11,16 +11,16 @@ from numpy.typing import NDArray
 from fem_check.choice.settings import RTOL, RunSettings
 from fem_check.choice.ways import way_of
 from fem_check.optimisation.kept import Kept
+from fem_check.optimisation.options.searching import Searching
 from fem_check.optimisation.result import Check, Limited, Optimum, Regime, Scale, Start
 from fem_check.optimisation.task import Task, finite, known
 from fem_check.optimisation.values import Question
 from linear_theory.common.errors import SheetcrawlError
 from linear_theory.common.estimate import Estimate
-from linear_theory.common.shown import number
 from linear_theory.optimisation.certificate import Certificate, certificate
 from linear_theory.optimisation.limits import Limit, Worst
 from linear_theory.optimisation.problem import Unusable
-from linear_theory.optimisation.search import Ascent, Climbed, climb
+from linear_theory.optimisation.search import Climbed, climb
 
 Array = NDArray[np.float64]
 
@@ -46,10 +46,10 @@ class Telling(Protocol):
 
 
 def found(
-    task: Task, points: list[Array], how: Ascent, check: bool, telling: Telling, begin: float
+    task: Task, points: list[Array], searching: Searching, telling: Telling, begin: float
 ) -> Optimum:
     """From those points; begin: time at which the work began. Raises NothingFound."""
-    stages, limits, climbs = task.stages(), task.limits(), []
+    stages, limits, climbs, how = task.stages(), task.limits(), [], searching.how
     for place, point in enumerate(points):
         telling.at(place, len(stages))
         climbs.append(climb(stages, task.truth(), task.region, point, how, telling.done, limits))
@@ -63,7 +63,7 @@ def found(
         task.unknowns.names,
         task.has_curvature(),
     )
-    return _optimum(task, best, climbs, proof, check, begin)
+    return _optimum(task, best, climbs, proof, searching.check, begin)
 
 
 def _optimum(
@@ -139,9 +139,10 @@ def _limits(task: Task, point: Array, proof: Certificate) -> tuple[Limited, ...]
 
 def _nothing(task: Task, point: Array, limits: list[tuple[Limit, ...]]) -> str:
     """Why there is no value at the end of any start."""
-    for limit in limits[0] if limits else ():
+    sides = task.sides * len(task.questions)
+    for limit, side in zip(limits[0], sides, strict=True) if limits else ():
         if limit.sign * (limit.nearest - limit.bound) > 0:
-            near = number(limit.nearest)
+            near = side.measured(limit.nearest)
             return f"constraints: {limit.name}: no start meets it; the nearest that was found is {near}"
     if limits and all(not math.isnan(limit.nearest) for limit in limits[0]):
         names = ", ".join(limit.name for limit in limits[0])

@@ -4,7 +4,7 @@ import math
 from abc import abstractmethod
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from typing import Any, ClassVar
+from typing import Any, ClassVar, NamedTuple
 
 from linear_theory.common import validation
 from linear_theory.common.estimate import Estimate
@@ -14,23 +14,48 @@ from linear_theory.scene.scene import Scene
 from linear_theory.speed.result import CrawlSpeed
 
 
+class Slopes(NamedTuple):
+    """Derivatives of a number of a motion by its mean speed, its power, and the period alone."""
+
+    speed: float
+    power: float = 0.0
+    period: float = 0.0
+
+
 class Objective(Value):
     """A number of a speed, of which larger is better for sign = 1, smaller for sign = -1.
 
-    name: for people; unit: likewise, empty for plain numbers.
+    name: for people; unit: likewise, empty for plain numbers. differentiable: whether it is a function
+    of speed, power and period, whose derivatives are `slopes`; with_power: whether the power enters;
+    smooth_if_dry: whether dry friction, too, leaves it without kinks.
     """
 
     name: ClassVar[str]
     unit: ClassVar[str]
     sign: ClassVar[float] = 1.0
+    differentiable: ClassVar[bool] = False
+    with_power: ClassVar[bool] = False
+    smooth_if_dry: ClassVar[bool] = False
 
     @abstractmethod
     def of(self, speed: CrawlSpeed, scene: Scene) -> Estimate:
         """Raises `Unusable` where there is none."""
 
-    def slope(self, scene: Scene) -> float | None:
-        """Its derivative by the mean speed at a given scene; None if it is not proportional to that."""
-        return None
+    def slopes(self, speed: CrawlSpeed, scene: Scene) -> Slopes:
+        """Of a differentiable one, of a motion along the sheet; raises `Unusable` where `of` does."""
+        raise TypeError(f"{self.name}: has no derivatives by the speed")
+
+
+class OfScene(Objective):
+    """A number of the scene alone, which no answer is needed for."""
+
+    @abstractmethod
+    def of_scene(self, scene: Scene) -> Estimate:
+        """Raises `Unusable` where there is none."""
+
+    def of(self, speed: CrawlSpeed, scene: Scene) -> Estimate:
+        """See Objective."""
+        return self.of_scene(scene)
 
 
 @dataclass(frozen=True)
@@ -40,14 +65,15 @@ class Speed(Objective):
     towards: int = 1
     name: ClassVar[str] = "speed"
     unit: ClassVar[str] = "length/time"
+    differentiable: ClassVar[bool] = True
 
     def of(self, speed: CrawlSpeed, scene: Scene) -> Estimate:
         """See Objective."""
         return Estimate(self.towards * speed.mean, speed.error)
 
-    def slope(self, scene: Scene) -> float:
+    def slopes(self, speed: CrawlSpeed, scene: Scene) -> Slopes:
         """See Objective."""
-        return float(self.towards)
+        return Slopes(float(self.towards))
 
 
 @dataclass(frozen=True)
@@ -56,10 +82,37 @@ class Distance(Objective):
 
     name: ClassVar[str] = "distance per period"
     unit: ClassVar[str] = "length"
+    differentiable: ClassVar[bool] = True
 
     def of(self, speed: CrawlSpeed, scene: Scene) -> Estimate:
         """See Objective."""
         return Estimate(scene.period * speed.mean, scene.period * speed.error)
+
+    def slopes(self, speed: CrawlSpeed, scene: Scene) -> Slopes:
+        """See Objective."""
+        return Slopes(scene.period, period=speed.mean)
+
+
+@dataclass(frozen=True)
+class Power(Objective):
+    """The mean power of growth, over mu times the weight."""
+
+    name: ClassVar[str] = "power"
+    unit: ClassVar[str] = "length/time"
+    differentiable: ClassVar[bool] = True
+    with_power: ClassVar[bool] = True
+    smooth_if_dry: ClassVar[bool] = True
+
+    def of(self, speed: CrawlSpeed, scene: Scene) -> Estimate:
+        """See Objective."""
+        power = speed.power
+        if not math.isfinite(power.value):
+            raise Unusable("power: is not known of this motion")
+        return power
+
+    def slopes(self, speed: CrawlSpeed, scene: Scene) -> Slopes:
+        """See Objective."""
+        return Slopes(0.0, power=1.0)
 
 
 @dataclass(frozen=True)
@@ -69,6 +122,8 @@ class CostOfTransport(Objective):
     name: ClassVar[str] = "cost of transport"
     unit: ClassVar[str] = "mu"
     sign: ClassVar[float] = -1.0
+    differentiable: ClassVar[bool] = True
+    with_power: ClassVar[bool] = True
 
     def of(self, speed: CrawlSpeed, scene: Scene) -> Estimate:
         """See Objective."""
@@ -76,6 +131,11 @@ class CostOfTransport(Objective):
         if not math.isfinite(cost.value):
             raise Unusable("cost of transport: the sheet gets nowhere, or its power is not known")
         return cost
+
+    def slopes(self, speed: CrawlSpeed, scene: Scene) -> Slopes:
+        """See Objective: of P/|V|."""
+        cost = self.of(speed, scene).value
+        return Slopes(-cost / speed.mean, power=1 / abs(speed.mean))
 
 
 @dataclass(frozen=True)

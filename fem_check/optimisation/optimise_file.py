@@ -28,13 +28,14 @@ from typing import Any
 
 from pydantic import ValidationError
 
-from fem_check.choice.settings import RunSettings
 from fem_check.files.mistakes import Mistakes, nearest
 from fem_check.files.reading import data_of, text_of
+from fem_check.optimisation.asked import Asked
 from fem_check.optimisation.objectives import OBJECTIVES
 from fem_check.optimisation.optimising import FINE, search
 from fem_check.optimisation.options.constraints import Bound, checked, sides_of, sums_of
-from fem_check.optimisation.options.robust import Robust, unknowns_of
+from fem_check.optimisation.options.robust import Robust
+from fem_check.optimisation.options.searching import Keeping, Searching
 from fem_check.optimisation.options.tables import (
     BoundTable,
     HarmonicsTable,
@@ -48,7 +49,7 @@ from fem_check.optimisation.unknowns import Unknowns
 from fem_check.sweeps.sweep_file import base_of, between, flattened
 from linear_theory.common import validation
 from linear_theory.common.progress import Report
-from linear_theory.optimisation.search import Ascent
+from linear_theory.optimisation.climbing import Ascent
 
 PARTS = ("scene", "over", "harmonics", "constraints", "robust", "optimise")
 
@@ -57,26 +58,18 @@ PARTS = ("scene", "over", "harmonics", "constraints", "robust", "optimise")
 class OptimiseFile:
     """What an optimisation file says; scene_file: that it names, if any."""
 
-    unknowns: Unknowns
-    settings: RunSettings
-    table: OptimiseTable
-    constraints: Mapping[str, Bound]
-    robust: Robust | None
+    asked: Asked
+    searching: Searching
     scene_file: Path | None = None
 
-    def run(self, file: Path | None, progress: Report | None, again: str) -> Optimum:
+    @property
+    def unknowns(self) -> Unknowns:
+        """Of the question."""
+        return self.asked.unknowns
+
+    def run(self, file: Path | None, report: Report | None, again: str) -> Optimum:
         """Search; see `optimising.search`."""
-        table = self.table
-        return search(
-            *(self.unknowns, OBJECTIVES[table.objective], self.settings, table.starts, table.seed),
-            how=Ascent(table.method),
-            check=table.check,
-            file=file,
-            progress=progress,
-            again=again,
-            constraints=self.constraints,
-            robust=self.robust,
-        )
+        return search(self.asked, self.searching, Keeping(file, report, again))
 
 
 def read(path: str | Path) -> OptimiseFile:
@@ -98,8 +91,10 @@ def parsed(text: str, path: Path) -> OptimiseFile:
     table = _table("optimise", OptimiseTable, data.get("optimise", {}), mistakes)
     over = _over(data, mistakes)
     constraints, robust = _constraints(data, mistakes), _robust(data, mistakes)
-    rtol = FINE
+    rtol, searching = FINE, Searching()
     with mistakes.under("optimise"):
+        if table is not None:
+            searching = Searching(table.starts, table.seed, Ascent(table.method), table.check)
         if table is not None and table.rtol is not None:
             rtol = validation.tolerance(table.rtol.into("dimensionless"))
     if "scene" not in data:
@@ -119,13 +114,14 @@ def parsed(text: str, path: Path) -> OptimiseFile:
         mistakes.add_words(("over", *(name.split(".") if name in over else ())), f"[over] {words}")
         raise mistakes.error(path, text) from None
     _check_constraints(unknowns, constraints, mistakes)
+    asked = Asked(unknowns, OBJECTIVES[table.objective], settings, constraints, robust)
     with mistakes.under("robust"):
-        if robust is not None:
-            unknowns_of(robust, base.file.scene, over, base)
+        _ = asked.regimes  # what is no regime is told here
+        _check_growth(asked, mistakes)
     if mistakes:
         raise mistakes.error(path, text)
     named = path.parent / data["scene"] if isinstance(data["scene"], str) else None
-    return OptimiseFile(unknowns, settings, table, constraints, robust, named)
+    return OptimiseFile(asked, searching, named)
 
 
 def _table(name: str, kind: type[Any], given: Any, mistakes: Mistakes) -> Any:
@@ -182,6 +178,15 @@ def _check_constraints(
         for _, words in inner.found:
             said = words.removeprefix("constraints: ")
             mistakes.add_words(("constraints", name), f"[constraints] {_named(name, said)}")
+
+
+def _check_growth(asked: Asked, mistakes: Mistakes) -> None:
+    """What is wrong with a scene that nothing can move."""
+    try:
+        asked.check_growth()
+    except ValueError as problem:
+        words = str(problem).removeprefix("growth.")
+        mistakes.add_words(("scene", "growth", "alpha"), f"[scene.growth] {words}")
 
 
 def _robust(data: Mapping[str, Any], mistakes: Mistakes) -> Robust | None:

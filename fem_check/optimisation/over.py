@@ -22,6 +22,9 @@ Array = NDArray[np.float64]
 WAVE = "wave"
 """The name of the harmonics among what may change; fields have dots in theirs."""
 
+AMPLITUDES = ("wave.cosine", "wave.sine", "wave.amplitude", "wave.phase")
+"""What names of amplitudes begin with, as gradients know them; none of them is a field by itself."""
+
 ANSWERING = "run."
 """What fields that are not of the scene begin with."""
 
@@ -53,6 +56,11 @@ class Field:
     @classmethod
     def of(cls, path: object, given: object) -> "Field":
         """From a `Between`, or a pair of numbers or of texts with units."""
+        if str(path).startswith(AMPLITUDES):
+            raise ValueError(
+                f"over: {path}: amplitudes change together, as harmonics of the wave: 'wave': "
+                "Harmonics(...), or [harmonics] in a file"
+            )
         name = checked(path)
         if name.startswith(ANSWERING):
             raise ValueError(f"over: {name}: says how a scene is answered, not what it is")
@@ -143,8 +151,8 @@ class Harmonics(Value):
 
     @property
     def names(self) -> list[str]:
-        """Of the unknowns."""
-        found = [f"wave.{kind}[{k}]" for kind in ("cosine", "sine") for k in range(1, self.count + 1)]
+        """Of the unknowns: wave.cosine.0 is the amplitude of cos phi, as for `speed_gradient`."""
+        found = [f"wave.{kind}.{k}" for kind in ("cosine", "sine") for k in range(self.count)]
         return found + ["wave.mean"] * self.mean
 
     @property

@@ -1,7 +1,7 @@
 """The whole of what is optimised: one or several regimes, the region of the unknowns, and limits."""
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -9,13 +9,13 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import minimize
 
-from fem_check.choice.settings import RunSettings
+from fem_check.optimisation.adjoint import Solves
+from fem_check.optimisation.asked import Asked
 from fem_check.optimisation.kept import Kept
-from fem_check.optimisation.objectives import Objective
-from fem_check.optimisation.options.constraints import Bound, Side, sides_of, sums_of
+from fem_check.optimisation.options.constraints import Side, sides_of, sums_of
 from fem_check.optimisation.options.robust import WORST, Robust
 from fem_check.optimisation.unknowns import Unknowns
-from fem_check.optimisation.values import Question
+from fem_check.optimisation.values import Question, unheard
 from linear_theory.common.estimate import Estimate
 from linear_theory.optimisation.limits import Limit, Mean, Worst
 from linear_theory.optimisation.problem import Constraint, Evaluation, Linear, Region, Unusable
@@ -43,25 +43,23 @@ class Task:
     sides: tuple[Side, ...]
 
     @classmethod
-    def of(
-        cls,
-        unknowns: Unknowns,
-        regimes: list[tuple[str, Unknowns]],
-        objective: Objective,
-        settings: RunSettings,
-        constraints: Mapping[str, Bound],
-        robust: Robust | None,
-        kept: Kept,
-    ) -> "Task":
-        """Raises ValueError, by name, for constraints that nothing meets."""
-        parts = regimes or [("", unknowns)]
+    def of(cls, asked: Asked, kept: Kept, watched: Callable[[float], None] = unheard) -> "Task":
+        """watched: hears of every value of the objective. Raises ValueError, by name, for constraints
+        that nothing meets."""
+        unknowns, objective, constraints = asked.unknowns, asked.objective, asked.constraints
+        parts = asked.regimes or [("", unknowns)]
+        sides = tuple(sides_of(constraints, unknowns.units))
+        powers = any(one.with_power for one in (objective, *(side.quantity for side in sides)))
         questions = tuple(
-            Question(one, settings, objective, kept, f"{place} " if regimes else "")
+            Question(
+                *(one, asked.settings, objective, kept, f"{place} " if asked.regimes else ""),
+                watched=watched,
+                solves=Solves(powers),
+            )
             for place, (_, one) in enumerate(parts)
         )
         region = region_of(unknowns, sums_of(constraints, unknowns))
-        sides = tuple(sides_of(constraints, unknowns.units))
-        return cls(unknowns, region, questions, tuple(name for name, _ in parts), robust, sides)
+        return cls(unknowns, region, questions, tuple(name for name, _ in parts), asked.robust, sides)
 
     @property
     def first(self) -> Question:

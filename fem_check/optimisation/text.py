@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from fem_check.answer.block import LEVEL_WORDS, wrapped
 from fem_check.answer.rounding import plain
+from fem_check.optimisation.asked import grows
 from fem_check.optimisation.words import LITTLE, against, percent, shown
 from linear_theory.common.shown import number
 from linear_theory.optimisation.certificate import GAIN
@@ -31,6 +32,7 @@ def _lines(found: "Optimum") -> Iterator[tuple[str, str]]:
     unit = f" {found.unit}" if found.unit else ""
     yield "best", f"{found.objective.name} {shown(found.value)}{unit}, {_improvement(found)}"
     yield "at", _values(found)
+    yield "at rest", _at_rest(found)
     yield "no effect", _idle(found)
     yield "outside", _outside(found)
     if not found.converged:
@@ -75,6 +77,13 @@ def _idle(found: "Optimum") -> str:
     return f"of {names} within the errors: the value above is that at both bounds, too"
 
 
+def _at_rest(found: "Optimum") -> str:
+    """Of a scene that is best as it does not move."""
+    if grows(found.scene) or found.value.value:
+        return ""
+    return "the best scene does not grow, and so does not move: growth of either sign is worse"
+
+
 def _outside(found: "Optimum") -> str:
     if not found.outside:
         return ""
@@ -84,7 +93,7 @@ def _outside(found: "Optimum") -> str:
 
 def _weight(found: "Optimum", name: str) -> float:
     """Fields first, then amplitudes by their size."""
-    harmonic = "[" in name or name == "wave.mean"
+    harmonic = name not in found.field_units
     return abs(float(found.values[name])) if harmonic else math.inf
 
 

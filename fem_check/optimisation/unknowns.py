@@ -124,6 +124,18 @@ class Unknowns:
         return np.concatenate([found, self.harmonics.of(self._like)])
 
     @property
+    def bounds(self) -> list[str]:
+        """What may change, between which bounds, in words."""
+        found = []
+        for field in self.fields:
+            low, high = (number(end) for end in field.axis.ends)
+            found.append(f"{field.name} from {low} to {high} {field.axis.unit or ''}".rstrip())
+        if self.harmonics is not None:
+            count, rule = self.harmonics.count, self.harmonics.constraint.name
+            found.append(f"{count} harmonic{'s' * (count > 1)} of the wave with {rule}")
+        return found
+
+    @property
     def outside(self) -> tuple[str, ...]:
         """Where the scene lies outside of the bounds, in words."""
         found, present = [], self.present

@@ -1,10 +1,10 @@
 """The objective at points: by which level, with which gradient, and through which smooth stages.
 
-On a strip with a travelling wave the gradient of the speed is that of `line.best.gradient`; at other
-levels, and of other objectives, it is found by differences, twice as many answers as there are
-unknowns. Dry friction of a strip has kinks wherever a turning value of the wave is at rest, and the
-best waves of given size have many of these: it is approached through tanh laws of smaller and smaller
-slip speed.
+On a strip with a travelling wave the gradients of speed and power are those of `line.best.gradient`, at
+other levels those of `adjoint` where there is one; of what is no function of the two they are found by
+differences, twice as many answers as there are unknowns. Dry friction of a strip has kinks wherever a
+turning value of the wave is at rest, and the best waves of given size have many of these: the speed is
+approached through tanh laws of smaller and smaller slip speed. The power has no kinks there.
 """
 
 import warnings
@@ -18,15 +18,15 @@ from numpy.typing import NDArray
 from fem_check.choice.result import Prediction
 from fem_check.choice.settings import RTOL, RunSettings
 from fem_check.choice.solving import solve
-from fem_check.optimisation.adjoint import Adjoint
+from fem_check.optimisation.adjoint import Adjoint, Solves
 from fem_check.optimisation.kept import Kept
-from fem_check.optimisation.objectives import Objective
+from fem_check.optimisation.objectives import CostOfTransport, Objective, OfScene
 from fem_check.optimisation.unknowns import Unknowns
 from linear_theory.common.errors import BeyondReachWarning, SheetcrawlError, ViscousRegimeWarning
 from linear_theory.common.estimate import Estimate
 from linear_theory.friction.contact import Contact
 from linear_theory.friction.laws import Coulomb, Tanh
-from linear_theory.line.best.gradient import LineGradient, scene_gradient
+from linear_theory.line.best.gradient import LineSlopes, scene_gradient
 from linear_theory.optimisation.differences import Differences
 from linear_theory.optimisation.problem import Evaluation, Unusable
 from linear_theory.optimisation.problem import Objective as OfPoints
@@ -55,16 +55,23 @@ EXACT = 1e-9
 tests against differences of speeds 1e-9."""
 
 
+PERIOD = LineSlopes(np.zeros(0), np.zeros(0), mean=0.0, alpha=0.0, period=1.0)
+"""Of the period itself."""
+
 REMEMBERED = 32
 """Speeds of the last points, of which several numbers may be asked for."""
+
+
+def unheard(value: float) -> None:
+    """No one hears of it."""
 
 
 @dataclass(frozen=True)
 class Question:
     """What is asked of every point: level, tolerance and objective, or another number of the answer.
 
-    name: by which its answers are kept; speeds: of the last points, shared by those who ask for other
-    numbers of the same scenes.
+    name: by which its answers are kept; watched: hears of every value of the objective; speeds,
+    solves: of the last points, shared by those who ask for other numbers of the same scenes.
     """
 
     unknowns: Unknowns
@@ -72,11 +79,13 @@ class Question:
     objective: Objective
     kept: Kept
     name: str = ""
+    watched: Callable[[float], None] = unheard
     speeds: dict[bytes, CrawlSpeed] = field(default_factory=dict)
+    solves: Solves = field(default_factory=Solves)
 
     def also(self, objective: Objective, name: str) -> "Question":
         """For another number of the same answers."""
-        return replace(self, objective=objective, name=f"{self.name}{name} ")
+        return replace(self, objective=objective, name=f"{self.name}{name} ", watched=unheard)
 
     def answer(self, scene: Scene) -> Prediction:
         """Of a scene. Raises `Unusable` beyond the reach of the level, and where it fails."""
@@ -94,7 +103,12 @@ class Question:
 
     def value(self, point: Array) -> Estimate:
         """Signed, so that larger is better."""
-        return self.kept.value(f"{self.name}value", point, lambda: self._signed(point))
+        if isinstance(self.objective, OfScene):  # costs nothing
+            found = self.objective.of_scene(self.unknowns.scene_at(point))
+            return Estimate(self.objective.sign * found.value, found.error)
+        found = self.kept.value(f"{self.name}value", point, lambda: self._signed(point))
+        self.watched(self.objective.sign * found.value)
+        return found
 
     def _signed(self, point: Array) -> Estimate:
         scene, key = self.unknowns.scene_at(point), point.tobytes()
@@ -115,25 +129,30 @@ class Question:
         adjoint = self._adjoint
         if adjoint is None:
             return None
-        return lambda point: self.kept.evaluation(f"{self.name}adjoint", point, lambda: adjoint(point))
+        return lambda point: self._kept("adjoint", point, lambda: adjoint(point))
+
+    def _kept(self, what: str, point: Array, work: Callable[[], Evaluation]) -> Evaluation:
+        """An evaluation from the file, or by the work."""
+        found = self.kept.evaluation(f"{self.name}{what}", point, work)
+        self.watched(self.objective.sign * found.value)
+        return found
 
     @cached_property
     def _adjoint(self) -> Adjoint | None:
         settings = self.settings
-        return Adjoint.of(self.unknowns, self.objective, settings.rtol or RTOL, settings.level)
+        rtol = settings.rtol or RTOL
+        return Adjoint.of(self.unknowns, self.objective, rtol, settings.level, self.solves)
 
     def along_line(self, width: float | None) -> OfPoints:
         """With the gradient on a strip. width: of a tanh law instead of dry friction, over the unit."""
 
-        def evaluated(point: Array) -> Evaluation:
-            key = f"{self.name}line {width!r}"
-            return self.kept.evaluation(key, point, lambda: self._on_line(point, width))
-
-        return evaluated
+        return lambda point: self._kept(f"line {width!r}", point, lambda: self._on_line(point, width))
 
     def _on_line(self, point: Array, width: float | None) -> Evaluation:
-        scene = self.unknowns.scene_at(point)
+        scene, objective = self.unknowns.scene_at(point), self.objective
         if not scene.drive.series or not scene.drive.series.moves or scene.alpha == 0:
+            if isinstance(objective, CostOfTransport):
+                raise Unusable("cost of transport: the sheet gets nowhere")
             return Evaluation(0.0, 0.0, np.zeros(point.size), np.zeros(point.size))
         if width is not None:
             scene = self._smooth(scene, width)
@@ -141,13 +160,17 @@ class Question:
             found = scene_gradient(scene, "strip")
         except ValueError as problem:
             raise Unusable(" ".join(str(problem).split())) from None
-        slope = self.objective.sign * (self.objective.slope(scene) or 0.0)
-        gradient = slope * self._chain(point, found)
+        value, slopes = objective.of(found.speed, scene), objective.slopes(found.speed, scene)
+        gradient = slopes.speed * self._chain(point, found)
+        gradient = gradient + slopes.power * self._chain(point, found.power)
+        if slopes.period:
+            gradient = gradient + slopes.period * self._chain(point, PERIOD)
         doubt = np.full(point.size, EXACT * float(np.linalg.norm(gradient)))
-        speed = found.speed
-        return Evaluation(slope * speed.mean, abs(slope) * speed.error, gradient, doubt, found.kink)
+        kink = "" if objective.smooth_if_dry and not found.speed.sticks else found.kink
+        sign = objective.sign
+        return Evaluation(sign * value.value, value.error, sign * gradient, doubt, kink)
 
-    def _chain(self, point: Array, of: LineGradient) -> Array:
+    def _chain(self, point: Array, of: LineSlopes) -> Array:
         """From derivatives by wave and couplings to those by the unknowns."""
         fields = [self._by_field(point, place, of) for place in self._places]
         harmonics = self.unknowns.harmonics
@@ -164,7 +187,7 @@ class Question:
         """Of the fields among the unknowns."""
         return range(len(self.unknowns.fields))
 
-    def _by_field(self, point: Array, place: int, of: LineGradient) -> float:
+    def _by_field(self, point: Array, place: int, of: LineSlopes) -> float:
         """Through alpha and the period that a field stands for, which no work is needed for."""
         move = SMALL * np.eye(point.size)[place]
         one, other = (self.unknowns.scene_at(point + sign * move) for sign in (1, -1))
@@ -185,7 +208,7 @@ class Question:
         scene = self.unknowns.scene
         return (
             self.settings.level == ON_LINE
-            and self.objective.slope(scene) is not None
+            and self.objective.differentiable
             and scene.drive.series is not None
             and scene.alpha != 0
             and scene.contact.friction.map is None
@@ -207,7 +230,7 @@ class Question:
         """Objectives to climb, one after the other."""
         if not self.has_line_gradient:
             return [self.by_adjoint() or self.by_differences()]
-        if self.is_dry:
+        if self.is_dry and not self.objective.smooth_if_dry:
             return [self.along_line(width) for width in widths]
         return [self.along_line(None)]
 

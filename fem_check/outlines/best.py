@@ -104,8 +104,7 @@ def best_outline(
 
     Raises ValueError for bad input, by name; `NoOutline` where no outline has a speed.
 
-    >>> from fem_check.outlines.best import best_outline
-    >>> from fem_check.outlines.shapes import LegendreShape
+    >>> from fem_check import LegendreShape, best_outline
     >>> from linear_theory import Contact, SineWave, Tanh
     >>> start, contact = LegendreShape(0.5, 1.0, [0.1]), Contact(friction=Tanh(0.05))
     >>> over = {"coefficients.0": (-0.6, 0.6)}

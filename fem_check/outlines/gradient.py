@@ -97,8 +97,7 @@ def outline_gradient(
 
     Raises ValueError for bad input, by name, and where growth is too large for the theory.
 
-    >>> from fem_check.outlines.gradient import outline_gradient
-    >>> from fem_check.outlines.shapes import Trapezoid
+    >>> from fem_check import Trapezoid, outline_gradient
     >>> from linear_theory import Contact, SineWave
     >>> shape = Trapezoid(rear=0.6, front=0.4, length=1.0)
     >>> found = outline_gradient(shape, SineWave(), 0.1, ["rear"], Contact(friction="viscous"))

@@ -111,7 +111,7 @@ class Trapezoid(Shape):
 
     Raises ValueError for sizes that are not positive.
 
-    >>> from fem_check.outlines.shapes import Trapezoid
+    >>> from fem_check import Trapezoid
     >>> trapezoid = Trapezoid(rear=0.6, front=0.4, length=1.0)
     >>> print(*trapezoid.parameters, f"area {trapezoid.area:.2f} L^2")
     rear front length area 0.50 L^2
@@ -143,7 +143,7 @@ class LegendreShape(Shape):
     0, and C is the mean of the polygon through them, 1 but for its sides. a_1 alone is a trapezoid.
     Raises ValueError for sizes that are not positive and where the width is not.
 
-    >>> from fem_check.outlines.shapes import LegendreShape
+    >>> from fem_check import LegendreShape
     >>> lens = LegendreShape(mean_width=0.5, length=1.0, coefficients=(0.0, -0.4))
     >>> print(f"area {lens.area:.6f} L^2, {lens.widths().max():.3f} L wide")
     area 0.500000 L^2, 0.604 L wide

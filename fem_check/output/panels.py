@@ -5,7 +5,6 @@ that a left turn of the sheet is a left turn on the page.
 """
 
 from typing import Any
-from weakref import WeakKeyDictionary
 
 import numpy as np
 from matplotlib import colormaps
@@ -13,6 +12,7 @@ from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 from matplotlib.colors import LinearSegmentedColormap
+from matplotlib.transforms import Bbox
 from matplotlib.tri import Triangulation
 from numpy.typing import NDArray
 
@@ -55,9 +55,6 @@ PRESSURE_MAP = colormaps["Blues"]
 
 BAR_END = 1.055
 """Right end of a colour bar, over the width of its axes."""
-
-ORIGINAL: WeakKeyDictionary[Axes, Any] = WeakKeyDictionary()
-"""Places of axes that were narrowed, which may be drawn into again."""
 
 LABEL = 0.75
 """Width of its numbers and label, inches."""
@@ -124,18 +121,25 @@ def _time(frame: Frame, units: Units) -> str:
 def add_scale(ax: Axes, image: Any, label: str) -> None:
     """A colour bar beside the axes, as high as they are."""
     if ax.figure.get_layout_engine() is None:  # axes of the caller: nothing else makes room
-        _make_room(ax)
+        ax.set_axes_locator(Narrowed())
     # inside of the axes' own box: it stays beside them when an equal aspect makes them smaller
     bar = ax.inset_axes((1.02, 0.0, BAR_END - 1.02, 1.0))
     ax.figure.colorbar(image, cax=bar, label=label)
 
 
-def _make_room(ax: Axes) -> None:
-    """Narrow axes by what a colour bar with its label takes, which then fits into their old place."""
-    place = ORIGINAL.setdefault(ax, ax.get_position(original=True))
-    width = (place.width - LABEL / ax.figure.bbox.width * ax.figure.dpi) / BAR_END
-    if width > place.width / 3:
-        ax.set_position((place.x0, place.y0, width, place.height))
+class Narrowed:
+    """A locator of axes: their own place, narrowed by what a colour bar with its label takes.
+
+    The bar then fits into that place, whatever becomes of the figure's size, and axes that are drawn
+    into again are not narrowed twice.
+    """
+
+    def __call__(self, ax: Any, renderer: Any) -> Bbox:
+        """The place of the axes, in shares of the figure."""
+        place = ax.get_position(original=True)
+        width = (place.width - LABEL / ax.figure.bbox.width * ax.figure.dpi) / BAR_END
+        width = width if width > place.width / 3 else place.width
+        return Bbox.from_bounds(place.x0, place.y0, width, place.height)
 
 
 def draw_side(ax: Axes, moving: Moving, units: Units, phase: float) -> None:

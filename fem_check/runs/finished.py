@@ -16,6 +16,9 @@ from linear_theory.common.shown import Shown
 
 AGAIN = "run the scene again with --resume (resume = True), which writes what is missing"
 
+SEAL = "checksum"
+"""Of a result, by which another digit in it is found. Results of early versions have none."""
+
 ANEW = "delete the folder, or name another one, and run the scene again"
 
 
@@ -83,7 +86,15 @@ def finished(folder: str | Path) -> Finished:
         raise ValueError(f"{path}: cannot be read ({problem}); {ANEW}") from None
     if wrong := mistake(result):
         raise ValueError(f"{path}: is not the result of a run, {wrong}; {ANEW}")
+    if SEAL in result and result[SEAL] != seal(result):
+        raise ValueError(f"{path}: is damaged, or was changed by hand (checksum); {ANEW}")
     return Finished(folder, result)
+
+
+def seal(result: dict[str, Any]) -> str:
+    """SHA-256 of a result without its seal, however it is spaced and ordered."""
+    said = {key: value for key, value in result.items() if key != SEAL}
+    return f"sha256:{hashlib.sha256(json.dumps(said, sort_keys=True).encode()).hexdigest()}"
 
 
 def checksum(path: Path) -> str:

@@ -17,7 +17,7 @@ from fem_check.output.files import replacing
 from fem_check.runs import netcdf
 from fem_check.runs.capture import recorded
 from fem_check.runs.errors import NotWrittenError
-from fem_check.runs.finished import Finished, checksum, finished
+from fem_check.runs.finished import SEAL, Finished, checksum, finished, seal
 from fem_check.runs.folder import (
     REPORT,
     RESULT,
@@ -152,7 +152,7 @@ def _solve(
     with _kept_for(str(told["block"])):
         netcdf.write(recording, result, folder / TRAJECTORY, units)
         told["files"] = {TRAJECTORY: checksum(folder / TRAJECTORY)}
-        _write_json(told, folder / RESULT)
+        _write_json({**told, SEAL: seal(told)}, folder / RESULT)
 
 
 def _snapshots(scene: Scene, folder: Path, way: str) -> dict[str, Any]:

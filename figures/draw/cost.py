@@ -220,7 +220,7 @@ def label_plateaus(axes: Axes, panel: str, points: Sequence[Point]) -> None:
             xytext=(3, -4),
             textcoords="offset points",
             va="top",
-            fontsize=5.5,
+            fontsize=6.3,
             color="0.25",
         )
 

@@ -107,7 +107,7 @@ def draw_poses(ax: Axes, moving: Simulated) -> None:
         colours = GROWTH_MAP(0.5 + 0.5 * frame.wave[:-1] / most)
         ax.add_collection(LineCollection(list(pieces), color=colours, lw=2.2, capstyle="round"))
         ax.plot(*line[::10].T, ".", color="black", markersize=2, zorder=3)
-        ax.text(0.62, -k * APART, f"{2 + k / POSES:.3g}", va="bottom", ha="right", size=6)
+        ax.text(0.62, -k * APART, f"{2 + k / POSES:.3g}", va="bottom", ha="right", size=7)
     ax.set(xlim=(-0.64, 0.64), ylim=(-(POSES - 0.6) * APART, 1.1 * APART), yticks=[])
     ax.set(xlabel="$y/L$")
     ax.set_title("(D) one cycle, from the side", loc="left")

@@ -76,7 +76,7 @@ def draw_paths(ax: Axes) -> None:
             ax.plot(*np.array(shown).T, dash, color=colour, label=f"{gait}, {friction}")
     ax.axhline(0, color="0.6", linewidth=0.6, zorder=0)
     ax.set(xlabel="cycles", ylabel="centre of mass $y/L$", xlim=(0, gait_paths.PERIODS))
-    ax.legend(fontsize=6, handlelength=1.8, loc="upper left")
+    ax.legend(fontsize=6.5, handlelength=1.4, loc="upper left")
     ax.set_title(r"path, $\kappa = \beta/h$", loc="left")
 
 
@@ -93,7 +93,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     for ax, law in zip(panels, laws, strict=True):
         image = draw_map(ax, on_whole_grid([r for r in rows if r.friction == law]), colours)
         ax.set_title(f"{law} friction", loc="left")
-    panels[0].set_ylabel(r"rest curvature $\kappa L$ per $c$")
+    panels[0].set_ylabel(r"curvature coupling $\kappa L$")
     maps.colorbar(image, ax=list(panels), label="$V$ ($L$ a cycle)", extend="both")
     draw_paths(path.subplots())
     _key(maps)

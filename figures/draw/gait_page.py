@@ -11,6 +11,7 @@ from figures.common.command import write_page
 from figures.draw.gait_statements import by_steps, number, statements
 from figures.measure.paper.gait_map import BILAYER, TABLE, Row
 from figures.measure.paper.paper_gait import BACKWARD, FORWARD, FRICTIONS, READINGS, kept
+from figures.measure.paper.terrain import HEIGHT, MOST
 
 ROOT = Path(__file__).parents[2]
 PAGE = ROOT / "docs" / "gaits.md"
@@ -66,7 +67,7 @@ its error.
 
 With sines, as eq. 13 has it, ground with ridges along one axis only (B, C) would be flat, so that
 "cosine" ground is run too. The paper's viscous friction, weight times v/v0, is some thousandths of the
-weight at 0.1 L a cycle; slopes reach 0.6. Under dry friction a sheet that buckles may
+weight at 0.1 L a cycle; slopes reach SLOPE. Under dry friction a sheet that buckles may
 take another way with other steps: on flat ground V of the forward gait is
 SPEEDS.
 Such sheets are run a second time with other steps, and the difference is part of their errors.
@@ -84,7 +85,8 @@ def page(rows: Sequence[Row]) -> str:
     def found(alpha: float, kappa: float, friction: str) -> Row | None:
         return known.get((kept(alpha), kept(kappa), friction))
 
-    told = [*statements(), "", *_gaits(found), *_bilayers(found), TAIL.replace("SPEEDS", _speeds())]
+    tail = TAIL.replace("SPEEDS", _speeds()).replace("SLOPE", f"{2 * math.pi * HEIGHT * MOST:.1f}")
+    told = [*statements(), "", *_gaits(found), *_bilayers(found), tail]
     return "\n".join([HEAD + told[0], *told[1:]])
 
 

@@ -87,6 +87,7 @@ def draw(found: Map, largest: float) -> Figure:
     ticks = [w for w in (0.1, 0.2, 0.5, 1.0, 2.0) if ends[0] <= w <= ends[1]]
     axes.set_yticks(ticks, [f"{w:g}" for w in ticks])
     axes.set_yticks([], minor=True)
+    axes.tick_params(axis="x", pad=5)  # the first labels of both axes share a corner
     axes.annotate(
         "no stable\nshape",
         (0.98, 0.93),

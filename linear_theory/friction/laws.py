@@ -197,10 +197,14 @@ def checked_law(law: FrictionLaw, components: int, argument: str = "friction") -
     return law
 
 
+DRY = "dry"
+"""Another name of Coulomb's law, that of scene files and of answers."""
+
+
 def friction_law(
     friction: object = "coulomb", slip_speed: object = None, argument: str = "friction"
 ) -> FrictionLaw:
-    """A law, or that of a name: "coulomb", "tanh" with its slip_speed, or "viscous".
+    """A law, or that of a name: "coulomb" or "dry", "tanh" with its slip_speed, or "viscous".
 
     argument: its name, for messages. Raises ValueError for anything else, for a slip_speed that is
     missing or of no use, and for a law of one's own whose methods contradict each other in the plane.
@@ -209,6 +213,8 @@ def friction_law(
         if slip_speed is not None:
             raise ValueError(f"slip_speed = {shown(slip_speed)}: must be None beside {shown(friction)}")
         return checked_law(friction, 2, argument)
+    if isinstance(friction, str) and friction == DRY:
+        friction = Coulomb.name
     name = validation.choice(argument, friction, FRICTION_LAWS)
     if name == Tanh.name:
         if slip_speed is None:

@@ -1,8 +1,8 @@
-"""The gradient of a speed or of a cost."""
+"""The gradient of a speed, of a power or of a cost."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -89,6 +89,17 @@ class SpeedGradient(Gradient):
 
 
 @dataclass(frozen=True, repr=False)
+class PowerGradient(Gradient):
+    """That of the power of growth, over mu and the weight, a speed; see `power_gradient`.
+
+    >>> from linear_theory import Scene, Sheet, SineWave, power_gradient
+    >>> found = power_gradient(Scene(Sheet(), SineWave(), alpha=0.2), ["alpha"], rtol=1e-3)
+    >>> print(found["growth.alpha"] > 0)  # as larger growth slides farther
+    True
+    """
+
+
+@dataclass(frozen=True, repr=False)
 class CostGradient(Gradient):
     """That of the cost of transport, over mu; see `cost_gradient`.
 
@@ -97,6 +108,43 @@ class CostGradient(Gradient):
     >>> print(found["growth.alpha"] < 0)  # as larger growth crawls more cheaply
     True
     """
+
+
+Told = tuple[tuple[str, ...], float, float]
+"""Kinks, seconds and speed_seconds of a gradient."""
+
+
+class MotionGradient(NamedTuple):
+    """The gradients of the three numbers of one motion; cost: None where that is infinite."""
+
+    speed: SpeedGradient
+    power: PowerGradient
+    cost: CostGradient | None
+
+    @classmethod
+    def of(
+        cls,
+        speed: CrawlSpeed,
+        chosen: tuple[Parameter, ...],
+        along: tuple[Array, Array],
+        power: tuple[Array, Array],
+        distance: tuple[Array, Array],
+        told: Told,
+    ) -> "MotionGradient":
+        """From derivatives and their errors, of V, of the power, of the speed in any direction."""
+        kinks, *seconds = told
+        cost, size = speed.cost_of_transport, float(np.hypot(*speed._velocity))
+        by_cost = None
+        if np.isfinite(cost.value) and np.isfinite(cost.error):
+            values = (power[0] - cost.value * distance[0]) / size
+            errors = (power[1] + cost.value * distance[1] + cost.error * abs(distance[0])) / size
+            errors = errors + speed.error / size * abs(values)
+            by_cost = CostGradient(speed, chosen, values, errors, kinks, *seconds)
+        return cls(
+            SpeedGradient(speed, chosen, *along, kinks, *seconds),
+            PowerGradient(speed, chosen, *power, kinks, *seconds),
+            by_cost,
+        )
 
 
 def kinks_of(sticks: bool, flat: bool, rough: bool = False) -> tuple[str, ...]:

@@ -69,6 +69,18 @@ class Body:
         """dz/dg."""
         return float(self.growth.slope(self.size * g))
 
+    def at_rest(self, level: float) -> float:
+        """The value of g at which z - mean z is the level, or the nearest there is: z rises with g."""
+        height = level + self.mean_height
+        low, high = float(self.profile.values.min()), float(self.profile.values.max())
+        g = min(max(height / self.slope(0.0), low), high)
+        for _ in range(50):
+            step = (float(self.height(np.array(g))) - height) / self.slope(g)
+            g = min(max(g - step, low), high)
+            if abs(step) <= 1e-15 * (high - low):
+                break
+        return g
+
     def gain(self, g: Array) -> Array:
         """w/w_0 - 1."""
         return self.growth.gain(self.size * g)

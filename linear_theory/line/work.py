@@ -45,20 +45,18 @@ def travelling_power(
         return (1 + body.gain(g)) * law.dissipation(velocity(g)[None])
 
     at_rest = float(body.growth.law.stretch(np.asarray(body.growth.start))) ** body.growth.power
+    profile = body.profile
+    if still is None and not law.reversible:  # its force has a corner at rest
+        profile = profile.anchored(body.at_rest(level))
     if still is not None:
-        full = half = body.profile.mean_with_kink(density, still)
+        power = profile.mean_with_kink(density, still)
     elif math.isinf(law.width):
-        full = half = body.profile.mean(density)
-    else:
+        power = profile.mean(density)
+    else:  # panels of the width resolve a law that is smooth on them to rounding
         width = max(law.width, NARROWEST * abs(unit) * (body.range[1] - body.range[0]))
-        # panels of the width resolve a smooth law to rounding, not one with a corner at rest
-        shares = (
-            quadrature(body.profile, lambda g: velocity(g)[None] / width, widest)
-            for widest in ((1.0,) if law.reversible else (0.5, 1.0))
-        )
-        found = [float(measure @ density(g)) for measure, g in shares]
-        full, half = found[0], found[-1]
-    return Estimate(at_rest * full, at_rest * (abs(full - half) + ROUNDING * full))
+        measure, g = quadrature(profile, lambda g: velocity(g)[None] / width, 1.0)
+        power = float(measure @ density(g))
+    return Estimate(at_rest * power, at_rest * ROUNDING * power)
 
 
 def sampled_power(slip: Array, weight: Array, law: FrictionLaw) -> Array:

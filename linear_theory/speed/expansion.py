@@ -27,6 +27,9 @@ POINTS = 33
 TINY_ALPHA = 1e-9
 """The alpha at which the balance is solved; neglected terms are of this relative size."""
 
+SMALLEST = 1e-2
+"""Of V_2, in L/T: errors of smaller ones count relative to this."""
+
 MORE_HALVINGS = 8
 """Additional halvings of cells compared with an alpha that is not tiny: cells too coarse at a
 stagnation point make q_1(t) rough, and the mean over time would then be refined in vain."""
@@ -131,7 +134,7 @@ def at_coupling(alpha: float, period: Period) -> RigidSpeed:
 def of_second(rtol: float, field: SecondOrderField) -> Tolerance:
     """Of a speed over (coupling/TINY_ALPHA)^2, or of V_2, with a bound near 0."""
     unit = field.sheet.length / field.drive.period
-    return Tolerance(rtol, 1e-2 * rtol * TINY_ALPHA**2 * unit)
+    return Tolerance(rtol, SMALLEST * rtol * TINY_ALPHA**2 * unit)
 
 
 def tiny(contact: Contact) -> Contact:

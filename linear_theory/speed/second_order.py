@@ -33,6 +33,7 @@ from numpy.typing import NDArray
 from linear_theory.balance.course import Course
 from linear_theory.balance.period import Period
 from linear_theory.common import validation
+from linear_theory.common.errors import NotConvergedError
 from linear_theory.common.shown import Shown, with_error
 from linear_theory.common.threads import one_blas_thread
 from linear_theory.common.tolerance import Tolerance
@@ -50,6 +51,7 @@ from linear_theory.scene.scene import Scene
 from linear_theory.sheet.rectangle import Sheet
 from linear_theory.speed.expansion import (
     POINTS,
+    SMALLEST,
     TINY_ALPHA,
     at_coupling,
     field_errors,
@@ -58,7 +60,7 @@ from linear_theory.speed.expansion import (
     leading_period,
 )
 from linear_theory.speed.plate.quadratic_form import NOTHING, QuadraticForm
-from linear_theory.speed.plate.speed import WORDS, mixed_coefficients, plate_speed
+from linear_theory.speed.plate.speed import FIELD_SHARES, WORDS, mixed_coefficients, plate_speed
 from linear_theory.speed.plate.terms import PlateTerms
 from linear_theory.speed.reach import judged, too_large_growth, too_large_rotation, too_large_term
 from linear_theory.speed.result import CrawlSpeed, Estimate, RigidSpeed
@@ -82,6 +84,7 @@ class _Orders(NamedTuple):
     mixed: Estimate = NOTHING
     bending: Estimate = NOTHING
     lift_off: tuple[float, float] = (-math.inf, math.inf)
+    converged: bool = False
 
 
 class SecondOrder(Shown, _Orders):
@@ -97,24 +100,31 @@ class SecondOrder(Shown, _Orders):
     mixed, bending: V_ab and V_bb of a sheet that bends on its ground; lift_off: the curvature couplings
     at which it lifts off. `coefficients` has all four as estimates. V_ab and V_bb are NaN for friction
     on the lower face that is not viscous: V is then no quadratic form, see `crawl_speed`.
+    converged: whether the errors of all coefficients of second degree meet the tolerance. Where V_ab
+    and V_bb do not exist, and where a sheet sticks, they do not.
 
     >>> from linear_theory import Sheet, SineWave, second_order
     >>> found = second_order(Sheet(), SineWave(), rtol=1e-2)
-    >>> print(f"V = {found.first:.0f} alpha + {found.second:.2f} alpha^2, in L/T")
-    V = 0 alpha + 1.53 alpha^2, in L/T
+    >>> print(f"V = {found.first:.0f} alpha + {found.second:.2f} alpha^2, in L/T", found.converged)
+    V = 0 alpha + 1.53 alpha^2, in L/T True
     """
 
     def _title(self) -> str:
         first = with_error(self.first, self.first_error)
         second = with_error(self.second, self.second_error)
-        return f"SecondOrder: V = ({first}) alpha + ({second}) alpha^2, length/time"
+        return f"SecondOrder: V = ({first}) alpha + ({second}) alpha^2, length/time, {self.met}"
+
+    @property
+    def met(self) -> str:
+        """Whether the tolerance is met, in words."""
+        return "converged" if self.converged else "NOT converged"
 
     @property
     def coefficients(self) -> QuadraticForm:
         """V as a quadratic form of alpha and the curvature coupling beta."""
         first = Estimate(self.first, self.first_error)
         second = Estimate(self.second, self.second_error)
-        return QuadraticForm(first, second, self.mixed, self.bending, self.lift_off)
+        return QuadraticForm(first, second, self.mixed, self.bending, self.lift_off, self.converged)
 
     def rigid_mean(self, alpha: float) -> Array:
         """Means of V_x, V_y, Omega at a given alpha, (3,)."""
@@ -150,10 +160,12 @@ def second_order(
     its ratio to the speeds stays fixed as alpha -> 0. `crawl_speed(order=2, alpha=a, slip_speed=s)`
     takes a speed and uses s/|a| here. rtol: tolerance for `second`, whose error should be below
     max(rtol |second|, 0.01 rtol L/T); without mirror symmetry, for the norm of rigid_second (see
-    `rigid.RigidNorm`). A missed tolerance shows in the errors. The other coefficients are computed with
-    the same cells and times.
+    `rigid.RigidNorm`). V_ab and V_bb of a sheet on its ground: rtol times their own size, or that of
+    `PlateTerms.smallest`; their deformation is computed more accurately where that helps. `converged`
+    says whether all of these are met, which they are not on very stiff ground, (D/s)^(1/4) below some
+    0.005 L. The other coefficients are computed with the same cells and times.
 
-    Raises ValueError for bad input.
+    Raises ValueError for bad input, and NotConvergedError where rtol needs more memory than there is.
 
     >>> from linear_theory import Sheet, SineWave, second_order
     >>> for growth_law in ("exp", "metric"):
@@ -174,24 +186,49 @@ def second_order(
     if not scene.planar:
         return _of_plate(scene, contact, rtol, start)
     field = second_order_field(scene.sheet, scene.wave, scene.growth, field_tolerance(rtol))
-    return coefficients(field, leading_period(field, contact, rtol), contact, start)
+    return coefficients(field, leading_period(field, contact, rtol), contact, start, rtol)
+
+
+class _OfFields(NamedTuple):
+    """Coefficients, and the largest of their errors over what the tolerance allows."""
+
+    found: SecondOrder
+    missed: float
 
 
 def _of_plate(scene: Scene, contact: Contact, rtol: float, start: float) -> SecondOrder:
-    """All coefficients of a bending scene; contact: with a friction law per unit alpha."""
-    terms = PlateTerms.of(scene, rtol)
+    """All coefficients of a bending scene; contact: with a friction law per unit alpha.
+
+    Once more with finer fields if these can meet the tolerance, within the memory.
+    """
+    first = _with_fields(scene, contact, rtol, 1.0)
+    found, missed = first
+    if 1 < missed < 1 / FIELD_SHARES[-1]:
+        share = max(FIELD_SHARES[1] / missed, FIELD_SHARES[-1])
+        try:
+            finer = _with_fields(scene, contact, rtol, share)
+        except NotConvergedError:  # the errors of the first say what is missed
+            finer = first
+        found, missed = min(first, finer, key=lambda one: one.missed)
+    model = model_words(WORDS, scene.growth, contact)
+    seconds = time.perf_counter() - start
+    return found._replace(seconds=seconds, model=model, converged=found.converged and missed <= 1)
+
+
+def _with_fields(scene: Scene, contact: Contact, rtol: float, share: float) -> _OfFields:
+    """All coefficients with fields to a share of the tolerance."""
+    terms = PlateTerms.of(scene, max(share * rtol, validation.SMALLEST_RTOL))
     contact = replace(contact, load=terms.plate.foundation.load)
     period = leading_period(terms.plane, contact, rtol)
-    found = coefficients(terms.plane, period, contact, start)
+    found = coefficients(terms.plane, period, contact, 0.0, rtol)
     second, fastest = Estimate(found.second, found.second_error), period.fastest / TINY_ALPHA
-    mixed, bending = mixed_coefficients(terms, second, fastest, contact, rtol)
-    return found._replace(
-        mixed=mixed,
-        bending=bending,
-        lift_off=terms.lift_off,
-        seconds=time.perf_counter() - start,
-        model=model_words(WORDS, scene.growth, contact),
-    )
+    both = mixed_coefficients(terms, second, fastest, contact, rtol)
+    sizes = (max(abs(one.value), size) for one, size in zip(both, terms.smallest, strict=True))
+    missed = [
+        one.error / (rtol * size) if one.error else 0.0 for one, size in zip(both, sizes, strict=True)
+    ]
+    found = found._replace(mixed=both[0], bending=both[1], lift_off=terms.lift_off)
+    return _OfFields(found, math.inf if any(map(math.isnan, missed)) else max(missed))
 
 
 def _per_alpha(scene: Scene) -> Contact:
@@ -208,13 +245,15 @@ def _per_alpha(scene: Scene) -> Contact:
 
 
 def coefficients(
-    field: SecondOrderField, period: Period, contact: Contact, start: float
+    field: SecondOrderField, period: Period, contact: Contact, start: float, rtol: float
 ) -> SecondOrder:
     """Means of q_0 and q_1 and their errors; start: time at which the computation began."""
     first, second = period.means
     first_error, second_error = period.mean_errors + field_errors(field, period, contact)
     if period.sticks:
         second, second_error = np.full(3, math.nan), np.full(3, math.inf)
+    norm = RigidNorm(field.gyration, field.mirrored and contact.friction.mirrored)
+    smallest = SMALLEST * field.sheet.length / field.drive.period
     return SecondOrder(
         first=float(first[1]),
         second=float(second[1]),
@@ -226,6 +265,7 @@ def coefficients(
         rigid_second=second,
         rigid_first_error=first_error,
         rigid_second_error=second_error,
+        converged=norm.meets(second, second_error, Tolerance(rtol, rtol * smallest)),
     )
 
 
@@ -255,7 +295,7 @@ def plane_motion(scene: Scene, tolerance: Tolerance) -> PlaneMotion:
     coupling = 0.0 if law.reversible else alpha
     motion = leading_motion(field, per_alpha, rtol, coupling)
     period = motion.period()
-    both = coefficients(field, period, contact, start)
+    both = coefficients(field, period, contact, start, rtol)
     turning = at_coupling(alpha, period)
     if not coupling:
         turning = replace(turning, mean=both.rigid_mean(alpha), error=both.rigid_error(alpha))

@@ -78,7 +78,7 @@ def quantile() -> Step:
 
 
 def directional_sine() -> Step:
-    """External result 3, with its series."""
+    """A sine under friction with a direction, with its series."""
     stated = THETA - ALPHA * sp.cos(THETA) - sp.pi / 2 * R
     prove("balance", on_plate.directional_sine(), stated)
     r = sp.Symbol("r", real=True)
@@ -89,8 +89,8 @@ def directional_sine() -> Step:
         "The arcs of E2 with $mu_f$ where $sin phi < sin theta$ and $mu_b$ elsewhere, over "
         "$2 (mu_f + mu_b)$; $r = (mu_b - mu_f)\\/(mu_b + mu_f)$:",
         (
-            "theta - alpha cos theta = frac(pi, 2) r, quad n T V = alpha sin theta = "
-            "alpha sin frac(pi r, 2) + alpha^2 cos^2 frac(pi r, 2) + dots.c",
+            "theta - alpha cos theta = frac(pi, 2) r",
+            "n T V = alpha sin theta = alpha sin frac(pi r, 2) + alpha^2 cos^2 frac(pi r, 2) + dots.c",
         ),
     )
 

@@ -33,6 +33,7 @@ RESULTS = {  # what the user does not make, and the function that makes it in th
     "Estimate": "crawl_speed",
     "NotConvergedError": "ritz_field",
     "PlaneStressField": "plane_stress_field",
+    "PowerGradient": "power_gradient",
     "Prediction": "predict",
     "RitzField": "ritz_field",
     "SecondOrder": "second_order",

@@ -259,6 +259,14 @@ def evaluated(expression: str) -> str:
         ("fixed(0.07, 1)", "0.1"),
         ("fixed(114.0, 0)", "114"),
         ("fixed(99.996, 2)", "100.00"),
+        ("published(1.622, 0.0005)", "1.622"),
+        ("published(39.73, 0.005)", "39.73"),
+        ("published(1.0, 0.5)", "1"),
+        ("published(0.75, 0)", "0.750000"),
+        ("computed(5.625, 0.03125)", "5.63"),
+        ("computed(4.550964, 0.01343)", "4.551"),
+        ("computed(0.0938, 0.0477)", "0.09"),
+        ("computed(0.2519089, 1e-14)", "0.251909"),
     ],
 )
 def test_digits(expression, text):

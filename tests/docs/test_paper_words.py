@@ -3,12 +3,19 @@
 import numpy as np
 import pytest
 
+from figures.common.folders import DATA
 from figures.draw.gait_statements import statements
 from figures.measure import excitable as excitable_table
 from figures.measure import saddle as saddle_table
+from figures.measure import second_order as second_table
+from figures.measure.cost.tables import Point
+from figures.measure.cost.tables import read as read_points
 from figures.measure.energy import gaits as energy_table
 from figures.measure.optimise import line as best_table
+from figures.measure.optimise import outlines as outline_table
 from figures.measure.paper import gait_map
+from figures.measure.paper import terrain as terrain_table
+from figures.measure.peers.command import TABLE as PEERS
 from figures.measure.plate import lower_face as face_table
 from tests.docs.test_paper import stored
 
@@ -107,3 +114,55 @@ def test_the_best_waves_lie_below_their_bound():
         half = row.harmonics // 2
         assert row.bound == pytest.approx(half / (half + 1), rel=1e-4)
         assert row.best < row.reached <= row.bound
+
+
+def test_words_on_best_outlines():
+    """Only that of viscous friction is certified; the rectangle is the best trapezoid for a sine."""
+    rows = outline_table.TABLE.read()
+    general = [r for r in rows if r.coefficients == outline_table.GENERAL]
+    assert [r.friction for r in general if r.left < 0.1] == ["viscous"]
+    assert all(r.best > r.rectangle and r.sheet_best > r.sheet_rectangle for r in general)
+    trapezoids = [r for r in rows if r.coefficients == 1]
+    assert trapezoids
+    assert all(r.best - r.rectangle < r.error for r in trapezoids)
+
+
+def test_words_on_other_programs():
+    """MuJoCo does not converge with its mesh, and Newton still moves at the end."""
+    strips = [r for r in PEERS.read() if r.problem == "strip"]
+    errors = [r.error for r in strips if r.code == "MuJoCo flex"]
+    assert errors[-1] > 5 * min(errors)
+    assert min(r.drift for r in strips if r.code == "Newton VBD") > 1e-3
+    assert max(r.drift for r in strips if r.code == "sheetcrawl") < 1e-6
+
+
+def test_words_of_the_summary():
+    """A stiff ground changes V_ab; kept weight goes against the wave by two growth laws of three."""
+    mixed = {
+        r.place: r.theory_ab for r in saddle_table.TABLE.read() if (r.wave, r.law) == ("sine", "tanh")
+    }
+    assert mixed["stiff ground"] / mixed["paper"] > 1.5
+    signs = {
+        r.growth_law: np.sign(r.second)
+        for r in second_table.TABLE.read()
+        if (r.width, r.poisson, r.wave, r.area, r.load) == (0.5, 0.5, "sine", "grown", "material")
+    }
+    assert signs == {"exp": -1, "linear": -1, "metric": 1}
+    ground = [
+        r
+        for r in terrain_table.TABLE.read()
+        if (r.gait, r.form, r.friction) == ("forward", "cosine", "viscous")
+    ]
+    assert sum(abs(r.third) < r.error for r in ground) > len(ground) / 2
+
+
+def test_levels_left_out_of_the_table_of_times_are_slower_for_small_errors():
+    points = read_points(DATA / "cost.csv", Point)
+
+    def least(level, panel):
+        met = [p.seconds for p in points if (p.level, p.panel) == (level, panel) and p.error <= 1e-4]
+        return min(met, default=np.inf)
+
+    for panel in ("field", "linear speed"):
+        assert least("Airy, plain", panel) > least("Airy, with tail", panel)
+        assert least("FEM P2", panel) > least("FEM P4", panel)

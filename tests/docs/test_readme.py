@@ -14,7 +14,7 @@ from figures.draw import regimes
 from figures.measure import nonlinear
 from figures.measure import reach as reach_table
 from figures.measure import regimes as regimes_table
-from linear_theory import Sheet, SineWave, crawl_speed
+from linear_theory import Sheet, SineWave, __version__, crawl_speed
 
 ROOT = Path(__file__).parents[2]
 README, CONVENTIONS = ROOT / "README.md", ROOT / "docs" / "conventions.md"
@@ -37,6 +37,15 @@ def test_the_citation_is_that_of_the_metadata():
     text, cff = README.read_text(), (ROOT / "CITATION.cff").read_text()
     for found in (re.search(r"^version: (\S+)", cff, re.MULTILINE), re.search(r"doi: (\S+)", cff)):
         assert f"{{{found.group(1)}}}" in text
+
+
+def test_the_version_is_that_of_the_latest_release():
+    latest = re.search(r"^## \[(\d.*?)\] - (\S+)$", (ROOT / "CHANGELOG.md").read_text(), re.MULTILINE)
+    cff = (ROOT / "CITATION.cff").read_text()
+    assert latest
+    assert latest.group(1) == __version__
+    assert f"\nversion: {__version__}\n" in cff
+    assert f'\ndate-released: "{latest.group(2)}"\n' in cff
 
 
 def test_examples_print_what_is_printed():

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from fem_check import Outline, StrainFeedback
 from fem_check.choice.solving import solved
 from fem_check.choice.ways import way_of
-from fem_check.command.actions.scene_files import check
+from fem_check.command.actions.checking import check
 from fem_check.command.actions.scenes import answerable
 from fem_check.command.actions.speed import speed
 from fem_check.command.options import Options

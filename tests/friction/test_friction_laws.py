@@ -324,6 +324,7 @@ def test_the_effect_takes_a_slip_speed_or_a_law() -> None:
         ({"slip_speed": 0.1, "law": Tanh(0.1)}, r"slip_speed = 0\.1: must be None beside Tanh"),
         ({"law": Coulomb()}, r"law = Coulomb\(\): must have a derivative at rest.*use Tanh"),
         ({"law": "coulomb"}, r"law = Coulomb\(\): must have a derivative at rest"),
+        ({"law": "dry"}, r"law = Coulomb\(\): must have a derivative at rest"),  # as files say
         ({"law": "rubber"}, "law = 'rubber': must be one of"),
         ({"law": 0.1}, "law = 0.1: must be one of"),
     ],

@@ -28,8 +28,10 @@ from linear_theory.gradient import (
     WaveFamily,
     cost_gradient,
     elastic,
+    motion_gradient,
     parameter,
     parameters,
+    power_gradient,
     speed_gradient,
 )
 from linear_theory.gradient.leaves import gathered, local_coordinates
@@ -217,12 +219,27 @@ def test_second_order_in_alpha():
 
 
 @pytest.mark.parametrize("wave", [SineWave(), PULSE], ids=["sine", "pulse"])
-def test_cost_of_transport(wave):
+def test_power_and_cost_of_transport(wave):
     scene = Scene(Sheet(), wave, alpha=-0.2, contact=TANH)
     over = ["alpha", "sheet.width", "wave.sine.0"]
-    found = cost_gradient(scene, over, rtol=1e-4)
-    want, errors = differences(scene, over, lambda speed: speed.cost_of_transport, 1e-5, 4e-3)
-    assert np.all(abs(found.values - want) <= found.errors + errors + 2e-4 * abs(want))
+    found = motion_gradient(scene, over, rtol=1e-4)
+    speeds = {  # both numbers are of the same speeds
+        one.changed(scene, at).key(): crawl_speed(one.changed(scene, at), rtol=1e-5, method="ritz")
+        for one in parameters(over)
+        for at in (one.value(scene) + 4e-3, one.value(scene) - 4e-3)
+    }
+    for gradient, name in ((found.power, "power"), (found.cost, "cost_of_transport")):
+        for i, one in enumerate(gradient.parameters):
+            ends = [
+                getattr(speeds[one.changed(scene, one.value(scene) + step).key()], name)
+                for step in (4e-3, -4e-3)
+            ]
+            want = (ends[0].value - ends[1].value) / 8e-3
+            doubt = gradient.errors[i] + (ends[0].error + ends[1].error) / 8e-3 + 2e-4 * abs(want)
+            assert abs(gradient.values[i] - want) <= doubt, (name, one.name)
+    assert found.speed.values == pytest.approx(speed_gradient(scene, over, rtol=1e-4).values, rel=1e-9)
+    assert cost_gradient(scene, over, rtol=1e-4).values == pytest.approx(found.cost.values, rel=1e-9)
+    assert power_gradient(scene, over, rtol=1e-4).names == found.power.names
 
 
 @pytest.mark.parametrize(

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from figures.measure.optimise.one_arc import best_of_one_arc
-from linear_theory import Directional, Tanh, TravellingWave, line_balance
+from linear_theory import Directional, Tanh, TravellingWave, Viscous, line_balance
 from linear_theory.line.best.dry import dry_bound, nearly_square, size_of
 from linear_theory.line.best.gradient import line_gradient
 from linear_theory.line.best.viscous import best_viscous, viscous_speed
@@ -11,15 +11,16 @@ from linear_theory.optimisation.problem import Ball, Evaluation, Region
 from linear_theory.optimisation.search import Ascent, climb
 from linear_theory.optimisation.starts import starts
 
-LAWS = ("coulomb", "viscous", Tanh(0.004), Directional(0.5, 1.0))
+LAWS = ("coulomb", "viscous", Tanh(0.004), Directional(0.5, 1.0), Directional(0.5, 1.0, form=Viscous()))
 
 
-@pytest.mark.parametrize("trial", range(4))
+@pytest.mark.parametrize("trial", range(5))
 def test_gradient_on_a_line_is_that_of_differences(trial):
-    """Of every law, stretch, body and load on random waves: to what differences of V are worth."""
+    """Of speed and power, of every law, stretch, body and load on random waves: to what differences
+    are worth."""
     random = np.random.default_rng(trial)
     n = int(random.integers(2, 5))
-    law, growth = LAWS[trial % 4], ("exp", "linear", "metric")[trial % 3]
+    law, growth = LAWS[trial], ("exp", "linear", "metric")[trial % 3]
     body, count = ("line", "strip")[trial % 2], int(random.choice([1, -2]))
     alpha, length = float(random.choice([0.1, -0.08])), random.uniform(0.5, 2)
     steep = np.tile(np.arange(1.0, n + 1), 2)
@@ -28,15 +29,29 @@ def test_gradient_on_a_line_is_that_of_differences(trial):
     def made(v):
         return TravellingWave(v[:n], v[n : 2 * n], count, v[-1], v[-3]), v[-2]
 
-    def speed(v):
-        return line_balance(*made(v), friction=law, growth_law=growth, body=body, length=length).mean
+    def motion(v):
+        speed = line_balance(*made(v), friction=law, growth_law=growth, body=body, length=length)
+        return np.array([speed.mean, speed.power.value])
 
     found = line_gradient(*made(at), friction=law, growth_law=growth, body=body, length=length)
-    got = np.array([*found.cosine, *found.sine, found.mean, found.alpha, found.period])
+    got = np.array(
+        [[*one.cosine, *one.sine, one.mean, one.alpha, one.period] for one in (found, found.power)]
+    )
     steps = 1e-6 * np.eye(at.size)
-    expected = np.array([(speed(at + h) - speed(at - h)) / 2e-6 for h in steps])
-    np.testing.assert_allclose(got, expected, atol=2e-8 * abs(expected).max())
+    expected = np.array([(motion(at + h) - motion(at - h)) / 2e-6 for h in steps]).T
+    for ours, theirs in zip(got, expected, strict=True):
+        np.testing.assert_allclose(ours, theirs, atol=2e-8 * abs(theirs).max())
     assert found.kink == ""
+
+
+def test_the_power_of_friction_with_a_direction_is_known_to_its_error():
+    """Its force has a corner at rest, between any points of a rule: the mean over very many phases."""
+    wave, law = TravellingWave([1.0, 0.4], [0.3, -0.2], mean=0.1), Directional(0.5, 1.0, form=Viscous())
+    found = line_balance(wave, 0.1, friction=law)
+    stretch = 1 + 0.1 * wave.value(0.0, (np.arange(400_000) + 0.5) / 400_000, np.zeros(1)).ravel()
+    slip = found.mean - (stretch - stretch.mean())
+    literal = float((stretch * law.dissipation(slip[None])).mean())
+    assert abs(found.power.value - literal) <= found.power.error + 1e-13
 
 
 def test_a_kink_is_said():

@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 
 from linear_theory.deformation.airy import special
+from linear_theory.deformation.airy.dilogarithm import dilogarithm
 
 mp.mp.dps = 50
 
@@ -46,3 +47,14 @@ def quartic_sum(b, start):
 def test_inverse_quartic_sum(b, start, bound):
     value = special.inverse_quartic_sum(np.array([b]), np.array([start]))[0]
     assert relative(value, quartic_sum(b, start)) < bound
+
+
+def test_dilogarithm_in_the_half_plane_and_at_its_corners():
+    random = np.random.default_rng(4)
+    size, turn = 10 ** random.uniform(-9, 1.3, 30), random.uniform(-np.pi, np.pi, 30)
+    corners = [1e-300 + 1e-300j, 1e-300 + 1j * np.pi, 1j * np.pi / 3, np.log(2), 40.0]
+    z = np.concatenate([size + 1j * turn, size * np.exp(1j * turn / 2), corners])
+    z = z[abs(z.imag) <= np.pi]
+    found = dilogarithm(z, -np.expm1(-z))
+    exact = [complex(mp.polylog(2, mp.exp(-mp.mpc(one)))) for one in z]
+    assert abs(found - exact).max() < 1e-15

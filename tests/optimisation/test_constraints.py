@@ -8,6 +8,7 @@ import pytest
 from scipy.optimize import brentq, minimize_scalar
 
 from fem_check import Bound, Robust, Scene, optimise
+from fem_check.optimisation import adjoint, values
 from fem_check.optimisation.finding import NothingFound
 from fem_check.optimisation.kept import KeptError
 from fem_check.optimisation.options.quantities import QUANTITIES
@@ -239,13 +240,32 @@ def test_a_search_with_constraints_and_regimes_goes_on_from_its_file(tmp_path):
     assert [path.name for path in tmp_path.iterdir()] == ["a.jsonl"]
 
 
-def test_limits_by_an_adjoint_agree_with_a_search_along_the_power():
-    """A sheet under tanh friction: at the bound of its power, found by bisection of other answers."""
+def test_limits_by_an_adjoint_agree_with_a_search_along_the_power(monkeypatch):
+    """A sheet under tanh friction: at the bound of its power, found by bisection of other answers.
+
+    Objective and limit are of one solve at a point, whole answers of the start and of the end alone.
+    """
+    solves = {"adjoint": 0, "answer": 0}
+
+    def counted(name, function):
+        def call(*given, **named):
+            solves[name] += 1
+            return function(*given, **named)
+
+        return call
+
+    way = adjoint.WAYS["first order"]
+    counting = way._replace(motion=counted("adjoint", way.motion))
+    monkeypatch.setattr(adjoint, "WAYS", {"first order": counting})
+    monkeypatch.setattr(values, "solve", counted("answer", values.solve))
     contact = Contact("current", Tanh(0.05))
     scene = Scene(Sheet(), SineWave(), alpha=0.1, contact=contact)
     asked = {**ASKED, "level": "first order", "rtol": 1e-2}
     found = optimise(scene, ALPHA, constraints={"power": Bound(at_most=0.05)}, **asked)
     (limit,) = found.limits
+    assert solves["adjoint"] <= found.answers / 2 + 2
+    assert solves["adjoint"] <= 20
+    assert solves["answer"] <= 4
 
     def power(alpha):
         law = {"friction": "tanh", "slip_speed": 0.05}

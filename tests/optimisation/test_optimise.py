@@ -2,6 +2,7 @@
 
 import json
 import math
+import re
 
 import numpy as np
 import pytest
@@ -183,6 +184,7 @@ def test_a_search_that_is_stopped_goes_on(tmp_path):
     kept = len(file.read_text().splitlines()) - 1
     assert kept > 3
     assert heard[0].task.startswith("start 1 of 2, ")
+    assert re.fullmatch(r"start 1 of 2, \d+ answers, speed \S+ length/time now", heard[-1].task)
     with file.open("a") as end:
         end.write('{"key": "cut off')
     again = optimise(scene, over, **asked, file=file)
@@ -289,3 +291,14 @@ def test_errors_below_0_and_seeds_below_0_are_refused():
         optimise(scene, {"growth.alpha": (0.05, 0.4)}, lambda s: Estimate(s.mean, -1.0), **asked)
     with pytest.raises(ValueError, match=r"seed = -1: must be .*>= 0"):
         optimise(scene, {"growth.alpha": (0.05, 0.4)}, seed=-1, **asked)
+
+
+def test_a_best_scene_that_does_not_move_is_told_as_such():
+    """The sine goes towards +y whatever the sign of its growth."""
+    scene = Scene(Sheet(width=0.1), SineWave(), alpha=0.1)
+    options = {"level": "strip", "starts": 1, "check": False}
+    found = optimise(scene, {"growth.alpha": (0.0, 0.2)}, "speed towards -y", **options)
+    assert (found.value.value, found.scene.alpha) == (0.0, 0.0)
+    assert "at rest   the best scene does not grow, and so does not move" in str(found)
+    with pytest.raises(ValueError, match=r"growth.alpha = 0: must not be 0, or be among what may"):
+        optimise(scene.but(alpha=0.0), {"wave.period": (1.0, 2.0)}, **options)

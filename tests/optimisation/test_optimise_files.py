@@ -1,5 +1,6 @@
 """Optimisation files and their command: what is printed, kept, refused, and by which status."""
 
+import math
 import re
 
 import pytest
@@ -52,7 +53,8 @@ def test_a_file_is_answered_kept_and_written(place, capsys):
     status, out, _ = run(capsys, "optimise", "one.toml")
     assert status == 0
     assert ", 0 answers" in out
-    assert run(capsys, "new", "optimise")[0] == 0
+    assert "next: sheetcrawl check optimise.toml" in run(capsys, "new", "optimise")[1]
+    assert run(capsys, "check", "optimise.toml")[0] == 0
     assert read("optimise.toml").unknowns.names[0] == "growth.alpha"
 
 
@@ -71,6 +73,8 @@ def test_the_best_scene_is_not_written_over_the_question(place, capsys):
 
 
 CHECK = "check = false\n"
+GROWS = FILE[FILE.index("alpha = 0.1") : FILE.index("[optimise]")]
+STILL = "alpha = 0\n" + GROWS[GROWS.index("[over]") : GROWS.index("growth.alpha")]
 
 
 def bounds(words):
@@ -98,6 +102,9 @@ def robust(words):
         ("growth.alpha", "growth.law", "one.toml:11: [over] growth.law: lower bound 0.05: must be"),
         ("growth.alpha", "run.rtol", "one.toml:11: [over] run.rtol: says how a scene is answered"),
         ('"strip"', '"stirp"', "did you mean 'strip'?"),
+        ("growth.alpha", "wave.cosine.0", "[over] wave.cosine.0: amplitudes change together, as"),
+        ("starts = 1", f"seed = {2**53 + 1}", f"one.toml:14: [optimise] seed = {2**53 + 1}: must be"),
+        (GROWS, STILL, "one.toml:8: [scene.growth] alpha = 0: must not be 0, or be among what may"),
         ("starts = 1", 'rtol = "120 %"', "one.toml:14: [optimise] rtol = 1.2: must be in"),
         (CHECK, bounds("power = { at_most = '1 kg' }"), "one.toml:17: [constraints] power: at_most"),
         (CHECK, bounds("powr = { at_most = 1 }"), "one.toml:17: [constraints] 'powr': must be one of"),
@@ -115,6 +122,7 @@ def test_mistakes_are_told_with_their_line(place, capsys, old, new, words):
     status, out, err = run(capsys, "optimise", "one.toml")
     assert (status, out) == (2, "")
     assert words in err, err
+    assert run(capsys, "check", "one.toml") == (2, "", err)
     assert not (place / "one.answers.jsonl").exists()
 
 
@@ -137,9 +145,35 @@ def test_a_file_with_constraints_and_regimes(place, capsys):
     status, out, err = run(capsys, "optimise", "two.toml")
     assert (status, err) == (0, "")
     said = " ".join(out.split())
-    assert "held by power <= 0.5 with friction.law = dry, friction.law = viscous" in said
-    assert "power <= 0.5 with friction.law = dry: 0.5 mm/s (moving the bound brings 0.48" in said
+    assert "held by power <= 0.5 mm/s with friction.law = dry, friction.law = viscous" in said
+    assert "power <= 0.5 mm/s with friction.law = dry: 0.5 mm/s (moving the bound brings 0.48" in said
     assert "the value above is the worst of 2" in said
+
+
+def test_check_says_how_the_scene_stands_to_its_limits(place, capsys):
+    """The stretch of a sine is exp(alpha) at its crest, its speed far below 1 mm/s."""
+    limits = "stretch = { at_most = 1.1 }\nspeed = { at_most = '1 mm/s' }\n"
+    limits += "sum = { at_most = 0.2, of = { growth.alpha = 1 } }"
+    (place / "one.toml").write_text(FILE.replace(CHECK, bounds(limits)))
+    status, out, err = run(capsys, "check", "one.toml")
+    assert (status, err) == (0, "")
+    said = " ".join(out.split())
+    assert said.startswith("one.toml is an optimisation sheet 40 × 4 ×")
+    assert "over sheet.width from 2 to 4 mm, growth.alpha from 0.05 to 0.1" in said
+    assert f"stretch <= 1.1: {math.exp(0.1):.4f}" in said
+    assert "as given, beyond it: the search first moves within it" in said
+    assert re.search(r"speed <= 1 mm/s: 0\.0\d+ mm/s as given answer strip", said)
+    assert "limits sum <= 0.2: kept to as given; stretch" in said
+    assert "next sheetcrawl optimise one.toml" in said
+    assert not (place / "one.answers.jsonl").exists()
+
+
+def test_check_knows_sweeps(place, capsys):
+    over = FILE[: FILE.index("[over]")] + "[over]\ngrowth.alpha = [0.05, 0.1]\n"
+    (place / "many.toml").write_text(over)
+    status, out, _ = run(capsys, "check", "many.toml")
+    assert status == 0
+    assert "2 scenes over growth.alpha" in out
 
 
 def test_a_scene_that_is_the_file_itself(place, capsys):

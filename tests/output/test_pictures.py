@@ -119,12 +119,14 @@ def test_a_colour_bar_fits_beside_axes_of_the_caller(theory):
     edge = right.get_position().x0
     for ax in (left, right):
         theory.plot("friction", ax=ax)
-    fig, width = left.figure, left.get_position().width
-    fig.draw_without_rendering()
+    fig = left.figure
+    fig.draw_without_rendering()  # which places them
+    width = left.get_position().width
     for ax, end in ((left, edge), (right, 1.0)):
         assert ax.child_axes[0].get_tightbbox().x1 < end * fig.bbox.width
     left.clear()
     theory.plot("friction", ax=left)
+    fig.draw_without_rendering()
     assert left.get_position().width == width
 
 

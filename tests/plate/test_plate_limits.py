@@ -21,7 +21,16 @@ from skfem.helpers import dd, trace
 
 from fem_check import Bending, Friction, Gravity, Ground, Material, Membrane
 from figures.draw.saddle import limits
-from linear_theory import Scene, Sheet, SineWave, Tanh, Viscous, airy_series, second_order
+from linear_theory import (
+    OnLowerFace,
+    Scene,
+    Sheet,
+    SineWave,
+    Tanh,
+    Viscous,
+    airy_series,
+    second_order,
+)
 from linear_theory.deformation.plate import Foundation, plate_field
 from linear_theory.speed.plate.quadratic_form import QuadraticForm
 from tests.plate.reference_strip import K, Strip
@@ -218,3 +227,38 @@ def test_ground_on_which_pressure_counts_most() -> None:
     layers = (0.05, limits.STRONGEST, 0.07)
     found = [abs(form(SHEET, RIGIDITY / layer**4).alpha_beta.value) for layer in layers]
     assert found[1] > max(found[0], found[2], 1.8 * abs(limits.STIFF_LIMIT))
+
+
+# ---- what the tolerance says
+
+
+@pytest.mark.parametrize("layer", [0.1, 0.01])
+def test_coefficients_that_meet_the_tolerance(layer: float) -> None:
+    """Those of a strip without width confirm it."""
+    sheet, rtol = Sheet(width=0.004, poisson=0.0, thickness=0.01), 1e-2
+    spring = sheet.thickness**3 / 12 / layer**4
+    found, mixed = form(sheet, spring, rtol=rtol), strip_of(sheet, spring).mixed()
+    assert found.converged
+    assert found.alpha_beta.error <= rtol * abs(mixed)
+    assert abs(found.alpha_beta.value - mixed) <= found.alpha_beta.error
+
+
+def test_coefficients_that_miss_the_tolerance_say_so() -> None:
+    """On stiff ground pressure is in layers at the edges, and V_ab a small mean of it."""
+    sheet, rtol = Sheet(width=0.2), 1e-2
+    spring = Material(sheet.thickness, sheet.poisson).bending / 0.004**4
+    found = form(sheet, spring, rtol=rtol)
+    assert found.alpha_beta.error > 2 * rtol * abs(found.alpha_beta.value)
+    assert not found.converged
+    assert found.to_dict()["converged"] is False
+    assert "converged    False" in repr(found)
+
+
+def test_converged_of_planar_and_of_unknown_coefficients() -> None:
+    planar = second_order(Sheet(), SINE, rtol=1e-2)
+    assert planar.converged
+    assert planar.coefficients.converged
+    assert "converged" in repr(planar).splitlines()[0]
+    face = form(Sheet(), 0.02, law=OnLowerFace(Tanh(0.3)), rtol=0.1)
+    assert math.isnan(face.alpha_beta.value)
+    assert not face.converged

@@ -17,7 +17,7 @@ from figures.common.output import replacing
 from figures.measure import gaits_checked
 from figures.measure.energy import errors as energy_errors
 from figures.measure.gradient import table as gradients
-from tests.robust.trials import table
+from tests.robust.trials import settings, table
 
 ROOT = Path(__file__).parents[2]
 PAGE = ROOT / "docs" / "reliability.md"
@@ -52,9 +52,22 @@ ENTRANCES = {
     ),
 }
 
+WORDS = {
+    "command": "`sheetcrawl speed` with one to five random options, right and wrong",
+    "damaged": "`sheetcrawl check` of a scene file with one to three lines dropped, doubled, cut, "
+    "or with strange values and bytes",
+    "kept": "a kept file (answers of `optimise`, a sweep, a snapshot, motion or result of a run) "
+    "with bytes flipped, overwritten, removed or cut off, or another digit",
+}
+
+KILLS = "sweep killed at a random instant and gone on with ([more](sweeps.md))"
+
 WIDTH = 104
 
 HEAD = """# Reliability in figures
+
+How often the program was asked something at random, and how often it was wrong: stated errors below the
+true ones, damaged files, bad command lines, kills.
 
 Made by `python -m tests.robust.reliability_page`. An error is *understated* if the true one is larger
 than the stated one and that of the better answer together.
@@ -69,12 +82,29 @@ each family. Shares: the true error over the stated one; seconds with those of t
 | --- | --- | --- | --- | --- | --- | --- | --- | --- |
 """
 
+REST = """## Everything else
+
+*Wrong* is anything but the right answer, bit for bit, or a refusal that says what is wrong, with status
+1 or 2: a traceback, a damaged number that is believed, something lost. Seconds: of the slowest.
+
+| what | tried | wrong | seconds |
+| --- | --- | --- | --- |
+"""
+
+SETTINGS = """## Threads, processes, a busy machine
+
+`python -m tests.robust.trials.settings` asks {asked} of the random questions one after the other,
+and again in other circumstances; all answers and errors must have the same bits.
+
+| setting | asked | other bits |
+| --- | --- | --- |
+"""
+
 TAIL = """## Elsewhere
 
-Named cases at the edges of what is allowed, with their references: [hard cases](hard_cases.md). The
-suite runs the same questions in four threads at once, in processes that are spawned, with any number
-of BLAS threads and beside damaged snapshots, runs and records; they must agree bit for bit, or be
-refused.
+Named cases at the edges of what is allowed, with their references: [hard cases](hard_cases.md).
+Numbers of others: [validation](validation.md). A run that is stepped in time goes on bit for bit from
+its last snapshot, which the suite tests by killing it.
 """
 
 
@@ -126,76 +156,53 @@ def others() -> list[str]:
     ]
 
 
-def refusals(rows: Sequence[table.Row]) -> str:
-    """What the program did with random words and damaged files."""
-    words = [row for row in rows if row.family == "command"]
-    files = [row for row in rows if row.family == "damaged"]
-    bad = [sum(row.ratio > 0 for row in own) for own in (words, files)]
-    slowest = [max(row.seconds for row in own) for own in (words, files)]
-    return "\n".join(
-        [
-            told(
-                f"* `sheetcrawl speed` under {len(words)} random lines of one to five options, "
-                f"right and "
-                f"wrong: {bad[0]} ended with anything but an answer that is JSON and says whether "
-                f"it met its "
-                f"tolerance, or a refusal of status 1 or 2; the slowest took {slowest[0]:.1f} s."
-            ),
-            told(
-                f"* `sheetcrawl check` of {len(files)} scene files with one to three lines dropped, "
-                f"doubled, "
-                f"cut, or with strange values and bytes in them: {bad[1]} ended with anything but a "
-                f"scene, "
-                f"or a refusal that says what is wrong; the slowest took {slowest[1]:.1f} s."
-            ),
-            "",
-        ]
-    )
+def rest(rows: Sequence[table.Row]) -> list[str]:
+    """Lines on command lines, files and kills."""
+    lines = []
+    for family, what in WORDS.items():
+        own = [row for row in rows if row.family == family]
+        wrong, slowest = sum(row.ratio > 0 for row in own), max(row.seconds for row in own)
+        lines.append(f"| {what} | {len(own)} | {wrong} | {slowest:.1f} |")
+    killed = json.loads((ROOT / "docs" / "sweeps.json").read_text())["kills"]
+    wrong = sum(not one["fine"] for one in killed)
+    lines.append(f"| {KILLS} | {len(killed)} | {wrong} | |")
+    return lines
+
+
+def in_settings() -> str:
+    """The same questions in other circumstances."""
+    rows = settings.TABLE.read()
+    lines = (f"| {row.setting} | {row.asked} | {row.different} |" for row in rows)
+    return SETTINGS.format(asked=rows[0].asked) + "\n".join(lines) + "\n"
 
 
 def told(text: str) -> str:
-    """A paragraph, or an item of a list, in lines."""
-    return textwrap.fill(
-        text,
-        WIDTH,
-        subsequent_indent="  " * text.startswith("*"),
-        break_long_words=False,
-        break_on_hyphens=False,
-    )
+    """A paragraph in lines."""
+    return textwrap.fill(text, WIDTH, break_long_words=False, break_on_hyphens=False)
 
 
-def kills() -> str:
-    """What sweeps survived."""
-    found = json.loads((ROOT / "docs" / "sweeps.json").read_text())["kills"]
-    fine = sum(one["fine"] for one in found)
+def summary(rows: Sequence[table.Row]) -> str:
+    """How many questions, answers and understated errors."""
+    asked = [row for row in rows if row.family in ENTRANCES]
+    known = [row for row in asked if not row.refused]
+    wrong, memory = sum(row.ratio > 1 for row in known), max(row.memory for row in rows)
     return told(
-        f"Sweeps were killed by SIGKILL at a random instant {len(found)} times and gone on with: "
-        f"{fine} "
-        "times nothing was lost, twice there, or different in any bit ([more](sweeps.md)). A run "
-        "that is "
-        "stepped in time goes on bit for bit from its last snapshot, which the suite tests by "
-        "killing it."
+        f"Of {len(asked)} questions drawn here {len(known)} were answered, {wrong} of them with an "
+        "understated error; the others were refused, with a reason. No process that asked them "
+        f"needed more than {memory:.0f} MB."
     )
 
 
 def page(rows: Sequence[table.Row]) -> str:
     """The whole page."""
-    asked = [row for row in rows if row.family in ENTRANCES]
-    known = [row for row in asked if not row.refused]
-    wrong = sum(row.ratio > 1 for row in known)
-    said = told(
-        f"Of {len(asked)} questions drawn here {len(known)} were answered, {wrong} of them with an "
-        "understated error; the others were refused, with a reason. The process that asked them "
-        "needed at most "
-        f"{max(row.memory for row in rows):.0f} MB."
-    )
     lines = "\n".join([*answers(rows), *others()])
+    more = "\n".join(rest(rows))
     return "\n".join(
         [
             f"{HEAD.format(seed=table.SEED)}{lines}\n",
-            f"{said}\n",
-            f"## Command lines and files\n\n{refusals(rows)}",
-            f"## Kills\n\n{kills()}\n",
+            f"{summary(rows)}\n",
+            f"{REST}{more}\n",
+            in_settings(),
             TAIL,
         ]
     )

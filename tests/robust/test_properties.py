@@ -6,9 +6,12 @@ not return NaN, claim more than it has, raise anything else, or go on without bo
 """
 
 import math
+import sys
+import types
 import warnings
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -270,6 +273,28 @@ def test_any_scene_steps_or_says_why_not(
     if speed is not None:
         # steps of an eighth do not claim what they have not
         assert speed.error > 0
+
+
+def test_examples_are_the_same_whatever_modules_are_loaded(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def drawn() -> list[str]:
+        found = []
+
+        @examples(120)
+        @given(st.floats())
+        def example(number: float) -> None:
+            found.append(repr(number))
+
+        example()
+        return found
+
+    before = drawn()
+    other = types.ModuleType("numbers_of_the_project")
+    other.__file__ = str(tmp_path / "numbers_of_the_project.py")
+    Path(other.__file__).write_text(f"A = {[k + 0.3217 for k in range(50)]}")
+    monkeypatch.setitem(sys.modules, other.__name__, other)
+    assert drawn() == before
 
 
 ODD = st.one_of(

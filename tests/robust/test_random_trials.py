@@ -19,6 +19,7 @@ COUNTS = {
     "prediction": 2,
     "command": 20,
     "damaged": 20,
+    "kept": 25,
 }
 """So that all take some 20 s; thousands are in the table of `trials.table`, of the same seed."""
 
@@ -34,7 +35,7 @@ def test_no_error_is_understated(family: str, number: int) -> None:
 @pytest.mark.parametrize("family", FAMILIES)
 def test_trials_are_questions_that_can_fail(family: str) -> None:
     """Most are answered, and the errors compared are not 0."""
-    if family in ("command", "damaged"):
+    if family in ("command", "damaged", "kept"):
         return
     found = [outcome(family, SEED, number) for number in range(min(COUNTS[family], 3))]
     assert sum(one.true > 0 for one in found) > len(found) / 2

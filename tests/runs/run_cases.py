@@ -1,6 +1,7 @@
 """Scenes that are run to folders in a moment."""
 
 from collections.abc import Iterator
+from pathlib import Path
 
 import pytest
 
@@ -16,6 +17,18 @@ def short_films() -> Iterator[None]:
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(pictures, "PER_PERIOD", FRAMES)
         yield
+
+
+def draw_nothing(patch: pytest.MonkeyPatch) -> None:
+    """Where pictures and films are not looked at: they are most of the work."""
+    patch.setattr("fem_check.runs.running.write_films", lambda *arguments: [])
+    patch.setattr("fem_check.runs.running.write_pictures", blank_pictures)
+
+
+def blank_pictures(recording: object, folder: Path, units: object) -> None:
+    """Files without a picture."""
+    for name in ("motion.png", "kymographs.png"):
+        (folder / name).touch()
 
 
 PLANE = """

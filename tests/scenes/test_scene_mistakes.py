@@ -64,8 +64,25 @@ REFUSED = {
     "amplitude": (
         '[wave]\nkind = "harmonics"\nsine = [1, "a"]',
         "3",
-        "[wave] sine[1] = 'a': must be a valid number",
+        "[wave] sine[1] = 'a': must be a number, not text",
     ),
+    "alpha in per cent": (
+        '[growth]\nalpha = "12 %"',
+        "2",
+        "must be a plain number, without a unit; growth of lengths at the crest is swelling = '12 %'",
+    ),
+    "number as text": ('[growth]\nalpha = "0.1"', "2", "alpha = '0.1': must be a number: write it"),
+    "count as text": ('[wave]\nmean = "x"', "2", "[wave] mean = 'x': must be a number, not text"),
+    "pulse of the command": ("[wave]\npulse = 0.2", "2", "a pulse is kind = 'pulse' with width = 0.2"),
+    "word of the command": ("[friction]\nfriction = 1", "2", "friction: is not a key; it is law here"),
+    "key of the paper": ("[friction]\nmu = 1", "2", "mu: is not a key; it is coefficient here"),
+    "travelling": (
+        '[wave]\nkind = "travelling"',
+        "2",
+        "'harmonics' or 'excitable'; every wave travels: 'sine', 'pulse', or 'harmonics' with lists",
+    ),
+    "poisson as text": ('[sheet]\npoisson = "0.3"', "2", "must be a number: write it without quotes"),
+    "Coulomb": ('[friction]\nlaw = "coulomb"', "2", "or 'viscous'; Coulomb's law is 'dry'"),
     "slope as angle": ('[gravity]\nweight = 1\nincline = "5 %"', "3", "= '5 %': is not an angle"),
     "angle as share": ('[run]\nrtol = "5 deg"', "2", "[run] rtol = '5 deg': is not a share"),
     "tolerance": ("[run]\nrtol = 2", "2", "[run] rtol = 2: must be in [1e-13, 1)"),
@@ -100,9 +117,9 @@ REFUSED = {
     "two outlines": (
         '[outline]\nshape = "ellipse"\nmesh = "a.msh"',
         "1",
-        "[outline] shape and mesh: one of shape, corners, mesh, vertices must be given",
+        "[outline] shape and mesh: only one of shape, corners, mesh, vertices may be given",
     ),
-    "no outline": ("[outline]\nsize = 1", "1", "[outline] none: one of shape"),
+    "no outline": ("[outline]\nsize = 1", "1", "[outline] one of shape"),
     "trapezoid": ('[outline]\nshape = "trapezoid"', "1", "[outline] rear: must be given for shape"),
     "rear of an ellipse": (
         '[outline]\nshape = "ellipse"\nrear = 1',
@@ -153,8 +170,8 @@ def test_a_mistake_is_named_with_its_place(name: str) -> None:
 
 
 GROWTHS = {
-    "none": ("[growth]\n", "[growth] none: one of alpha, swelling, bilayer must be given"),
-    "two": ('[growth]\nalpha = 0.1\nswelling = "3 %"', "[growth] alpha and swelling: one of"),
+    "none": ("[growth]\n", "[growth] one of alpha, swelling, bilayer must be given"),
+    "two": ('[growth]\nalpha = 0.1\nswelling = "3 %"', "[growth] alpha and swelling: only one of"),
     "per cent": ("[growth]\nswelling = 12", "[growth] swelling = 12: a plain number is a share"),
     "no bending": (
         "[growth]\nalpha = 0.1\ncurvature_coupling = 1",
@@ -196,7 +213,7 @@ def test_a_mistake_of_growth_is_named(name: str) -> None:
 
 
 TERRAINS = {
-    "none": ("", "[ground.terrain] none: one of amplitude, expression, map, heights"),
+    "none": ("", "[ground.terrain] one of amplitude, expression, map, heights"),
     "eq. 13": ("amplitude = 0.1", "wavelength_x: must be given with amplitude"),
     "formula": ('expression = "log(x)"', "expression = 'log(x)': 'log(x)' is not understood"),
     "program": ("expression = \"__import__('os')\"", "is not understood"),

@@ -22,6 +22,7 @@ from fem_check.sweeps.points.fields import checked, paths, takes_whole_numbers, 
 from fem_check.sweeps.schema import schema
 from fem_check.sweeps.sweep_file import parsed
 from linear_theory import FieldWave, Sheet, SineWave, pulse_wave
+from tests.robust.drawn_examples import examples
 
 BASE = Scene(Sheet(), SineWave(), alpha=0.1)
 
@@ -118,6 +119,7 @@ def test_heavy_parts_are_made_once(monkeypatch: pytest.MonkeyPatch) -> None:
     assert found[0].wave is found[2].wave
 
 
+@examples(100)
 @given(
     low=st.floats(1e-6, 1e3), factor=st.floats(1.001, 1e6), count=st.integers(2, 50), log=st.booleans()
 )

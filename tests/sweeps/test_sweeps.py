@@ -24,7 +24,7 @@ from fem_check.sweeps.plan import plan_of
 from fem_check.sweeps.records import store as stores
 from fem_check.sweeps.records.opening import reading, writing
 from fem_check.sweeps.records.record import Record, State
-from fem_check.sweeps.records.store import Store
+from fem_check.sweeps.records.store import Store, checksum
 from fem_check.sweeps.running import RefusedScenes
 from fem_check.sweeps.work import cluster
 from fem_check.sweeps.work.answering import Task, record_of
@@ -218,7 +218,7 @@ def test_files_that_cannot_be_used(file: Path, tmp_path: Path) -> None:
     with sqlite3.connect(tmp_path / "new.sqlite") as db:
         db.execute("PRAGMA user_version = 7")
     db.close()
-    with pytest.raises(ValueError, match="is of version 7, this program writes and reads version 2"):
+    with pytest.raises(ValueError, match="is of version 7, this program writes and reads version 3"):
         free_sweep(tmp_path / "new.sqlite")
 
 
@@ -279,10 +279,30 @@ def test_another_program_that_reads_scenes_differently_is_told(file: Path) -> No
     with pytest.raises(KeyboardInterrupt):
         free_sweep(file, answering=stopped)
     with sqlite3.connect(file) as db:
-        db.execute("UPDATE points SET given = '[0.5, 0.5]' WHERE place = 3")
+        *row, _ = db.execute("SELECT * FROM points WHERE place = 3").fetchone()
+        row[-1] = "[0.5, 0.5]"
+        db.execute("UPDATE points SET given = ?, crc32 = ? WHERE place = 3", (row[-1], checksum(row)))
     db.close()
     with pytest.raises(SheetcrawlError, match="reads a scene of the sweep differently"):
         free_sweep(file)
+
+
+@pytest.mark.parametrize(
+    ("change", "named"),
+    [
+        ("UPDATE records SET mean = mean * 2 WHERE key = (SELECT MAX(key) FROM records)", "a record"),
+        ("UPDATE records SET converged = 1 - converged", "a record"),
+        ("UPDATE points SET given = '[0.5, 0.5]' WHERE place = 3", "a point"),
+        ('UPDATE sweeps SET units = \'["mm", "s"]\'', "a sweep"),
+    ],
+)
+def test_a_number_that_was_damaged_is_not_believed(file: Path, change: str, named: str) -> None:
+    list(free_sweep(file).rows())
+    with sqlite3.connect(file) as db:
+        db.execute(change)
+    db.close()
+    with pytest.raises(SheetcrawlError, match=rf"is damaged \({named} is not what was written\)"):
+        list(kept(file).rows())
 
 
 def stopped(task: Task) -> Record:

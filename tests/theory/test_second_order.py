@@ -272,8 +272,8 @@ def test_no_growth_no_motion():
 def test_a_sheet_that_rests_has_no_second_coefficient():
     field = second_order_field(PAPER, SINE)
     period = leading_period(field, Contact(), 1e-2)
-    assert coefficients(field, period, Contact(), 0.0).second == pytest.approx(1.533, rel=1e-2)
-    found = coefficients(field, period._replace(sticks=True), Contact(), 0.0)
+    assert coefficients(field, period, Contact(), 0.0, 1e-2).second == pytest.approx(1.533, rel=1e-2)
+    found = coefficients(field, period._replace(sticks=True), Contact(), 0.0, 1e-2)
     assert np.isnan(found.second)
     assert found.second_error == np.inf
 

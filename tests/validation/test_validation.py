@@ -9,7 +9,7 @@ import pytest
 from scipy.special import ellipe, ellipeinc, ellipk, ellipkinc, i0
 
 from fem_check.command.program import main
-from figures.measure import validation
+from figures.measure import naghdi, validation
 from figures.validation import crawlers, plates, shells
 from figures.validation import page as validation_page
 from figures.validation.catalogue import COMPARISONS, SUBJECTS
@@ -172,3 +172,21 @@ def test_the_pose_of_the_piezo_robot_by_collocation() -> None:
     found = heights(inner, outer, thickness**3 / 12 / weight, 0.5 / weight)
     for height, number in zip(found, COMPARISONS["piezo foil: pose"].numbers, strict=True):
         assert 100 * piezo.LENGTH * height == pytest.approx(number.value, abs=3e-5)
+
+
+def test_a_shell_that_hardly_shears_is_the_one_here() -> None:
+    """Naghdi's shell by another code, stiff in shear, has the deflections of the table; with its own
+    stiffness it has those of Elmer, which shears, too."""
+    assert {(r.problem, r.cells, r.shear, r.share) for r in naghdi.TABLE.read()} >= set(naghdi.keys())
+    for k, share in enumerate((0.1, 0.25)):
+        row, stiff = (
+            ROWS["pinched semi-cylinder", k],
+            naghdi.known("semi-cylinder", share, naghdi.STIFF),
+        )
+        sheared = naghdi.known("semi-cylinder", share)
+        assert abs(stiff.first - row.here) < row.error + abs(sheared.first - row.here) / 5
+    stiff, sheared = (naghdi.known("hemisphere", 0.05, shear) for shear in (naghdi.STIFF, 1.0))
+    for k, (one, other) in enumerate([(stiff.first, sheared.first), (stiff.second, sheared.second)]):
+        row = ROWS["pinched hemisphere", k]
+        assert abs(one - row.here) < row.error / 3
+        assert 0.001 < other / one - 1 < 0.002  # 0.13 %, as Elmer at a hundredth of the load

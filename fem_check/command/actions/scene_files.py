@@ -1,13 +1,10 @@
-"""`sheetcrawl new`, `check` and `schema`: scene files written, checked and described."""
+"""`sheetcrawl new` and `schema`: scene files written and described; what they say, in words."""
 
 import json
-import shutil
-import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from fem_check.command.status import MET
-from fem_check.command.text import printable
 from fem_check.files import gallery
 
 if TYPE_CHECKING:
@@ -53,7 +50,7 @@ def new(name: str | None, path: Path | None) -> int:
         from fem_check.command.actions.optimise import example as optimisation
 
         _write_all({target: optimisation()}, name)
-        print(f"{target} written; next: sheetcrawl optimise {target}")
+        print(f"{target} written; next: sheetcrawl check {target}")
         return MET
     texts = {target.parent / file: text for file, text in gallery.tables(name).items()}
     _write_all({**texts, target: gallery.text(name)}, name)
@@ -97,26 +94,14 @@ def _write_new(text: str, path: Path) -> None:
             raise
 
 
-def check(path: Path) -> int:
-    """Print what would be simulated; the exit status. Raises SceneFileError for mistakes."""
-    from fem_check.answer.block import wrapped
-    from fem_check.command.actions.scenes import answerable
-
-    rows = _said(*answerable(path))
-    width = min(shutil.get_terminal_size((WIDEST, 0)).columns, WIDEST)
-    lines = [f"{path} is a scene", *(wrapped(label, text, width) for label, text in rows.items())]
-    print(printable("\n".join(lines), sys.stdout))
-    return MET
-
-
-def _said(found: "SceneFile", way: str) -> dict[str, str]:
+def scene_said(found: "SceneFile", way: str) -> dict[str, str]:
     """The scene, the level that answers it, and its cost."""
     from fem_check.choice.expected import expected_seconds
     from fem_check.files.mistakes import SceneFileError
 
     run = found.run
     try:
-        rows = _scene_rows(found)
+        rows = scene_rows(found)
     except ValueError as problem:
         raise SceneFileError(f"{found.path}: {problem}") from None
     seconds = expected_seconds(found.scene, way, run)
@@ -133,7 +118,7 @@ def _said(found: "SceneFile", way: str) -> dict[str, str]:
     }
 
 
-def _scene_rows(found: "SceneFile") -> list[tuple[str, str]]:
+def scene_rows(found: "SceneFile") -> list[tuple[str, str]]:
     """What the scene consists of, in words."""
     from fem_check.answer.block import asked
     from fem_check.answer.units import Units

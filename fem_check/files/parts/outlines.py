@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fem_check.files.bodies import HoleTable, OutlineTable
+from fem_check.files.parts.ways import way_of
 from fem_check.files.system import System
 from fem_check.files.tables import SheetTable
 from fem_check.mesh.elements import default_cells
@@ -57,10 +58,7 @@ def mesh_of(
     table: OutlineTable, system: System, sheet: Sheet, drive: Drive, planar: bool, folder: Path
 ) -> Any:
     """The scikit-fem mesh of an outline. Raises ValueError for keys that do not go together."""
-    said = [name for name in WAYS if getattr(table, name) is not None]
-    if len(said) != 1:
-        given = " and ".join(said) or "none"
-        raise ValueError(f"{given}: one of {', '.join(WAYS)} must be given, and no other")
+    way_of(table, WAYS)
     if table.mesh is not None or table.vertices is not None:
         for name in ("holes", "size"):
             if getattr(table, name):

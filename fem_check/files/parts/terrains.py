@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fem_check.files.bodies import TerrainTable
+from fem_check.files.parts.ways import way_of
 from fem_check.files.system import System
 from fem_check.shell.effects.formula import parsed
 from fem_check.shell.effects.height_map import HeightMap
@@ -28,11 +29,7 @@ WAYS = ("amplitude", "expression", "map", "heights")
 
 def terrain_of(table: TerrainTable, system: System, sheet: Sheet, folder: Path) -> Terrain:
     """The ground. Raises ValueError for keys that do not go together, and as `Terrain` does."""
-    said = [name for name in WAYS if getattr(table, name) is not None]
-    if len(said) != 1:
-        given = " and ".join(said) or "none"
-        raise ValueError(f"{given}: one of {', '.join(WAYS)} must be given, and no other")
-    (way,) = said
+    way = way_of(table, WAYS)
     own = {"amplitude": EQ_13[1:], "map": MAP, "heights": MAP}.get(way, ())
     for key in (*EQ_13[1:], *MAP):
         if key in table.model_fields_set and key not in own:

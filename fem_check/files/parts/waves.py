@@ -7,6 +7,7 @@ import numpy as np
 
 from fem_check.answer.growth import alpha_of
 from fem_check.files.parts.excitable import excitable_of
+from fem_check.files.parts.ways import way_of
 from fem_check.files.system import System
 from fem_check.files.tables import GrowthTable, WaveTable
 from linear_theory.growth.bilayer import bilayer
@@ -95,10 +96,7 @@ def _measured(table: WaveTable, system: System, folder: Path) -> Wave:
 
 def growth_of(table: GrowthTable, system: System, sheet: Sheet, wave: Wave) -> Growth:
     """How c grows the sheet. Raises ValueError unless it is said in one of the WAYS."""
-    said = [name for name in WAYS if getattr(table, name) is not None]
-    if len(said) != 1:
-        given = " and ".join(said) or "none"
-        raise ValueError(f"{given}: one of {', '.join(WAYS)} must be given, and no other")
+    way_of(table, WAYS)
     alpha = 0.0 if table.alpha is None else table.alpha
     coupling = system.number(table.curvature_coupling)
     if table.swelling is not None:

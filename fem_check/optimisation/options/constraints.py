@@ -87,17 +87,24 @@ class Bound(Value):
 
 @dataclass(frozen=True)
 class Side:
-    """One bound of a number of the answer. sign: 1 for at most, -1 for at least."""
+    """One bound of a number of the answer. sign: 1 for at most, -1 for at least; unit: of the bound,
+    empty for plain numbers."""
 
     key: str
     quantity: Objective
     sign: float
     bound: float
+    unit: str = ""
 
     @property
     def name(self) -> str:
         """For people."""
-        return f"{self.key} {'<=' if self.sign > 0 else '>='} {number(self.bound)}"
+        relation = "<=" if self.sign > 0 else ">="
+        return f"{self.key} {relation} {self.measured(self.bound)}"
+
+    def measured(self, value: float) -> str:
+        """A number of it with the unit."""
+        return f"{number(value)} {self.unit}".rstrip()
 
 
 def checked(given: object) -> dict[str, Bound]:
@@ -136,7 +143,8 @@ def sides_of(constraints: Mapping[str, Bound], units: Units | None) -> list[Side
                 f"constraints: {key}: at_least = {number(ends['at_least'])}: must be < at_most = "
                 f"{number(ends['at_most'])}"
             )
-        found += [Side(key, quantity, SIDES[name][0], value) for name, value in ends.items()]
+        unit = unit_of(quantity.unit, units)
+        found += [Side(key, quantity, SIDES[name][0], value, unit) for name, value in ends.items()]
     return found
 
 
@@ -146,7 +154,7 @@ def _plain(name: str, given: float | str, quantity: Objective, units: Units | No
     assert part is not None
     if part.unit is None:
         return part.number
-    unit = _unit(quantity.unit, units)
+    unit = unit_of(quantity.unit, units)
     try:
         if not unit:
             raise ValueError("must be a plain number, as those of the scene are")
@@ -157,7 +165,7 @@ def _plain(name: str, given: float | str, quantity: Objective, units: Units | No
         raise ValueError(f"constraints: {name} = {given!r}: {problem}") from None
 
 
-def _unit(unit: str, units: Units | None) -> str:
+def unit_of(unit: str, units: Units | None) -> str:
     """Of a quantity in the units of a scene file; empty for plain numbers."""
     if units is None or unit in ("", "mu"):
         return ""

@@ -2,11 +2,18 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
-from fem_check.optimisation.objectives import CostOfTransport, Distance, Objective, Speed
+from fem_check.optimisation.objectives import (
+    CostOfTransport,
+    Distance,
+    Objective,
+    OfScene,
+    Power,
+    Speed,
+)
 from linear_theory.common.estimate import Estimate
 from linear_theory.optimisation.problem import Unusable
 from linear_theory.scene.scene import Scene
@@ -35,9 +42,18 @@ class Measured(Objective):
         return value
 
 
-def _power(speed: CrawlSpeed, scene: Scene) -> Estimate:
-    """Over mu times the weight."""
-    return speed.power
+@dataclass(frozen=True)
+class Stretch(OfScene):
+    """The largest that growth asks for, at any point and time: 1.1 is a tenth longer."""
+
+    name: ClassVar[str] = "stretch"
+    unit: ClassVar[str] = ""
+
+    def of_scene(self, scene: Scene) -> Estimate:
+        """See OfScene."""
+        growths = scene.alpha * scene.drive.growths(*_points(scene))
+        stretch = np.asarray(scene.growth.law.stretch(np.asarray(growths)))
+        return _largest(stretch, 1.0)
 
 
 def _efficiency(speed: CrawlSpeed, scene: Scene) -> Estimate:
@@ -57,13 +73,6 @@ def _rigid(speed: CrawlSpeed, component: int) -> Estimate:
     if speed.turning is None:
         return Estimate(0.0, 0.0)
     return Estimate(float(speed.turning.mean[component]), float(speed.turning.error[component]))
-
-
-def _stretch(speed: CrawlSpeed, scene: Scene) -> Estimate:
-    """The largest that growth asks for, at any point and time: 1.1 is a tenth longer."""
-    growths = scene.alpha * scene.drive.growths(*_points(scene))
-    stretch = np.asarray(scene.growth.law.stretch(np.asarray(growths)))
-    return _largest(stretch, 1.0)
 
 
 def _points(scene: Scene) -> tuple[Any, Any]:
@@ -95,11 +104,11 @@ QUANTITIES: dict[str, Objective] = {
     "speed": Speed(),
     "distance per period": Distance(),
     "cost of transport": CostOfTransport(),
-    "power": Measured("power", "length/time", _power),
+    "power": Power(),
     "efficiency": Measured("efficiency", "", _efficiency),
     "turning rate": Measured("turning rate", "1/time", _turning),
     "speed sideways": Measured("speed sideways", "length/time", _sideways),
-    "stretch": Measured("stretch", "", _stretch),
+    "stretch": Stretch(),
     "height": Measured("height", "length", _height),
 }
 """By their names."""

@@ -32,8 +32,9 @@ class Equilibrium(Shown):
     state (size,): unknowns. energy: of all effects, force times length. iterations: of Newton's
     method, summed over a ramp. residual: root mean square over the sheet of the last correction, in
     units of length; the remaining error is about its square. seconds: computing time.
-    negative_curvature: lowest eigenvalue of the Hessian scaled to a unit diagonal, NaN if it is
-    positive definite. mode (size,): its eigenvector, largest component 1 in the units of
+    negative_curvature: lowest eigenvalue of the Hessian scaled to a unit diagonal, and
+    curvature_error, its error by rounding and by that of the state; NaN if it is not negative by more
+    than that. mode (size,): its eigenvector, largest component 1 in the units of
     `Discretisation.units`; None if there is none.
     """
 
@@ -43,14 +44,16 @@ class Equilibrium(Shown):
     residual: float
     seconds: float
     negative_curvature: float = np.nan
+    curvature_error: float = np.nan
     mode: Array | None = field(default=None, repr=False)
 
     def _rows(self) -> Mapping[str, Any]:
         """All values, without the lowest curvature if positive, when it is not computed."""
         rows = {**super()._rows(), "buckled": self.buckled}
-        return rows if self.buckled else {k: v for k, v in rows.items() if k != "negative_curvature"}
+        unknown = () if self.buckled else ("negative_curvature", "curvature_error")
+        return {name: value for name, value in rows.items() if name not in unknown}
 
     @property
     def buckled(self) -> bool:
-        """Whether the energy decreases in some direction: a saddle, not a minimum."""
+        """Whether the energy decreases in some direction, beyond the error: a saddle, not a minimum."""
         return self.mode is not None

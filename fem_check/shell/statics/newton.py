@@ -12,9 +12,9 @@ from fem_check.shell.statics.equilibrium import ConvergenceError, Equilibrium
 from fem_check.shell.statics.linear_solver import Factor, factorise
 from fem_check.shell.statics.orientation import Orientation
 from fem_check.shell.statics.potential import Potential
+from fem_check.shell.statics.saddle import NO_SADDLE, saddle
 from fem_check.shell.statics.secants import NO_SECANTS, Secants
 from fem_check.shell.statics.sparsity import Sparsity
-from fem_check.shell.statics.stability import NEUTRAL, lowest_mode
 from linear_theory.common import validation
 from linear_theory.common.threads import one_blas_thread
 
@@ -87,10 +87,12 @@ class Minimiser:
             search.advance()
             count += 1
         suspected = self.check_stability or search.shifted
-        curvature, mode = search.negative_curvature() if suspected else (np.nan, None)
-        seconds = time.perf_counter() - begin
         size = search.correction
-        return Equilibrium(search.state, search.energy, count, size, seconds, curvature, mode)
+        found = saddle(self, potential, search.state, size) if suspected else NO_SADDLE
+        seconds = time.perf_counter() - begin
+        return Equilibrium(
+            search.state, search.energy, count, size, seconds, *found.curvature, found.mode
+        )
 
     @property
     def length(self) -> float:
@@ -283,20 +285,3 @@ class _Search:
     def shifted(self) -> bool:
         """Whether the last factorised Hessian was not positive definite."""
         return self.minimiser.kept is not None and self.minimiser.kept.shift > 0
-
-    def negative_curvature(self) -> tuple[float, Array | None]:
-        """Lowest scaled eigenvalue of the Hessian here and its eigenvector, (NaN, None) if positive."""
-        sparsity = self.minimiser.sparsity
-        if sparsity.size == 0:
-            return np.nan, None
-        here = self.minimiser.factorised(self.potential, self.state, 0.0, convex=False)
-        self.minimiser.kept = here
-        if here.shift == 0:
-            return np.nan, None
-        lowest, direction = lowest_mode(sparsity, here.factor, here.shift, here.scale)
-        if lowest > -NEUTRAL:
-            return np.nan, None
-        mode = np.zeros_like(self.state)
-        lengths = direction / self.minimiser.units
-        mode[sparsity.order] = direction / lengths[np.abs(lengths).argmax()]
-        return lowest, mode

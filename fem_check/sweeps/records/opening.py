@@ -6,9 +6,9 @@ from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
 from fem_check.runs.lock import claimed
-from fem_check.sweeps.records.store import SCHEMA, Store
+from fem_check.sweeps.records.store import DAMAGED, SCHEMA, Store
 
-VERSION = 2
+VERSION = 3
 """Of the tables below."""
 
 MARK = 0x53686565
@@ -80,7 +80,7 @@ def reading(path: Path) -> Iterator[Store]:
 
 
 def _check(db: sqlite3.Connection, name: str, new: bool) -> None:
-    """Raise ValueError for a database of something else, or of another version."""
+    """Raise ValueError for a database of something else, of another version, or damaged."""
     mark, version, tables = (
         db.execute(statement).fetchone()[0]
         for statement in (
@@ -100,10 +100,14 @@ def _check(db: sqlite3.Connection, name: str, new: bool) -> None:
             f"{name}: is of version {version}, this program writes and reads version {VERSION}; name "
             "another file, or use the program that wrote it"
         )
+    (found,) = db.execute("PRAGMA quick_check(1)").fetchone()
+    if found != "ok":
+        db.close()
+        raise ValueError(f"{name}: {DAMAGED.format(' '.join(str(found).split()))}")
 
 
 def _words(problem: sqlite3.Error) -> str:
     text = str(problem)
     if "not a database" in text:
         return "is not a database of sweeps; name another file"
-    return f"cannot be used: {text}"
+    return DAMAGED.format(text) if "malformed" in text else f"cannot be used: {text}"

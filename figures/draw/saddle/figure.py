@@ -85,7 +85,7 @@ def _draw_map(axes: Axes, form: QuadraticForm) -> None:
     axes.contourf(alpha, beta, speed, levels=SHADES, extend="both", **colors)
     levels = [1e-3 * v for v in LINES]
     lines = axes.contour(alpha, beta, speed, levels, colors="0.3", linewidths=0.5, linestyles="-")
-    axes.clabel(lines, fmt=lambda v: f"{1e3 * v:.0f}".replace("-", "−"), fontsize=6)
+    axes.clabel(lines, fmt=lambda v: f"{1e3 * v:.0f}".replace("-", "−"), fontsize=7)
     axes.contour(alpha, beta, speed, [0.0], colors="black", linewidths=1.4)
     for way in (1, -1):
         ends = np.array([-limit, limit])

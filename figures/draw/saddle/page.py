@@ -43,8 +43,10 @@ the growth coupling alpha and the curvature coupling beta (eq. 4, rest curvature
     V = V_a alpha + V_aa alpha² + V_ab alpha beta + V_bb beta²,
 
 with V_a = 0 for a sine. `second_order(scene).coefficients` gives all four with their errors in about
-0.1 s for a sine and a second for a pulse, and `crawl_speed(scene, order=2)` the speed of a scene with
-`Bending`, `Gravity` and level `Ground`, with its power, cost of transport and efficiency.
+0.1 s for a sine and a second for a pulse; `.converged` says whether they meet the tolerance, which they
+do not on the stiffest grounds, with (D/s)^(1/4) of some 0.005 L. `crawl_speed(scene, order=2)` gives
+the speed of a scene with `Bending`, `Gravity` and level `Ground`, with its power, cost of transport and
+efficiency.
 
 **The theory.** On a ground linearised about the depth at which it carries the weight (eq. 2:
 s = 2 sqrt(k ρg)) the deflection beta w, upwards, obeys D∇⁴w + s w = −D(1 + ν)∇²c with free edges. The

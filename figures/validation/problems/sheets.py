@@ -107,15 +107,6 @@ def loaded(
     return Path(values, result, sheet.mesh.nelements)
 
 
-def is_minimum(minimiser: Minimiser, potential: Potential, state: Array) -> bool:
-    """Whether the Hessian is positive definite, up to roundoff.
-
-    `Equilibrium.buckled` lets eigenvalues of 1e-10 of the diagonal pass, which on a long strip of small
-    elements is too much for a critical load.
-    """
-    return minimiser.factorised(potential, state, 0.0).shift == 0
-
-
 def linear_response(
     sheet: Discretisation, supports: Supports, material: Material, load: DeadLoad
 ) -> Array:

@@ -2,9 +2,9 @@
 
 Sources. Sze, Liu & Lo 2004: Finite Elem. Anal. Des. 40:1551, Abaqus S4R. Its tables were read where
 others quote them: end shear and end moment in MBDyn (tests/plates/sze2004), the pinched semi-cylinder
-in FEniCSx-Shells (demo_nonlinear_naghdi_clamped_semicylinder.py); of the slit annulus the data were
-confirmed (PENGoLINS, slit_annular.py), its two deflections were not. Scordelis-Lo: 0.3006 for
-Kirchhoff-Love shells in PENGoLINS (Scordelis_Lo.py).
+in FEniCSx-Shells (demo_nonlinear_naghdi_clamped_semicylinder.py), the slit annulus in PENGoLINS
+(slit_annular_plate.md) and Chrono (demo_FEA_shellsReissner.py), the hemisphere in Elmer
+(runhemisphere.m). Scordelis-Lo: 0.3006 for Kirchhoff-Love shells in PENGoLINS (Scordelis_Lo.py).
 """
 
 import numpy as np

@@ -28,6 +28,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from linear_theory.deformation.airy.dilogarithm import dilogarithm
 from linear_theory.deformation.airy.family import Family
 from linear_theory.deformation.airy.system import Solution
 
@@ -176,10 +177,9 @@ def _polylogarithm(order: int, z: Complex, every: bool) -> Complex:
     if order == 1:
         log = -np.log(-np.expm1(-z))
         return log if every else np.asarray((log + np.log1p(power)) / 2)
-    from scipy.special import spence  # here: scipy takes long to import
-
-    dilog = spence(-np.expm1(-z))
-    return dilog if every else (dilog - spence(1 + power)) / 2
+    dilog = dilogarithm(z, -np.expm1(-z))
+    # of the odd numbers: half of Li_2(Z) - Li_2(-Z); there 0 < Im z <= pi/2
+    return dilog if every else (dilog - dilogarithm(z - 1j * np.pi, 1 + power)) / 2
 
 
 def displacement(solution: Solution, poisson: float, x: Array, y: Array, grid: bool) -> Array:

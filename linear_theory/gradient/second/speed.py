@@ -1,4 +1,4 @@
-"""The gradients of speed and cost of transport to second order, from those of q_0 and q_1.
+"""The gradients of speed, power and cost of transport to second order, from those of q_0 and q_1.
 
 With V = alpha V_1 + alpha^2 V_2, V_2 that of all sources of second order at the ratio beta/alpha (0 for
 a planar sheet), and the power over mu and the weight P = |alpha| (p_0 + alpha p_1),
@@ -20,7 +20,11 @@ from linear_theory.common.tolerance import Tolerance
 from linear_theory.gradient.direction import Direction
 from linear_theory.gradient.parameters.parameter import Parameter
 from linear_theory.gradient.quantity import ALONG, WORK
-from linear_theory.gradient.result import CostGradient, SpeedGradient, kinks_of
+from linear_theory.gradient.result import (
+    MotionGradient,
+    SpeedGradient,
+    kinks_of,
+)
 from linear_theory.gradient.second.means import SecondDerivatives
 from linear_theory.gradient.second.shapes import Shapes
 from linear_theory.scene.scene import Scene
@@ -56,20 +60,15 @@ def second_speed_gradient(
     return SpeedGradient(speed, chosen, values, errors, found.kinks, seconds, speed.seconds)
 
 
-def second_cost_gradient(
+def second_motion_gradient(
     scene: Scene, chosen: tuple[Parameter, ...], directions: Sequence[Direction], rtol: float
-) -> CostGradient:
-    """See `gradient.speed.cost_gradient`: of P/|V|."""
+) -> MotionGradient:
+    """See `gradient.speed.motion_gradient`; the cost is P/|V|."""
     found = _found(scene, chosen, directions, rtol, 2)
-    speed, cost = found.speed, found.speed.cost_of_transport
-    if not np.isfinite(cost.value) or not np.isfinite(cost.error):
-        raise ValueError("scene: must move by a distance that is resolved, else its cost is infinite")
-    size, sign = abs(speed.mean), np.sign(speed.mean)
-    (distance, power), (off, power_off) = found.values, found.errors
-    values = (power - cost.value * sign * distance) / size
-    errors = (power_off + cost.value * off + cost.error * abs(distance)) / size
-    errors = errors + speed.error / size * abs(values)
-    return CostGradient(speed, chosen, values, errors, found.kinks, found.seconds, speed.seconds)
+    speed, sign = found.speed, np.sign(found.speed.mean)
+    along, power = zip(found.values, found.errors, strict=True)
+    told = (found.kinks, found.seconds, speed.seconds)
+    return MotionGradient.of(speed, chosen, along, power, (sign * along[0], along[1]), told)
 
 
 def _found(

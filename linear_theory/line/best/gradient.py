@@ -1,4 +1,4 @@
-"""Gradient of the speed of a travelling wave on a line, in closed form up to quadrature.
+"""Gradient of speed and power of a travelling wave on a line, in closed form up to quadrature.
 
 With e = alpha c, stretch s(e), weight w = s^p, U = L/(nT) and the mean <.> over a period of the wave,
 points slip by U (s_m - s), s_m the stretch at which the body is at rest, and V = U (s_m - <s>). A
@@ -38,11 +38,10 @@ from linear_theory.friction.law import FrictionLaw
 from linear_theory.friction.load import Load
 from linear_theory.growth.laws import GrowthLaw
 from linear_theory.line.balance import line_crawl
+from linear_theory.line.best.weights import Weights, weights_of
 from linear_theory.line.body import Body
 from linear_theory.line.piece import Piece
 from linear_theory.line.profile import Profile
-from linear_theory.line.share import share_slower
-from linear_theory.line.tanh_level import phased_quadrature
 from linear_theory.scene.scene import Scene
 from linear_theory.sheet.rectangle import Sheet
 from linear_theory.speed.result import CrawlSpeed
@@ -60,21 +59,28 @@ ANY = Tolerance(1e-4)
 
 
 @dataclass(frozen=True)
-class LineGradient(Shown):
-    """Derivatives of the mean speed V, and V itself.
+class LineSlopes(Shown):
+    """Derivatives of a number: cosine, sine (harmonics,): with respect to the amplitudes of the wave;
+    mean, alpha, period: likewise."""
 
-    speed: the `CrawlSpeed`. cosine, sine (harmonics,): with respect to the amplitudes of the wave;
-    mean, alpha, period: likewise. kink: why V is not differentiable here, in words, so that the numbers
-    are a derivative from one side at the most; empty if it is. seconds: of the gradient, without the
-    speed.
-    """
-
-    speed: CrawlSpeed
     cosine: Array
     sine: Array
     mean: float
     alpha: float
     period: float
+
+
+@dataclass(frozen=True)
+class LineGradient(LineSlopes):
+    """Derivatives of the mean speed V, and V itself.
+
+    speed: the `CrawlSpeed`. power: derivatives of its power over mu and the weight. kink: why V is not
+    differentiable here, in words, so that the numbers are a derivative from one side at the most; empty
+    if it is. seconds: of the gradient, without the speed.
+    """
+
+    speed: CrawlSpeed
+    power: LineSlopes
     kink: str
     seconds: float
 
@@ -124,20 +130,26 @@ def scene_gradient(scene: Scene, body: str) -> LineGradient:
     carried = Body.of(wave, scene.alpha, piece)
     unit = 1 / (wave.count * wave.period)
     law = law.scaled(length)
-    level = _at_rest(carried, speed.mean / length, unit)
-    found = _dry(carried, level, law, unit) if law.width == 0 else _smooth(carried, level, law, unit)
-    changes = found.against(_strains(scene.alpha, wave, found.phases))
-    at_period = -found.rate * length / wave.period
-    harmonics = wave.harmonics.size
+    level, found = weights_of(carried, speed.mean / length, law, unit)
+    strains = _strains(scene.alpha, wave, found.speed.phases)
+    along, power = (_slopes(one, strains, wave, length) for one in found)
     return LineGradient(
+        **vars(along),
         speed=speed,
-        cosine=length * changes[:harmonics],
-        sine=length * changes[harmonics : 2 * harmonics],
-        mean=length * float(changes[-2]),
-        alpha=length * float(changes[-1]),
-        period=at_period,
+        power=power,
         kink=_kink(carried.profile, level, speed) if law.width == 0 else "",
         seconds=time.perf_counter() - start,
+    )
+
+
+def _slopes(weights: Weights, strains: Array, wave: TravellingWave, length: float) -> LineSlopes:
+    changes, harmonics = length * weights.against(strains), wave.harmonics.size
+    return LineSlopes(
+        cosine=changes[:harmonics],
+        sine=changes[harmonics : 2 * harmonics],
+        mean=float(changes[-2]),
+        alpha=float(changes[-1]),
+        period=-weights.rate * length / wave.period,
     )
 
 
@@ -148,89 +160,12 @@ def _travelling(scene: Scene) -> TravellingWave:
     return wave
 
 
-@dataclass(frozen=True)
-class _Weights:
-    """dV = weights . de(phases), both (points,), per length of the body; rate: -T dV/dT."""
-
-    phases: Array
-    weights: Array
-    rate: float
-
-    def against(self, strains: Array) -> Array:
-        """Derivatives for changes of the strain (parameters, points)."""
-        return strains @ self.weights
-
-
 def _strains(alpha: float, wave: TravellingWave, phases: Array) -> Array:
     """Changes of e with the amplitudes of cosine and sine, the mean and alpha, at phases."""
     angle = np.multiply.outer(wave.harmonics, phases)
     cosine, sine = np.cos(angle), np.sin(angle)
     c = wave.mean + wave.cosine @ cosine + wave.sine @ sine
     return np.concatenate([alpha * cosine, alpha * sine, np.full((1, phases.size), alpha), c[None]])
-
-
-def _at_rest(body: Body, speed: float, unit: float) -> float:
-    """The value of g that is at rest at that speed, in lengths per time: z rises with g."""
-    height = speed / (unit * body.size) + body.mean_height
-    low, high = float(body.profile.values.min()), float(body.profile.values.max())
-    g = min(max(height / body.slope(0.0), low), high)
-    for _ in range(50):
-        step = (float(body.height(np.array(g))) - height) / body.slope(g)
-        g = min(max(g - step, low), high)
-        if abs(step) <= 1e-15 * (high - low):
-            break
-    return g
-
-
-class _Laws:
-    """Stretch, weight and their slopes at values of g."""
-
-    def __init__(self, body: Body, g: Array) -> None:
-        law, power = body.growth.law, body.growth.power
-        e = body.growth.start + body.size * g
-        self.stretch, self.slope = law.stretch(e), law.slope(e)
-        self.weight = self.stretch**power
-        self.weight_slope = power * self.weight / self.stretch * self.slope
-
-
-def _dry(body: Body, level: float, law: FrictionLaw, unit: float) -> _Weights:
-    profile = body.profile.anchored(level)
-    wide = np.diff(profile.nodes)
-    phases, measure, g = profile.points()
-    at = _Laws(body, g)
-    middle = (profile.values[:-1] + profile.values[1:]) / 2
-    below = np.broadcast_to(middle < level, (phases.size // wide.size, wide.size)).ravel()
-    share = share_slower(law, -unit * body.size)
-    crossing = np.flatnonzero(profile.values[:-1] == level)
-    slopes = np.maximum(abs(profile.taylor[1, crossing]), np.finfo(float).tiny ** 0.5)
-    density = 1 / slopes / np.sum(1 / slopes)  # of the crossings, and of e as of g
-    rest = _Laws(body, np.array([level]))
-    # sum_i w/|e'| = weight/size sum_i 1/|g'|
-    total = rest.weight / body.size * np.sum(1 / slopes)
-    inner = -2 * math.pi * measure * at.weight_slope * (below - share) / total
-    weights = [rest.slope * density, rest.slope * inner - measure * at.slope]
-    rate = unit * float((rest.stretch - measure @ at.stretch)[0])
-    return _Weights(
-        np.concatenate([profile.nodes[crossing], phases]), unit * np.concatenate(weights), rate
-    )
-
-
-def _smooth(body: Body, level: float, law: FrictionLaw, unit: float) -> _Weights:
-    at_rest = _Laws(body, np.array([level])).stretch
-
-    def slip(g: Array) -> Array:
-        return np.asarray(unit * (at_rest - _Laws(body, g.ravel()).stretch).reshape(g.shape))
-
-    wide = min(law.width, 1e300)
-    profile = body.profile if law.reversible else body.profile.anchored(level)
-    measure, phases, g = phased_quadrature(profile, lambda g: slip(g)[None] / wide, 0.5)
-    at, met = _Laws(body, g), law.at(slip(g)[None])
-    force, tangent = met.force[0], met.tangent[0]
-    stiff = float(measure @ (at.weight * tangent))
-    moved = at.weight * tangent * at.slope * unit - at.weight_slope * force
-    mean = float(measure @ at.stretch)
-    rate = unit * float(measure @ (at.weight * tangent * (at.stretch - mean))) / stiff
-    return _Weights(phases, measure * (moved / stiff - unit * at.slope), rate)
 
 
 def _kink(profile: Profile, level: float, speed: CrawlSpeed) -> str:

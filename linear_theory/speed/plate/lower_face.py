@@ -29,6 +29,7 @@ from linear_theory.motion.rigid import RigidNorm
 from linear_theory.speed.expansion import (
     FIRST_SHARE,
     SECOND_SHARE,
+    SMALLEST,
     TINY_ALPHA,
     Coefficients,
     cells,
@@ -105,7 +106,7 @@ def on_ray(terms: PlateTerms, face: LowerFace, ray: Ray, contact: Contact, rtol:
     """Balance on a ray; contact: with a law for speeds per unit of size."""
     unit = abs(ray.alpha) * terms.plane.sheet.length / terms.plane.drive.period
     unit += abs(ray.beta) * face.speed
-    tolerance = Tolerance(rtol, 1e-2 * rtol * TINY_ALPHA**2 * unit)
+    tolerance = Tolerance(rtol, SMALLEST * rtol * TINY_ALPHA**2 * unit)
     fine = cells(rtol, terms.plane, contact)
     crawl = FaceCoefficients(terms.plane, TINY_ALPHA, tiny(contact), fine, terms, face, ray)
     period = average(crawl, tolerance)

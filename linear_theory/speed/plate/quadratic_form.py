@@ -29,7 +29,8 @@ class QuadraticForm(Shown):
     alpha, alpha_alpha: V_a and V_aa, length/time; alpha_beta: V_ab, length^2/time; beta_beta: V_bb,
     length^3/time, each with its numerical error, absolute. lift_off: the beta, negative and positive,
     at which the pressure of the ground vanishes at some point and time, 1/length; infinite for a sheet
-    that does not bend, whose V_ab and V_bb are 0. There the form ends.
+    that does not bend, whose V_ab and V_bb are 0. There the form ends. converged: whether these errors
+    meet the tolerance that was asked for, see `second_order`.
 
     For dry friction the form holds while beta^2 times the slip by bending is small compared with alpha
     times that by growth: at alpha = 0 the speed is another multiple of beta^2, see
@@ -43,6 +44,7 @@ class QuadraticForm(Shown):
     alpha_beta: Estimate = NOTHING
     beta_beta: Estimate = NOTHING
     lift_off: tuple[float, float] = (-math.inf, math.inf)
+    converged: bool = True
 
     def at(self, alpha: float, beta: float) -> Estimate:
         """V and its numerical error at given couplings.

@@ -36,6 +36,10 @@ Array = NDArray[np.float64]
 PLATE_SHARE = 0.5
 """Fraction of rtol allotted to the deflection; its error is that of a coarser solution."""
 
+PRESSED = 1e-4
+"""Smallest V_ab against which errors count, in L/T times pressure; where it is not 0 by symmetry, on a
+layer of 0.005 L it is 5e-4."""
+
 
 class Weights(NamedTuple):
     """How much of each source of second order is counted: of alpha^2, alpha beta and beta^2."""
@@ -76,6 +80,17 @@ class PlateTerms:
         """Root mean square of p over the sheet at the worst phase, units of length."""
         norms = mixed_norms(self.plate.polynomials, self.plate.cases.samples())
         return float(norms.max(initial=0.0) / 2 * self.plate.pressing)
+
+    @property
+    def smallest(self) -> tuple[float, float]:
+        """Of V_ab and V_bb, length^2/time and length^3/time: errors of smaller ones count relative to
+        these.
+
+        V_ab: 1e-4 of L/T times the root mean square of p, which on stiff ground is in layers at the
+        edges. V_bb: the root mean square of v_b, since viscous friction lets it vanish.
+        """
+        unit = self.plane.sheet.length / self.plane.drive.period
+        return PRESSED * unit * self.largest_pressure, self.stretch.speed
 
     def on(self, motion: Motion, times: Array) -> tuple[Array, Array]:
         """v_b (2, times, cells, n, n) and p (times, cells, n, n) at the points of a motion."""

@@ -76,6 +76,7 @@ class _Search:
         self.many = data.some(MOST_SAMPLES), MOST_FUNCTIONS
         self.period, self.largest, self.free = period, largest, free
         self.floor = (ROUNDOFF * abs(data.samples.c).max()) ** 2
+        self._lines: dict[tuple[bool, int, tuple[int, ...]], tuple[float, int]] = {}
 
     def least(self, found: list[Scored]) -> Scored:
         """The one of least score; of those that score alike the one of fewest functions."""
@@ -107,9 +108,15 @@ class _Search:
         return found
 
     def _line(self, data: Data, numbers: list[int], axis: int) -> Scored:
-        """The least along one axis, the other numbers being as they are."""
-        samples, functions = data
-        scores = samples.along(self.period, numbers, axis, self.largest[axis], functions)
-        at = int(np.argmax(scores <= scores.min() * (1 + LEAST_GAIN) + self.floor))
-        numbers[axis] = at
-        return Scored(float(scores[at]), (numbers[0], numbers[1], numbers[2]))
+        """The least along one axis, the other numbers being as they are.
+
+        Kept, since sweeps from several starts meet, and each ends with lines that it has seen.
+        """
+        key = data is self.many, axis, tuple(n for i, n in enumerate(numbers) if i != axis)
+        if key not in self._lines:
+            samples, functions = data
+            scores = samples.along(self.period, numbers, axis, self.largest[axis], functions)
+            at = int(np.argmax(scores <= scores.min() * (1 + LEAST_GAIN) + self.floor))
+            self._lines[key] = float(scores[at]), at
+        score, numbers[axis] = self._lines[key]
+        return Scored(score, (numbers[0], numbers[1], numbers[2]))

@@ -15,7 +15,7 @@ from functools import cache
 
 import numpy as np
 
-from tests.robust.trials import command, damaged, levels, theory
+from tests.robust.trials import command, damaged, kept, levels, theory
 from tests.robust.trials.outcome import Outcome
 
 Trial = Callable[[np.random.Generator], Outcome]
@@ -30,6 +30,7 @@ FAMILIES: dict[str, Trial] = {
     "prediction": levels.prediction,
     "command": command.command,
     "damaged": damaged.damaged,
+    "kept": kept.kept,
 }
 
 

@@ -28,6 +28,7 @@ COUNTS = {
     "prediction": 60,
     "command": 2000,
     "damaged": 2000,
+    "kept": 1000,
 }
 
 
