@@ -130,6 +130,8 @@ bench-threads: $(STAMP)
 tables: $(STAMP)
 	$(RUN) -m figures.measure.second_order
 	$(RUN) -m figures.measure.model_error
+	$(RUN) -m figures.measure.limits.model_error_between
+	$(RUN) -m figures.measure.limits.friction_strength
 	$(RUN) -m figures.measure.nonlinear
 	$(RUN) -m figures.measure.reach
 	$(RUN) -m figures.measure.regimes

@@ -20,10 +20,10 @@ from numpy.typing import NDArray
 
 from fem_check.outlines.field import Cells, HalfField, Setting
 from fem_check.outlines.shapes import Shape
-from linear_theory.balance.balance import RigidMotion
 from linear_theory.balance.course import Course
 from linear_theory.balance.crawl import BATCH, Crawl
 from linear_theory.balance.period import resolved
+from linear_theory.balance.rigid_motion import RigidMotion
 from linear_theory.common import validation
 from linear_theory.common.shown import Shown, with_error
 from linear_theory.common.threads import one_blas_thread

@@ -23,15 +23,15 @@ the speed that it gives the ends of the sheet: tolerances have the same meaning 
 and time.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from functools import cached_property, partial
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from linear_theory.balance.channels import AREA, ARMS, RATE, VELOCITY, moment
 from linear_theory.balance.newton import damped_newton, guarded_newton
-from linear_theory.common.units import power_of_two
+from linear_theory.balance.rigid_motion import RigidMotion, Units
 from linear_theory.friction.isotropic import norm
 from linear_theory.friction.law import ALL, FrictionLaw
 from linear_theory.motion.cells import Graded, Integers, graded
@@ -54,62 +54,8 @@ _NEAR = 0.3  # after a Newton step s the error is some s^2 over the speed of the
 _REST = 1e-6  # speeds below this share of the mean speed count as rest
 _TURNING = 1e-12  # the same for a whole sheet, where a reciprocal motion turns, but for rounding
 _VISCOUS = 1e150  # a width as good as infinite, whose square is a number
-_VELOCITY, _AREA, _RATE, _ARMS = slice(0, 2), 2, 3, slice(4, 6)
-"""Channels of the values at a point: v_x, v_y, area, e; x, y from the centre if the sheet may turn;
-then v_2 and u if there are any."""
-
 _ALONG = (1,)  # rigid velocities of a mirror-symmetric motion; 0, 1 translations, 2 rotation
 _ALL = (0, 1, 2)
-
-
-NO_WORKS = np.zeros((0, 3))
-
-
-class RigidMotion(NamedTuple):
-    """q = leading + alpha remainder per unit alpha, (times, 3) each: V_x, V_y, Omega.
-
-    rest: (times,), the share of the points that move slower than 1e-6 of the mean speed;
-    fastest: the largest speed against the ground, per unit alpha; works: (times, 3), rates of work per
-    unit |alpha|, see `Balance.works`.
-    """
-
-    leading: Array
-    remainder: Array
-    rest: Array
-    fastest: float
-    works: Array = NO_WORKS
-
-    def joined(self, more: "RigidMotion", added: NDArray[np.bool_]) -> "RigidMotion":
-        """Motions merged in time order: `more` at the times `added`; times are the last axis of
-        rest."""
-        axis, known = self.rest.ndim - 1, self.rest.shape[-1]
-        order = np.empty(added.size, int)
-        order[~added] = np.arange(known)
-        order[added] = known + np.arange(more.rest.shape[-1])
-        leading, remainder, rest, works = (
-            np.take(np.concatenate([a, b], axis), order, axis)
-            for a, b in zip((*self[:3], self.works), (*more[:3], more.works), strict=True)
-        )
-        return RigidMotion(leading, remainder, rest, max(self.fastest, more.fastest), works)
-
-
-class Units(NamedTuple):
-    """Of speeds, arms and areas (the load of a cell): powers of two, so that nothing is rounded."""
-
-    speed: float
-    length: float
-    area: float
-
-    @classmethod
-    def of(cls, motion: Motion) -> "Units":
-        """Those in which the largest values of a motion lie between 1 and 2."""
-        values = motion.velocity, motion.arms, motion.area
-        return cls(*(power_of_two(float(abs(v).max(initial=0.0))) for v in values))
-
-    @property
-    def motion(self) -> Array:
-        """Of V_x, V_y, Omega, (3,)."""
-        return np.array([self.speed, self.speed, self.speed / self.length])
 
 
 class Balance:
@@ -156,7 +102,7 @@ class Balance:
         if displacement is not None:
             channels += [*displacement / units.length]
         self._values = np.stack(channels)
-        self._scale = float(np.sqrt(np.mean(self._values[_VELOCITY] ** 2))) or 1.0
+        self._scale = float(np.sqrt(np.mean(self._values[VELOCITY] ** 2))) or 1.0
         self._stages = [(halvings, tolerance)]
         if halvings > 2 * _COARSE_HALVINGS:
             self._stages.insert(0, (_COARSE_HALVINGS, 1e-2))
@@ -175,7 +121,7 @@ class Balance:
         change = self._change(self._values, leading, remainder)
         speed = norm(self._moved(self._values, leading) + self._alpha * change)
         rest = np.mean(speed < _REST * self._scale, axis=(1, 2, 3))
-        own = abs(self._values[_VELOCITY]).max(axis=(0, 2, 3, 4))
+        own = abs(self._values[VELOCITY]).max(axis=(0, 2, 3, 4))
         still = own <= _TURNING * self._scale
         rest[still] = 0.0  # all is at rest, no part of it sticks
         fastest = 0.0 if not own.any() and not self._slope else self._units.speed * float(speed.max())
@@ -207,8 +153,8 @@ class Balance:
         more, lift = np.zeros_like(first), w[1] if self._slope else np.zeros_like(first)
         if self._has_second:
             after = law.dissipation(w + alpha * self._change(values, q, remainder[found.owners]))
-            more = ((1 + alpha * values[_RATE]) * after - first) / alpha
-        sums = found.integrals(values[_AREA] * np.stack([first, more, lift])).T
+            more = ((1 + alpha * values[RATE]) * after - first) / alpha
+        sums = found.integrals(values[AREA] * np.stack([first, more, lift])).T
         return np.asarray(sums * (self._units.area * self._units.speed / self._rest))
 
     def _work_cells(self, leading: Array) -> Graded:
@@ -229,7 +175,7 @@ class Balance:
     @cached_property
     def _has_second(self) -> bool:
         """Whether anything is of second order: loads, velocities, displacements."""
-        return any(np.any(self._values[i]) for i in (_RATE, self._second, self._shift))
+        return any(np.any(self._values[i]) for i in (RATE, self._second, self._shift))
 
     def _remaining(self, leading: Array, start: Array | None) -> Array:
         """q_1, (times, unknowns)."""
@@ -286,7 +232,7 @@ class Balance:
             force = met.force
             if self._slope:
                 force = np.stack([*force[:-1], force[-1] + self._slope])
-            load = values[_AREA] if alpha == 0 else values[_AREA] * (1 + alpha * values[_RATE])
+            load = values[AREA] if alpha == 0 else values[AREA] * (1 + alpha * values[RATE])
             return load * np.stack(self._along(force, values) + self._between(met.tangent, values))
 
         def motion(values: Array, owners: Integers) -> list[Array]:
@@ -304,12 +250,12 @@ class Balance:
             before = self._law.at(self._moved(values, first[owners]), self._kept)
             change = self._change(values, first[owners], q[owners])
             after, difference = before.moved(change, alpha)
-            rate = values[_RATE]
+            rate = values[RATE]
             forces = self._along(difference + rate * after.force, values)
             if self._shift.stop:
-                forces[-1] += _moment(values[self._shift], before.force)
+                forces[-1] += moment(values[self._shift], before.force)
             tangent = (1 + alpha * rate) * after.tangent
-            return values[_AREA] * np.stack(forces + self._between(tangent, values))
+            return values[AREA] * np.stack(forces + self._between(tangent, values))
 
         def motion(values: Array, owners: Integers) -> list[Array]:
             before = first[owners]
@@ -345,7 +291,7 @@ class Balance:
 
         cells_now = graded(values, owners, roughness, halvings)
         for crease in self._creases(motion):
-            cells_now = cut(cells_now, crease, _AREA, min(halvings // 4, _MOST_ASIDE))
+            cells_now = cut(cells_now, crease, AREA, min(halvings // 4, _MOST_ASIDE))
         return cells_now
 
     def _creases(self, motion: Velocities) -> list[Callable[[Array, Integers], Array]]:
@@ -366,31 +312,31 @@ class Balance:
         spread = q.T.reshape(len(self._modes), -1, *(1,) * (values.ndim - 2))
         if len(self._modes) == 1:
             return np.stack([values[0], values[1] + spread[0]])
-        x, y = (values if at is None else at)[_ARMS]
+        x, y = (values if at is None else at)[ARMS]
         return np.stack([values[0] + spread[0] - y * spread[2], values[1] + spread[1] + x * spread[2]])
 
     def _change(self, values: Array, leading: Array, q: Array) -> Array:
         """What a rigid motion q of second order, v_2 and u add to w/alpha, (2, ...)."""
-        still = np.zeros_like(values[_VELOCITY]) if self._second.stop == 0 else values[self._second]
+        still = np.zeros_like(values[VELOCITY]) if self._second.stop == 0 else values[self._second]
         if self._shift.stop:
             still = self._moved(still, leading * [0.0, 0.0, 1.0], self._arms(values))
         return self._moved(still, q, values)
 
     def _arms(self, values: Array) -> Array:
         """The values with u in the place of x, y."""
-        return np.concatenate([values[: _ARMS.start], values[self._shift]])
+        return np.concatenate([values[: ARMS.start], values[self._shift]])
 
     def _along(self, force: Array, values: Array) -> list[Array]:
         """force . R of the rigid velocities R; force: the kept components."""
-        return [*force] if len(force) == 1 else [*force, _moment(values[_ARMS], force)]
+        return [*force] if len(force) == 1 else [*force, moment(values[ARMS], force)]
 
     def _between(self, tangent: Array, values: Array) -> list[Array]:
         """R . tangent . R' of the rigid velocities, row by row; tangent: yy, or xx, xy, yy."""
         if len(tangent) == 1:
             return [*tangent]
-        (xx, xy, yy), arms = tangent, values[_ARMS]
-        turn = [_moment(arms, row) for row in ((xx, xy), (xy, yy))]
-        return [xx, xy, turn[0], xy, yy, turn[1], *turn, _moment(arms, turn)]
+        (xx, xy, yy), arms = tangent, values[ARMS]
+        turn = [moment(arms, row) for row in ((xx, xy), (xy, yy))]
+        return [xx, xy, turn[0], xy, yy, turn[1], *turn, moment(arms, turn)]
 
     def _roughness(self, w: Array) -> tuple[NDArray[np.bool_], Integers]:
         """Cells on which w/|w| may turn for one of several w, and the axis along which it varies more.
@@ -429,8 +375,3 @@ def _single(
 
     low, high = ends
     return guarded_newton(function, np.clip(q[:, 0], low, high), low, high, xtol, near)[:, None]
-
-
-def _moment(arms: Array, force: Sequence[Array] | Array) -> Array:
-    """x f_y - y f_x."""
-    return np.asarray(arms[0] * force[1] - arms[1] * force[0])

@@ -12,8 +12,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from linear_theory.balance.balance import RigidMotion
 from linear_theory.balance.crawl import Crawl, Known
+from linear_theory.balance.rigid_motion import RigidMotion
 from linear_theory.balance.time_grid import TimeGrid
 
 Array = NDArray[np.float64]

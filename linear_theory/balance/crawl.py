@@ -9,8 +9,9 @@ from typing import NamedTuple, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from linear_theory.balance.balance import LINEAR, Balance, RigidMotion
+from linear_theory.balance.balance import LINEAR, Balance
 from linear_theory.balance.load_check import check_load
+from linear_theory.balance.rigid_motion import RigidMotion
 from linear_theory.common.progress import track
 from linear_theory.deformation.field import LinearField
 from linear_theory.friction.contact import Contact

@@ -7,9 +7,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linear_theory.balance import crawl as limits
-from linear_theory.balance.balance import RigidMotion
 from linear_theory.balance.course import Course
 from linear_theory.balance.crawl import CellErrors, Crawl, Known
+from linear_theory.balance.rigid_motion import RigidMotion
 from linear_theory.balance.time_grid import TimeGrid, first_grid
 from linear_theory.common.estimate import Estimate
 from linear_theory.common.tolerance import Tolerance

@@ -24,7 +24,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from linear_theory.balance.balance import _AREA, _ARMS, _RATE, Balance
+from linear_theory.balance.balance import Balance
+from linear_theory.balance.channels import AREA, ARMS, RATE
 from linear_theory.common.pairs import pairs_among, product
 from linear_theory.friction.law import FrictionLaw, Response
 from linear_theory.gradient.leaves import gathered, local_coordinates, point_weights
@@ -121,7 +122,7 @@ class AdjointBalance(Balance):
 
     def resting(self, q: Array, slower: float) -> Array:
         """(times,): share of the sheet whose speed is below a share of the root mean square of v^."""
-        w, area = self._moved(self._values, self._unknowns(q)), self._values[_AREA]
+        w, area = self._moved(self._values, self._unknowns(q)), self._values[AREA]
         weights = area * np.multiply.outer(*(gauss(w.shape[-1]).weights,) * 2)
         slow = np.hypot(*w) < slower * self._scale
         return np.asarray((weights * slow).sum((1, 2, 3)) / weights.sum((1, 2, 3)))
@@ -171,12 +172,12 @@ class _State:
     @cached_property
     def area(self) -> Array:
         """Area of the points, with the weights of the quadrature."""
-        return self.leaves.values[_AREA] * point_weights(self.leaves, self.slip.shape[-1])
+        return self.leaves.values[AREA] * point_weights(self.leaves, self.slip.shape[-1])
 
     @cached_property
     def load(self) -> Array:
         """(1 + alpha e) dA."""
-        return np.asarray(self.area * (1 + self.alpha * self.leaves.values[_RATE]))
+        return np.asarray(self.area * (1 + self.alpha * self.leaves.values[RATE]))
 
     @cached_property
     def stiffness(self) -> Array:
@@ -211,7 +212,7 @@ class _State:
             virtual += work * w
         stiff, pull = product(self.law.tangent, virtual), (f * virtual).sum(0)
         velocity = load * (stiff + work * f if work else stiff)
-        numbers = [self.area * self.leaves.values[_RATE] * pull, load * (stiff * w).sum(0)]
+        numbers = [self.area * self.leaves.values[RATE] * pull, load * (stiff * w).sum(0)]
         numbers.append(self._by_arms(velocity, multipliers))
         numbers += [load * (law.force(w, own._units.speed) * virtual).sum(0) for law in laws]
         points = [*velocity, self.alpha * self.area * pull, *([load * pull] if maps else [])]
@@ -235,6 +236,6 @@ class _State:
         """By the logarithm of x in the rotation (-y, x); 0 for motions that do not turn."""
         if len(multipliers[0]) == 1:
             return np.zeros_like(self.load)
-        x = self.leaves.values[_ARMS][0]
+        x = self.leaves.values[ARMS][0]
         turn, virtual = (part[:, 2, None, None] for part in (self.q[self.times], multipliers))
         return np.asarray(x * (velocity[1] * turn + self.load * self.law.force[1] * virtual))

@@ -24,9 +24,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linear_theory.balance import crawl as limits
-from linear_theory.balance.balance import RigidMotion
 from linear_theory.balance.course import Course
 from linear_theory.balance.crawl import Crawl, Known
+from linear_theory.balance.rigid_motion import RigidMotion
 from linear_theory.balance.time_grid import TimeGrid
 from linear_theory.deformation.ritz import RitzField
 from linear_theory.deformation.ritz import error as ritz_error

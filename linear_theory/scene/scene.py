@@ -5,7 +5,7 @@ scenes that it cannot represent. Effects that a scene does not name are neglecte
 """
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import cached_property
 from importlib import import_module
 from pathlib import Path
@@ -20,9 +20,16 @@ from linear_theory.common.shown import Shown, in_words
 from linear_theory.friction.contact import Contact
 from linear_theory.friction.laws import friction_law
 from linear_theory.friction.load import Load
-from linear_theory.growth.growth import Growth, Reference
-from linear_theory.growth.laws import growth_law
+from linear_theory.growth.growth import Growth
 from linear_theory.identity import content_key
+from linear_theory.scene.agreement import (
+    GROWTH,
+    check_agrees,
+    check_growth,
+    check_not_given,
+    growth_of,
+)
+from linear_theory.scene.checks import check_parts
 from linear_theory.scene.effects import checked_effects, contact_of, in_order
 from linear_theory.sheet.rectangle import Sheet
 from linear_theory.wave import arguments
@@ -38,15 +45,6 @@ ELEMENTS = "fem_check.mesh.elements"
 
 FILES = "fem_check.files"
 """The package that knows scene files, likewise."""
-
-GROWTH = {
-    "alpha": "alpha",
-    "curvature_coupling": "curvature_coupling",
-    "growth_law": "law",
-    "curvature": "curvature",
-    "area": "energy_area",
-}
-"""Arguments of a scene that define its Growth, and the corresponding fields."""
 
 PARTS = ("sheet", "wave", "growth", "contact", "effects", "elements")
 """Parts of a scene, from which its key is computed."""
@@ -113,13 +111,13 @@ class Scene(Shown):
         self._set(
             sheet=sheet,
             wave=wave,
-            growth=_grown(growth, dict(zip(GROWTH.values(), said, strict=True))),
+            growth=growth_of(growth, dict(zip(GROWTH.values(), said, strict=True))),
             effects=tuple(effect.under(sheet) for effect in in_order(checked_effects(effects))),
             _said=None if contact is None else validation.instance("contact", contact, Contact),
         )
         self._set(contact=contact_of(self.effects, self.components, self._said))
         self._set(elements=self._elements(cells, mesh, element))
-        self._check()
+        check_parts(self)
 
     def _set(self, **parts: Any) -> None:
         for name, value in parts.items():
@@ -155,8 +153,8 @@ class Scene(Shown):
         if friction is not None or slip_speed is not None:
             law = friction_law("tanh" if friction is None else friction, slip_speed)
         if self._said is not None:
-            _check_agrees("load", asked, own.load)
-            _check_agrees("friction", law, own.friction)
+            check_agrees("load", asked, own.load)
+            check_agrees("friction", law, own.friction)
             return self
         return self.but(contact=Contact(asked, law))
 
@@ -266,16 +264,8 @@ class Scene(Shown):
             if alpha is None:
                 raise ValueError("alpha = None: must be given; the arguments are sheet, wave, alpha")
             return cls(sheet, wave, alpha, contact=contact, **growth)  # type: ignore[arg-type]
-        for name, value in {"wave": wave, "alpha": alpha}.items():
-            if value is not None:
-                raise ValueError(
-                    f"{name} = {validation.shown(value)}: must be None if a scene is given"
-                )
-        for name, value in growth.items():
-            if value is not None:
-                own = getattr(sheet.growth, GROWTH[name])
-                asked = getattr(replace(sheet.growth, **{GROWTH[name]: value}), GROWTH[name])
-                _check_agrees(name, asked, own)
+        check_not_given("a scene", wave=wave, alpha=alpha)
+        check_growth(sheet.growth, growth)
         return sheet.resting(load, friction, slip_speed)
 
     @classmethod
@@ -346,35 +336,6 @@ class Scene(Shown):
             return None
         return import_module(ELEMENTS).Elements(cells, mesh, element).on(self.sheet)
 
-    def _check(self) -> None:
-        """Raise ValueError for parts that contradict each other."""
-        if self.effects:
-            self.growth.law.check(self.alpha, self.extremes)
-            if not any(effect.stretches for effect in self.effects):
-                names = ", ".join(type(effect).__name__ for effect in self.effects)
-                raise ValueError(
-                    f"effects = {names}: must name Membrane, else the sheet has no in-plane stiffness"
-                )
-        # Those that put the sheet into space first: what the others need there depends on them.
-        for effect in sorted(self.effects, key=lambda effect: not effect.needs_space):
-            effect.check_scene(self)
-        bends = any(effect.bends for effect in self.effects)
-        if self.contact.friction.on_lower_face and not bends:
-            raise ValueError(
-                f"friction = {self.contact.friction!r}: must be on the mid-surface without the effect "
-                "Bending, since both faces of a sheet that stays flat slip alike"
-            )
-        if self.contact.friction.map is not None:
-            x, y = np.linspace(-0.5, 0.5, 9)[:, None], np.linspace(-0.5, 0.5, 33)
-            x, y = self.sheet.width * x, self.sheet.length * y
-            self.contact.friction.map.values(x, y)
-            self.contact.friction.map.check_period(self.period, x, y)
-        if self.curvature_coupling and not bends:
-            raise ValueError(
-                f"curvature_coupling = {self.curvature_coupling:g}: must be 0 without the effect "
-                "Bending, the only one that depends on a rest curvature"
-            )
-
     @cached_property
     def extremes(self) -> Array:
         """c on a grid of times and points, to detect growth for which no rest state exists.
@@ -384,35 +345,3 @@ class Scene(Shown):
         x, y = np.array([-0.5, 0, 0.5]) * self.sheet.width, np.linspace(-0.5, 0.5, 33)
         x, y, times = x[:, None], self.sheet.length * y, np.append(phases(self.period, 64), 0.0)
         return self.drive.alone.value(x, y, times[:, None, None])
-
-
-def _grown(growth: Growth | None, said: dict[str, Any]) -> Growth:
-    """The growth given as an object, or made from the separate arguments."""
-    changes = {name: value for name, value in said.items() if value is not None}
-    if growth is not None:
-        validation.instance("growth", growth, Growth)
-        twice = [name for name, part in GROWTH.items() if part in changes]
-        if twice:
-            value = validation.shown(said[GROWTH[twice[0]]])
-            raise ValueError(f"{twice[0]} = {value}: must be None if growth is given")
-        return growth
-    if "alpha" not in changes:
-        raise ValueError("alpha = None: must be given, or growth = Growth(alpha, ...)")
-    names = {part: name for name, part in GROWTH.items()}
-    if "law" in changes:
-        changes["law"] = growth_law(changes["law"], names["law"])
-    if "energy_area" in changes:
-        changes["energy_area"] = Reference.named(names["energy_area"], changes["energy_area"])
-    return Growth(**changes)
-
-
-def _check_agrees(name: str, given: object, own: object) -> None:
-    """Raise ValueError for an argument that contradicts the scene beside which it is given."""
-    if given != own:
-        raise ValueError(
-            f"{name} = {_quoted(given)}: must be None or that of the scene, {_quoted(own)}"
-        )
-
-
-def _quoted(value: object) -> str:
-    return repr(str(value)) if isinstance(value, str) else validation.shown(value)

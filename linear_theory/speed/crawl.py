@@ -36,7 +36,7 @@ from linear_theory.speed.model_error import LEVELS, model_error
 from linear_theory.speed.plate.drawn import BentDeformation
 from linear_theory.speed.plate.error import plate_error
 from linear_theory.speed.power_error import with_power_error
-from linear_theory.speed.reach import judged, too_large_growth, warn_if_beyond
+from linear_theory.speed.reach import judged, too_large_growth, too_large_rotation, warn_if_beyond
 from linear_theory.speed.result import CrawlSpeed, RigidSpeed
 from linear_theory.speed.second_order import second_order_speed
 from linear_theory.speed.wave_error import with_wave_error
@@ -49,6 +49,9 @@ METHODS = ("auto", "airy", "ritz")
 
 ORDERS = (1, 2)
 """Orders of theory offered by `crawl_speed`."""
+
+BEYOND_RTOL = 1e-2
+"""Smallest relative error sought of a speed that means nothing, see `too_large_rotation`."""
 
 SHOWN_RTOL = 1e-3
 """Relative error of a deformation used for drawing only: below the width of a line."""
@@ -97,8 +100,9 @@ def crawl_speed(
     1 + alpha tr(strain) is not positive somewhere (order 1) or that lengths vanish (order 2), and
     NotConvergedError if the deformation by a discontinuous wave needs more memory than is available.
     Warns (ViscousRegimeWarning) if friction = "tanh" acts as viscous, see `CrawlSpeed.regime`, and
-    (BeyondReachWarning) if growth is too large for the theory, |alpha c| > 1/2 or less, see `reach`:
-    such a speed is never converged, and `CrawlSpeed.beyond_reach` says why.
+    (BeyondReachWarning) if growth is too large for the theory, |alpha c| > 1/2 or less, or turns the
+    ends of a wide sheet by more than 1/2 rad, see `reach`: such a speed is never converged, and
+    `CrawlSpeed.beyond_reach` says why.
 
     >>> from linear_theory import Sheet, SineWave, crawl_speed
     >>> for order in (1, 2):  # of the theory, for the sheet of the paper
@@ -206,6 +210,10 @@ def _field_speed(
         still = CrawlSpeed.steady(0.0, _words(field, contact), law.slip_ratio(0.0), field.seconds)
         deformation = LinearDeformation(lambda: field, alpha, contact)
         return replace(still, deformation=deformation, energy=Energy.at_rest(law))
+    if field.rectangular and too_large_rotation(field.drive, alpha):
+        # else half a minute of work for a number that means nothing, as `beyond_reach` says
+        tolerance = replace(tolerance, rtol=max(tolerance.rtol, BEYOND_RTOL), atol=None)
+        tolerance = tolerance.of_speed(alpha, field.sheet.length / field.drive.period)
     found = speed_of(resolved(Crawl.to(tolerance.rtol, field, alpha, contact), tolerance), tolerance)
     return replace(found, seconds=field.seconds + time.perf_counter() - start)
 
@@ -251,4 +259,5 @@ def beyond_reach(field: LinearField, alpha: float) -> str:
     if alpha and field.drive.series is None:
         grid = CellGrid.uniform(field.sheet, 4, 8, half=False)
         x, y = field.motion(np.zeros(1), grid, order=5).position
-    return too_large_growth(field.drive, alpha, x, y)
+    growth = too_large_growth(field.drive, alpha, x, y)
+    return growth or (too_large_rotation(field.drive, alpha) if field.rectangular else "")

@@ -9,9 +9,9 @@ from dataclasses import KW_ONLY, dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from linear_theory.balance.balance import RigidMotion
 from linear_theory.balance.crawl import Crawl, Resolution, first_resolution, joint_resolution
 from linear_theory.balance.period import Period, Resolved, resolved
+from linear_theory.balance.rigid_motion import RigidMotion
 from linear_theory.common import validation
 from linear_theory.common.tolerance import Tolerance
 from linear_theory.deformation.second.field import SecondOrderField

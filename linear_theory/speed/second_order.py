@@ -62,7 +62,7 @@ from linear_theory.speed.expansion import (
 from linear_theory.speed.plate.quadratic_form import NOTHING, QuadraticForm
 from linear_theory.speed.plate.speed import FIELD_SHARES, WORDS, mixed_coefficients, plate_speed
 from linear_theory.speed.plate.terms import PlateTerms
-from linear_theory.speed.reach import judged, too_large_growth, too_large_term
+from linear_theory.speed.reach import judged, too_large_growth, too_large_rotation, too_large_term
 from linear_theory.speed.result import CrawlSpeed, Estimate, RigidSpeed
 from linear_theory.speed.words import model_words
 from linear_theory.wave.protocol import Wave
@@ -309,7 +309,8 @@ def plane_motion(scene: Scene, tolerance: Tolerance) -> PlaneMotion:
         energy=Energy(*period.works.at(alpha), law, mean_map_of(scene)),
         seconds=time.perf_counter() - start,
     )
-    beyond = too_large_growth(scene.drive, alpha, *_points(scene.sheet))
+    growth = too_large_growth(scene.drive, alpha, *_points(scene.sheet))
+    beyond = growth or too_large_rotation(scene.drive, alpha)
     speed = judged(found, beyond or too_large_term(alpha**2 * both.second, fastest))
     return PlaneMotion(speed, motion.course)
 

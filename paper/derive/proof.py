@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import sympy as sp
 
 from paper.derive.typst_math import typst
-from tests.theory import test_derivations_sheet as on_sheet
+from tests.theory.derivations import sheet as on_sheet
 
 
 class ProofError(ArithmeticError):

@@ -4,8 +4,8 @@ import sympy as sp
 
 from paper.derive.proof import ProofError, Step, prove, proved
 from paper.derive.typst_math import typst
-from tests.theory import test_derivations_sheet as on_sheet
-from tests.theory.test_derivations_sheet import NU, L, W, X, Y
+from tests.theory.derivations import sheet as on_sheet
+from tests.theory.derivations.sheet import NU, L, W, X, Y
 
 
 def plane_stress() -> Step:

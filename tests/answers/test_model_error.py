@@ -10,6 +10,7 @@ import pytest
 from fem_check.shell.cycle.speed import cycle_speed
 from figures.common.scenes import planar_scene
 from figures.measure import model_error as model_error_table
+from figures.measure.limits import model_error_between
 from figures.measure.model_error import BASE, Case
 from linear_theory import (
     FieldWave,
@@ -86,6 +87,31 @@ def test_honest_between_the_points(width, poisson, count, alpha, model):
         assert true - error - target.error <= bound
         # The factor of safety, the changes between widths and alphas, and the errors of the table
         assert bound <= 5 * true + 3e-3 * alpha**2
+
+
+def test_no_measured_sheet_between_the_points_is_beyond_its_bound():
+    """Random widths, Poisson ratios, alphas, growths and loads; the bounds are those of today."""
+    rows = model_error_between.TABLE.read()
+    assert len({row.sheet for row in rows}) >= 30
+    assert sum(row.poisson in (0.2, 0.4) and row.alpha in (0.05, 0.15) for row in rows) >= 150
+    assert max(row.share for row in rows) <= 1
+    for level in LEVELS:  # and they say something
+        own = [row for row in rows if row.level == level and abs(row.difference) > 3 * row.error]
+        assert np.median([row.bound / abs(row.difference) for row in own]) < 3
+    for row in rows[::7]:
+        model = row.growth_law, row.area, row.load
+        sheet = Sheet(width=row.width, poisson=row.poisson)
+        bound = bound_of(row.level, sheet, SineWave(row.count), row.alpha, *model) / row.alpha**2
+        assert bound == pytest.approx(row.bound, rel=1e-3)
+
+
+def test_a_sheet_between_the_points_is_what_its_command_makes():
+    number, (case, alpha) = 0, model_error_between.chosen()[0]
+    kept = [row for row in model_error_between.TABLE.read() if row.sheet == number]
+    again = list(model_error_between.trials(number, case, alpha, rtol=1e-2))
+    assert [(row.load, row.level) for row in again] == [(row.load, row.level) for row in kept]
+    for new, old in zip(again, kept, strict=True):
+        assert abs(new.difference - old.difference) <= new.error + old.error
 
 
 NARROW = [

@@ -34,9 +34,15 @@ from fem_check.shell.kinematics.discretisation import Discretisation
 from fem_check.shell.kinematics.places import distinct
 from linear_theory import (
     CrawlSpeed,
+    Directional,
     FieldWave,
+    FrictionLaw,
+    Mapped,
+    Patches,
     Sheet,
     SineWave,
+    Tanh,
+    Viscous,
     crawl_speed,
     field_speed,
     friction_field,
@@ -90,6 +96,27 @@ def crawl(order: int, turning: bool, **law: object) -> Callable[[float, float], 
     return solve
 
 
+def under(law: Callable[[float, float], FrictionLaw]) -> Callable[[float, float], np.ndarray]:
+    """The crawl of a lopsided wave under a law that is made for a unit of length and one of time."""
+
+    def solve(length: float, time: float) -> np.ndarray:
+        wave, own = lopsided(length, time), law(length, time)
+        return numbers(crawl_speed(sheet(length), wave, 0.1, friction=own, rtol=5e-2), length, time)
+
+    return solve
+
+
+def patched(length: float, time: float) -> FrictionLaw:
+    """Half as much friction on a patch, whose edges are lengths."""
+    patch = (*(length * np.array([-0.1, 0.2, -0.3, 0.1])), 0.5)
+    return Mapped(Tanh(0.05 * length / time), Patches([patch], edge=0.1 * length))
+
+
+def scales(length: float, time: float) -> FrictionLaw:
+    """Rough against the wave, with a slip speed."""
+    return Directional(0.5, 1.5, form=Tanh(0.02 * length / time))
+
+
 def outline(length: float, time: float) -> np.ndarray:
     shape = Outline(length * np.array([[-0.25, -0.5], [0.25, -0.5], [0, 0.5], [-0.25, 0.5]]))
     field = plane_stress_field(shape, SineWave(1, time), size=0.3 * length)
@@ -136,14 +163,19 @@ def cycle(
     return solve
 
 
-def on_slope(length: float, time: float) -> np.ndarray:
-    effects = [
-        Membrane(Material(0.03 * length, 0.5)),
-        Gravity(3e-6, "current", incline=0.3),
-        Friction(1.0, 0.01 * length / time),
-    ]
-    scene = Scene(sheet(length), SineWave(1, time), 0.1, effects=effects, cells=(1, 2))
-    return numbers(cycle_speed(scene, rtol=0.1), length, time)
+def on_slope(law: Callable[[float], FrictionLaw]) -> Callable[[float, float], np.ndarray]:
+    """Under a law of a slip speed."""
+
+    def solve(length: float, time: float) -> np.ndarray:
+        effects = [
+            Membrane(Material(0.03 * length, 0.5)),
+            Gravity(3e-6, "current", incline=0.3),
+            Friction(1.0, law=law(0.01 * length / time)),
+        ]
+        scene = Scene(sheet(length), SineWave(1, time), 0.1, effects=effects, cells=(1, 2))
+        return numbers(cycle_speed(scene, rtol=0.1), length, time)
+
+    return solve
 
 
 def triangles(length: float) -> skfem.MeshTri:
@@ -209,6 +241,9 @@ PROBLEMS = {
     "crawl, turning": crawl(1, True),
     "crawl, turning, tanh": crawl(1, True, friction="tanh"),
     "crawl, turning, second order": crawl(2, True),
+    "crawl, viscous": under(lambda length, time: Viscous(length / time)),
+    "crawl, directional": under(scales),
+    "crawl, patches": under(patched),
     "outline": outline,
     "friction": friction,
     "path": path,
@@ -222,7 +257,8 @@ PROBLEMS = {
     "cycle": cycle(),
     "cycle, turning": cycle(turning=True),
     "cycle, triangles": cycle(mesh=True, load="material"),
-    "cycle on a slope": on_slope,
+    "cycle on a slope": on_slope(Tanh),
+    "cycle on a slope, viscous": on_slope(Viscous),
     "cycle on ground": on_ground,
     "shapes on ground, triangles": on_ground_triangles,
     "shapes, buckling": buckling,

@@ -7,8 +7,8 @@ import pytest
 
 from linear_theory import SineWave, TravellingWave
 from linear_theory.line import line_speed, line_speed_tanh, line_speed_viscous
-from linear_theory.line import samples as line_samples
 from linear_theory.line.balance import line_balance
+from linear_theory.line.samples import doubling
 from linear_theory.wave.given import FieldWave
 from tests.line import reference_line
 
@@ -292,7 +292,7 @@ def test_result_says_what_it_is():
 
 
 def test_missed_tolerance_is_said(monkeypatch):
-    monkeypatch.setattr(line_samples, "MOST_SAMPLES", 1 << 14)
+    monkeypatch.setattr(doubling, "MOST_SAMPLES", 1 << 14)
     result = line_balance(FieldWave(standing_pulse, 1.0), 0.4, atol=1e-12, rtol=1e-12, length=1)
     assert not result.converged
     assert result.error > 1e-12

@@ -9,7 +9,7 @@ import sympy as sp
 
 from tests.line import test_derivations_line as on_line
 from tests.line.test_derivations_line import ALPHA, PHI, THETA
-from tests.theory.test_derivations_sheet import NU, X, Y
+from tests.theory.derivations.sheet import NU, X, Y
 
 BETA, SMALL, TIME = sp.symbols("beta epsilon t", real=True)
 RIGIDITY, SPRING, WEIGHT, STIFFNESS = sp.symbols("D s q k", positive=True)

@@ -26,6 +26,7 @@ from fem_check.shell.effects.contact.self_contact import SelfContact
 from fem_check.shell.effects.effect import Effect
 from fem_check.shell.effects.friction import WEAK, friction_over_growth
 from fem_check.shell.effects.loads import EdgeMoment
+from figures.measure.limits import friction_strength
 from linear_theory import FieldWave, Sheet, SineWave, TravellingWave, ViscousRegimeWarning, rigid_path
 
 ALPHA, WEIGHT, SLIP = 0.1, 3e-7, 5e-4
@@ -249,6 +250,29 @@ def test_strong_friction_is_what_the_cycle_cannot_have() -> None:
     assert friction_over_growth(big) == pytest.approx(2 * WEAK)
     assert CYCLE.objections(strong)
     assert CYCLE.objections(big)
+
+
+def test_friction_that_counts_as_weak_changes_little() -> None:
+    """Random sheets, waves, loads and laws: by 2e-3 alpha L/T at `WEAK`, and with its square."""
+    rows = friction_strength.TABLE.read()
+    assert len(rows) >= 24
+    assert {row.slip for row in rows} == set(friction_strength.SLIPS)
+    assert max(abs(row.strong * row.speed) for row in rows) < 2.2e-3
+    assert max(abs(row.tenth * row.speed) for row in rows) < 3e-5
+    # but where orders of alpha nearly cancel, as in pulses with V = -0.0039 and -0.0105 alpha L/T
+    assert max(abs(row.strong) for row in rows if abs(row.speed) > 0.02) < 0.031
+
+
+def test_weak_friction_is_measured_as_its_command_says() -> None:
+    """A few steps on few elements, whose errors cancel between the strengths."""
+    sheet, _, wave, load, slip, alpha = friction_strength.chosen()[7]
+    strong, weak = (
+        friction_strength.stepped(sheet, wave, load, slip * alpha, alpha, share * WEAK, steps=12)
+        for share in (1.0, 1e-3)
+    )
+    (kept,) = (row for row in friction_strength.TABLE.read() if row.scene == 7)
+    assert weak / alpha == pytest.approx(kept.speed, rel=0.1)
+    assert strong / weak - 1 == pytest.approx(kept.strong, rel=0.4)
 
 
 def test_a_prediction_says_what_it_leaves_out() -> None:

@@ -170,7 +170,7 @@ def test_the_mesh_error_is_honest_and_only_on_demand(slip: float) -> None:
 
 def closure(trajectory: Trajectory) -> float:
     """What the balance lacks over the last period, as a share of the work of growth."""
-    begin, end = (trajectory._at(trajectory.periods - k) for k in (1, 0))
+    begin, end = (trajectory.period_end(trajectory.periods - k) for k in (1, 0))
     power = trajectory.power
     return abs((power.residual[end] - power.residual[begin]) / power.growth[end])
 
@@ -181,7 +181,7 @@ def test_the_balance_of_power_closes_at_second_order(refined: dict[int, Trajecto
     assert shares[64] < 1e-3
     assert shares[32] / shares[128] == pytest.approx(16, rel=0.3)
     trajectory = refined[128]
-    begin, end = trajectory._at(1), trajectory._at(2)
+    begin, end = trajectory.period_end(1), trajectory.period_end(2)
     works = {n: np.diff(w[[begin, end]])[0] for n, w in trajectory.power._asdict().items()}
     assert works["friction"] == pytest.approx(works["growth"], rel=1e-3)
     assert works["friction"] > 0

@@ -24,7 +24,7 @@ from linear_theory import (
     ritz_field,
     second_order,
 )
-from linear_theory.speed.reach import LARGEST_GROWTH
+from linear_theory.speed.reach import LARGEST_GROWTH, rotation
 
 PAPER, SINE = Sheet(), SineWave()
 K = 2 * np.pi
@@ -91,6 +91,46 @@ def test_growth_of_the_paper_is_no_reason_to_warn(width):
     for alpha in (0.01, 0.25, 0.38 if width == 1 else 0.4):
         for order in (1, 2):
             assert crawl_speed(sheet, SINE, alpha, order=order, rtol=0.3).converged
+
+
+def moment(t: np.ndarray) -> np.ndarray:
+    """Slope of the sine along y, from its exact moment: int y sin(2 pi (y - t)) = -cos(2 pi t)/2 pi."""
+    return 12 * -np.cos(K * t) / K
+
+
+@pytest.mark.parametrize("width", [0.5, 2.0, 10.0])
+def test_the_rotation_of_the_ends_is_that_of_the_linear_part_of_the_wave(width):
+    """c = b y turns the places (x, y) by -b x; of the field of the whole wave more by edge layers."""
+    exact = abs(moment(np.arange(8) / 8)).max() * width / 2
+    assert rotation(SINE.on(Sheet(width=width))) == pytest.approx(exact, rel=1e-9)
+    if width == 10:
+        field, h = airy_series(Sheet(width=width), SINE, rtol=1e-3), 1e-3
+        x, y = 0.4 * width, 0.0
+        across, along = (
+            np.subtract(field.displacement(x + a, y + b, 0.0), field.displacement(x - a, y - b, 0.0))
+            for a, b in ((h, 0.0), (0.0, h))
+        )
+        turned = abs(across[1] - along[0]) / (4 * h)
+        assert turned == pytest.approx(0.8 * exact, rel=0.02)
+
+
+def test_rotations_of_waves_across_and_of_many_waves():
+    """c = 2 x sin turns a sheet by L/2 times 2 at its ends; 500 waves have hardly a linear part."""
+    lopsided = FieldWave(lambda x, y, t: 2 * x * np.sin(K * t) + 0 * y, 1.0)
+    assert rotation(lopsided.on(Sheet())) == pytest.approx(1.0, rel=1e-9)
+    assert rotation(SineWave(500).on(Sheet())) < 0.05
+    assert rotation(SineWave(3, period=7.0).on(Sheet(9.0, 4.5))) == pytest.approx(12 / K / 12, rel=1e-9)
+
+
+@pytest.mark.parametrize("order", [1, 2])
+def test_a_sheet_so_wide_that_its_ends_swing_is_beyond_reach(order):
+    """In the plane by 0.95 alpha W/L: at rtol = 1e-4 this took half a minute at W = 100 L."""
+    sheet = Sheet(width=6.0 if order == 2 else 100.0)
+    with pytest.warns(BeyondReachWarning, match="ends of the sheet turn by"):
+        found = crawl_speed(sheet, SINE, 0.1, order=order, rtol=0.3 if order == 2 else 1e-4)
+    assert not found.converged
+    near = crawl_speed(Sheet(width=4.0), SINE, 0.1, rtol=0.1)
+    assert near.beyond_reach == ""
 
 
 def test_what_is_exact_in_the_strain_has_no_such_end():

@@ -6,6 +6,7 @@ from functools import cache
 import numpy as np
 import pytest
 import skfem
+from scipy.interpolate import CubicSpline
 
 from fem_check.shell.cycle.frame import poses
 from fem_check.shell.cycle.speed import cycle_speed
@@ -15,7 +16,7 @@ from fem_check.shell.effects.koiter import Membrane
 from fem_check.shell.material import Material
 from fem_check.shell.model import ShellModel
 from fem_check.shell.stepping.simulation import simulate
-from linear_theory import FieldWave, crawl_speed, rigid_path, ritz_field
+from linear_theory import FieldWave, TravellingWave, crawl_speed, rigid_path, ritz_field
 from linear_theory.scene.scene import Scene
 from linear_theory.speed.path import Path, Poses
 from tests.turning.path_cases import PAPER, Array, Growth, oblique, theory, unequal
@@ -89,6 +90,40 @@ def test_a_stepped_sheet_takes_the_path_of_the_cycle(growth: Growth) -> None:
     assert abs(heading - cycle.heading).max() < error / gyration
     assert error < 0.03 * np.linalg.norm(cycle.step)
     assert abs(cycle.heading).max() > 10 * error  # it swings by order alpha
+
+
+@cache
+def random_scene(seed: int) -> Scene:
+    """A wave with two random harmonics, along y or, of an odd seed, askew."""
+    cosine, sine = np.random.default_rng(seed).uniform(-0.5, 0.5, (2, 2))
+
+    def growth(x: Array, y: Array, t: float) -> Array:
+        angle = 2 * np.pi * (y + 0.4 * x - t)
+        return sum(a * np.cos(k * angle) + b * np.sin(k * angle) for k, (a, b) in enumerate(pairs, 1))
+
+    pairs = list(zip(cosine, sine, strict=True))
+    wave = FieldWave(growth, 1.0) if seed % 2 else TravellingWave(cosine, sine)
+    effects = (Membrane(MATERIAL), Gravity(3e-6), Friction(1.0, SLIP))
+    return Scene(PAPER, wave, 0.1, effects=effects, cells=(1, 2))
+
+
+@pytest.mark.parametrize("resolution", [{"steps": 24}, {"rtol": 0.03}], ids=["steps", "rtol"])
+@pytest.mark.parametrize("seed", [1, 2, 6])
+def test_the_error_of_a_stepped_path_is_honest(seed: int, resolution: dict[str, float]) -> None:
+    found = simulate(random_scene(seed), periods=1, **resolution).path
+    true = fine_path(seed)  # of 6 times as many steps: an error below a tenth
+    off = np.hypot(*(found.position - CubicSpline(true.times, true.position.T)(found.times).T))
+    assert np.all(off <= found.position_error)
+    assert found.position_error[-1] < 10 * off[-1] < 2 * np.ptp(true.position)
+    turns = seed % 2 == 1
+    assert np.all(np.isnan(found.heading_error) == turns)
+    assert turns or found.heading_error.max() < 1e-6
+    assert {"position_error", "heading_error"} <= set(found.to_dataframe().columns)
+
+
+@cache
+def fine_path(seed: int) -> Poses:
+    return simulate(random_scene(seed), periods=1, steps=144).path
 
 
 def turned(angle: float, shift: tuple[float, float]) -> Callable[[Array, Array], Array]:

@@ -17,7 +17,8 @@ from fem_check.shell.cycle.frame import gyration
 from fem_check.shell.cycle.motion import CycleMotion, depth_of, is_mirrored
 from fem_check.shell.cycle.shapes import Shapes
 from fem_check.shell.kinematics.places import ROUNDOFF, distinct
-from linear_theory.balance.balance import Balance, RigidMotion
+from linear_theory.balance.balance import Balance
+from linear_theory.balance.rigid_motion import RigidMotion
 from linear_theory.balance.time_grid import TimeGrid, first_grid
 from linear_theory.common.estimate import Estimate
 from linear_theory.common.progress import track
@@ -128,7 +129,11 @@ class CycleBalance:
         reversal = self.shapes.scene.drive.reversal_time
         if reversal is None or not self.mirrored or self.contact.friction.map is not None:
             return None
-        return reversal if is_mirrored(self.shapes, axis=1) else None
+        return (
+            reversal
+            if is_mirrored(self.shapes.scene, self.shapes.discretisation.mesh, axis=1)
+            else None
+        )
 
     @property
     def speed_per_rate(self) -> float:
@@ -290,7 +295,7 @@ def _opposed(shapes: Shapes, contact: Contact) -> bool:
 
 def _mirrored(shapes: Shapes, contact: Contact) -> bool:
     """Whether motion and friction are mirror symmetric in x."""
-    return is_mirrored(shapes) and contact.friction.mirrored
+    return is_mirrored(shapes.scene, shapes.discretisation.mesh) and contact.friction.mirrored
 
 
 def _paired(leading: Array) -> Array:

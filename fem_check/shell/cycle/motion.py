@@ -23,6 +23,7 @@ from linear_theory.friction.load import Load
 from linear_theory.friction.maps import FrictionMap
 from linear_theory.motion.cells import gauss
 from linear_theory.motion.motion import Motion
+from linear_theory.scene.scene import Scene
 
 Array = NDArray[np.float64]
 
@@ -31,13 +32,13 @@ class UnresolvedError(SheetcrawlError, ArithmeticError):
     """Too few shapes: in between, the interpolated sheet is inverted or loses contact."""
 
 
-def is_mirrored(shapes: Shapes, axis: int = 0) -> bool:
+def is_mirrored(scene: Scene, mesh: Any, axis: int = 0) -> bool:
     """Whether, by symmetry of mesh and wave, one half of the sheet mirrors the motion of the other.
 
-    axis: 0 for mirror symmetry in x, at every time; 1 for symmetry in y with time reversed. Only in the
-    plane, for waves that are known to be mirrored; a sheet in space may buckle to one side.
+    mesh: of scikit-fem. axis: 0 for mirror symmetry in x, at every time; 1 for symmetry in y with time
+    reversed. Only in the plane, for waves that are known to be mirrored; a sheet in space may buckle to
+    one side.
     """
-    scene, mesh = shapes.scene, shapes.discretisation.mesh
     mirror = np.where(np.arange(2) == axis, -1.0, 1.0)[:, None]
     return (
         scene.planar

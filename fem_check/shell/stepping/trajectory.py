@@ -1,6 +1,5 @@
 """The result of a simulation: motion, energy balance and speed of the sheet."""
 
-import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -9,48 +8,30 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from fem_check.shell.cycle.frame import poses
-from fem_check.shell.cycle.wrinkling import wrinkled, wrinkling_words
-from fem_check.shell.kinematics.crossing import crossed, crossing_words, touching_words
+from fem_check.shell.cycle.wrinkling import wrinkled
+from fem_check.shell.kinematics.crossing import crossed
 from fem_check.shell.model import ShellModel
 from fem_check.shell.stepping import columns
-from fem_check.shell.stepping.between import between, interpolation_error, motion_around
 from fem_check.shell.stepping.further.branching import DECISIVE, may_branch
 from fem_check.shell.stepping.further.errors import NO_FURTHER, Further, SpeedErrors
-from fem_check.shell.stepping.power import Works, energy_of
-from fem_check.shell.stepping.sliding import COMPARED
-from fem_check.shell.stepping.step_control import LANDED
+from fem_check.shell.stepping.power import Works
+from fem_check.shell.stepping.result.kept import SEEN, KeptShapes
+from fem_check.shell.stepping.result.path import SteppedPath, stepped_path
+from fem_check.shell.stepping.result.speeds import (
+    MeanVelocity,
+    last_mean,
+    mean_across,
+    speed_errors,
+    speed_of,
+)
 from fem_check.shell.stepping.stepper import amplitude
-from linear_theory.common import validation
 from linear_theory.common.drawable import Drawable
 from linear_theory.common.tables import Column, Tabular
 from linear_theory.friction.regime import Regime, regime_of
 from linear_theory.scene.scene import Scene
-from linear_theory.speed.path import Poses
 from linear_theory.speed.result import CrawlSpeed, Estimate, speed_in_words
-from linear_theory.speed.words import model_words
 
 Array = NDArray[np.float64]
-
-SEEN = 1e-2
-"""Default of the largest accepted error of an interpolated shape, as a fraction of the distance that
-points of the sheet move in a period."""
-
-ROUNDOFF = 1e-8
-"""Error of any shape from the minimisations, relative to the size of the sheet (see `Minimiser`)."""
-
-MARGIN, UNCERTAIN, UNEQUAL = 1.25, 0.1, 0.65
-"""Safety factor of the step error, whose estimate neglects higher orders, and fraction of its mean
-absolute value, for the case that its mean over the period is 0 by chance. With steps that follow from
-rtol the errors of neighbouring steps differ in size and cancel less than their mean says."""
-
-LEFT, LEFT_COARSE = 0.3, 1.6
-"""Error of a speed from which the step error was removed, relative to the mean absolute value of that
-error: the first plus the second times the root of rtol, to which the steps are proportional. Measured
-on 13 scenes, planar and bending, at rtol = 0.3, 0.1, 0.04 and 0.01: at most 1.1, 0.7, 0.5 and 0.3."""
-
-DRY = 0.3
-"""Largest slip ratio for which the distance to dry friction is estimated."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -181,7 +162,7 @@ class Trajectory(Drawable, Tabular):
         """
         if not any(effect.law for effect in self.model.effects):
             return np.nan
-        fastest = float(self.table["fastest"][self._last(1)].max())
+        fastest = float(self.table["fastest"][self.last_period].max())
         return self.scene.contact.friction.slip_ratio(fastest)
 
     @property
@@ -192,7 +173,7 @@ class Trajectory(Drawable, Tabular):
     @property
     def linear_share(self) -> float:
         """Fraction of the load that moves slower than the slip speed, mean over the last period."""
-        return self._mean("linear")
+        return last_mean(self, "linear")
 
     def amplitude(self, t: float) -> float:
         """Fraction of the growth at time t: below 1 during the ramp."""
@@ -204,8 +185,7 @@ class Trajectory(Drawable, Tabular):
         The largest deviation over the sheet of a cubic through kept states from the motion of all
         steps; for the error of the steps see `errors`. Raises ValueError outside of the kept times.
         """
-        t = self._within(t)
-        return interpolation_error(self.times, self.probes, self.snapped, self.stored_times, t)
+        return self._kept.error(t)
 
     def shape(self, t: float, rtol: float | None = SEEN) -> Array:
         """Unknowns (size,) at time t: of a kept state, or from a cubic through the four nearest.
@@ -213,39 +193,7 @@ class Trajectory(Drawable, Tabular):
         rtol: largest `shape_error` as a fraction of the distance that points move in the period around
         t; None for any. Raises ValueError if it is larger, and outside of the kept times.
         """
-        t = self._within(t)
-        exact = np.flatnonzero(self.stored_times == t)
-        if exact.size:
-            return np.asarray(self.states[exact[0]])
-        if rtol is not None:
-            self._check_shape(t, validation.positive("rtol", rtol))
-        return between(self.stored_times, self.states, t)
-
-    def _check_shape(self, t: float, rtol: float) -> None:
-        error = self.shape_error(t)
-        motion = motion_around(self.times, self.probes, t, self.scene.period)
-        size = np.sqrt(self.model.discretisation.interior.measure.sum())
-        if error > rtol * motion + ROUNDOFF * size:
-            raise ValueError(
-                f"t = {t:g}: lies between kept states, where the error of positions, {error:.2g}, is "
-                f"above rtol = {rtol:g} of the motion, {motion:.2g}. Use one of stored_times or a "
-                "larger rtol, or simulate with a smaller keep_every or smaller steps"
-            )
-
-    def _within(self, t: float) -> float:
-        """A time with known shapes: snapped to a kept time if equal within roundoff.
-
-        Raises ValueError for times outside of the kept ones.
-        """
-        t, kept = validation.real("t", t), self.stored_times
-        nearest = float(kept[np.abs(kept - t).argmin()])
-        if abs(nearest - t) <= LANDED * self.scene.period:
-            return nearest
-        if not kept[0] <= t <= kept[-1]:
-            raise ValueError(
-                f"t = {t:g}: must be in [{kept[0]:g}, {kept[-1]:g}], where states were kept"
-            )
-        return t
+        return self._kept.shape(t, rtol)
 
     def positions(self, t: float, points: ArrayLike | None = None, rtol: float | None = SEEN) -> Array:
         """Positions (components, n) at time t of points (2, n) of the sheet; by default the vertices.
@@ -259,23 +207,29 @@ class Trajectory(Drawable, Tabular):
         return np.asarray(region.position(u, (0,))[0])
 
     @property
+    def _kept(self) -> KeptShapes:
+        size = float(np.sqrt(self.model.discretisation.interior.measure.sum()))
+        kept, period = (self.stored_times, self.states), self.scene.period
+        return KeptShapes(self.times, self.probes, self.snapped, *kept, period, size)
+
+    @property
     def snaps(self) -> bool:
         """Whether the sheet jumps within the last period, where its path depends on the steps."""
-        return bool(self.snapped[self._last(1)].any())
+        return bool(self.snapped[self.last_period].any())
 
     @property
     def branches(self) -> bool:
         """Whether it could have taken another way within the last period, see `may_branch`."""
-        last = self._last(1)
+        last = self.last_period
         return may_branch(self.model, *(self.table[name][last] for name in DECISIVE))
 
     @cached_property
-    def path(self) -> Poses:
-        """Position along the ground and heading of the body frame at the stored times.
+    def path(self) -> SteppedPath:
+        """Position along the ground and heading of the body frame at the stored times, with errors.
 
         The frame is that of `rigid_path`; the ramp is part of the path.
         """
-        return poses(self.model.discretisation, self.stored_times, self.states)
+        return stepped_path(self)
 
     @property
     def last_period(self) -> slice:
@@ -284,22 +238,17 @@ class Trajectory(Drawable, Tabular):
 
     def period_rows(self, period: int) -> slice:
         """Rows of a counted period, 0 the first, without the one at its start."""
-        return slice(self._at(period) + 1, self._at(period + 1) + 1)
+        return slice(self.period_end(period) + 1, self.period_end(period + 1) + 1)
 
     @cached_property
     def period_speeds(self) -> Array:
         """Mean velocity along y over each counted period, (periods,)."""
-        return self._period_speeds("y")
+        return MeanVelocity(self, "y").of_periods
 
     @property
     def periods(self) -> int:
         """Counted periods, after the ramp."""
         return round((self.times[-1] - self.start) / self.scene.period)
-
-    @property
-    def _corrected(self) -> bool:
-        """Not where the sheet jumps: the error of such steps is not known."""
-        return self.corrects and not self.snaps
 
     @property
     def mean_speed(self) -> float:
@@ -308,7 +257,7 @@ class Trajectory(Drawable, Tabular):
         As far as that error is known (`corrects`): that of backward differences with steps that follow
         from rtol, if the sheet does not jump. Else the last of `period_speeds`.
         """
-        return self._velocity("y")
+        return MeanVelocity(self, "y").value
 
     @property
     def mean_across(self) -> Estimate:
@@ -317,45 +266,12 @@ class Trajectory(Drawable, Tabular):
         The errors of step and spread are those of x; the others, which are known along y, are taken to
         be as large.
         """
-        along, shared = self.errors, ("mesh", "snaps", "feedback", "contact")
-        own = abs(np.diff(self._period_speeds("x")[-2:])).sum() + self._step_error("x")
-        error = float(own + np.nansum([getattr(along, name) for name in shared]))
-        return Estimate(self._velocity("x"), error)
-
-    def _velocity(self, axis: str) -> float:
-        """Mean of the last period along x or y."""
-        correction = self._mean(f"step_{axis}") if self._corrected else 0.0
-        return float(self._period_speeds(axis)[-1]) + correction
-
-    def _period_speeds(self, axis: str) -> Array:
-        """Mean velocity along x or y over each counted period, (periods,)."""
-        marks = [self.table[f"centre_{axis}"][self._at(k)] for k in range(self.periods + 1)]
-        return np.diff(marks) / self.scene.period
-
-    def _step_error(self, axis: str) -> float:
-        """That of `_velocity` due to the steps."""
-        each = self._mean(f"step_{axis}", size=True)
-        if self._corrected:
-            return (LEFT + LEFT_COARSE * math.sqrt(self.rtol or 0.0)) * each
-        share = UNCERTAIN if self.rtol is None else UNEQUAL
-        return MARGIN * abs(self._mean(f"step_{axis}")) + share * each
+        return mean_across(self)
 
     @property
     def errors(self) -> SpeedErrors:
         """Estimated errors of the mean speed of the last period."""
-        speeds, further = self.period_speeds, self.further
-        spread = abs(speeds[-1] - speeds[-2]) if speeds.size > 1 else np.nan
-        dry = self.slip_ratio <= DRY
-        slip = abs(self._mean("slip_y")) / (1 - COMPARED) if dry else np.nan
-        return SpeedErrors(
-            self._step_error("y"),
-            float(spread),
-            further.mesh.speed,
-            slip,
-            further.snaps.speed,
-            further.feedback.speed,
-            further.contact.speed,
-        )
+        return speed_errors(self)
 
     @cached_property
     def speed(self) -> CrawlSpeed:
@@ -367,35 +283,7 @@ class Trajectory(Drawable, Tabular):
         is compressed beyond stability (`wrinkled`), which no real sheet is, is never converged, nor is
         one whose error is infinite since a further run failed (`SpeedErrors.failed`, also in `model`).
         """
-        last, errors = self._last(1), self.errors
-        unknown = "mesh error not estimated" if np.isnan(errors.mesh) else ""
-        snapped = "snaps over" if self.snaps else ""
-        crossing = crossing_words(self.crossed, self.stored_times)
-        touching = touching_words(self.touching, self.stored_times)
-        crosses = self.crossed is not None and bool(self.crossed.any())
-        shape, scene = "Koiter shell stepped in time", self.scene
-        rubs = any(effect.law for effect in self.model.effects)
-        contact = scene.contact if rubs else None
-        wrinkles = wrinkling_words(self.wrinkled, self.stored_times)
-        remarks = (unknown, snapped, crossing, wrinkles, touching, errors.failed)
-        model = model_words(shape, scene.growth, contact, *remarks)
-        mean = self.mean_speed
-        error = float(np.nansum([e for name, e in errors._asdict().items() if name != "slip_speed"]))
-        times = self.times[last]
-        velocity = self.velocity[last]
-        return CrawlSpeed(
-            estimate=Estimate(mean, error),
-            model_error=errors.slip_speed,
-            converged=self.rtol is not None
-            and error <= self.rtol * abs(mean)
-            and not (crosses or wrinkles),
-            times=times,
-            velocity=velocity,
-            seconds=self.seconds,
-            model=model,
-            slip_ratio=self.slip_ratio,
-            energy=energy_of(self),
-        )
+        return speed_of(self)
 
     def _title(self) -> str:
         found = self.speed
@@ -430,17 +318,6 @@ class Trajectory(Drawable, Tabular):
     def _fields(self) -> Sequence[Column]:
         return columns.positions(self)
 
-    def _at(self, period: int) -> int:
-        """Row at the end of counted period number `period`."""
+    def period_end(self, period: int) -> int:
+        """Row at the end of counted period number `period` (1 the first; 0: at its start)."""
         return int(np.abs(self.times - self.start - period * self.scene.period).argmin())
-
-    def _last(self, periods: int) -> slice:
-        """Rows of the last `periods` periods, without the one at their start."""
-        return slice(self._at(self.periods - periods) + 1, self.times.size)
-
-    def _mean(self, name: str, size: bool = False) -> float:
-        """Time average over the last period of a column (or of its absolute value)."""
-        last = self._last(1)
-        steps = np.diff(self.times)[last.start - 1 :]
-        values = self.table[name][last]
-        return float((np.abs(values) if size else values) @ steps / steps.sum())

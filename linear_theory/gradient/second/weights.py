@@ -19,8 +19,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from linear_theory.balance.balance import RigidMotion
 from linear_theory.balance.crawl import BATCH
+from linear_theory.balance.rigid_motion import RigidMotion
 from linear_theory.common.progress import track
 from linear_theory.friction.law import FrictionLaw
 from linear_theory.gradient.adjoint import AdjointBalance, LawChange

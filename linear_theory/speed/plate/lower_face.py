@@ -16,8 +16,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from linear_theory.balance.balance import RigidMotion
 from linear_theory.balance.period import Period, average
+from linear_theory.balance.rigid_motion import RigidMotion
 from linear_theory.common.tolerance import Tolerance
 from linear_theory.deformation.plate.lower_face import LowerFace
 from linear_theory.friction.contact import Contact

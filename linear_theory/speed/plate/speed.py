@@ -48,7 +48,7 @@ from linear_theory.speed.plate.terms import (
     Weights,
     weighted_error,
 )
-from linear_theory.speed.reach import judged, too_large_growth, too_large_term
+from linear_theory.speed.reach import judged, too_large_growth, too_large_rotation, too_large_term
 from linear_theory.speed.result import CrawlSpeed, Estimate, RigidSpeed
 from linear_theory.speed.words import model_words
 
@@ -160,7 +160,8 @@ def plate_motion(scene: Scene, tolerance: Tolerance) -> PlateMotion:
         energy=Energy(*found.period.works.at(found.size), law, mean_map_of(scene)),
     )
     places = (p.ravel() for p in np.broadcast_arrays(*terms.plane.places(POINTS)))
-    beyond = too_large_growth(scene.drive, scene.alpha, *places)
+    growth = too_large_growth(scene.drive, scene.alpha, *places)
+    beyond = growth or too_large_rotation(scene.drive, scene.alpha)
     term = scene.alpha**2 * found.second if scene.alpha else 0.0
     speed = judged(speed, beyond or too_large_term(term, found.fastest))
     return PlateMotion(speed, terms, found.course)

@@ -14,8 +14,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from linear_theory.balance.balance import RigidMotion
 from linear_theory.balance.crawl import Crawl
+from linear_theory.balance.rigid_motion import RigidMotion
 from linear_theory.deformation.field import LinearField
 from linear_theory.deformation.load_cases import mixed_norms
 from linear_theory.deformation.plate import PlateField, foundation, plate_field

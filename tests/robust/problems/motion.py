@@ -135,7 +135,7 @@ def drift_of_speed() -> Outcome:
 def drift_of_energy() -> Outcome:
     """What the balance of power lacks grows by the same in each period: no energy piles up."""
     run = long_run()
-    power, rows = run.power, [run._at(k) for k in (2, 3, 99, 100)]
+    power, rows = run.power, [run.period_end(k) for k in (2, 3, 99, 100)]
     lacking = np.diff(power.residual[rows])[[0, 2]]
     work = power.growth[rows[1]] - power.growth[rows[0]]
     elastic = power.elastic[rows]

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linear_theory import CrawlSpeed
-from linear_theory.common.errors import ViscousRegimeWarning
+from linear_theory.common.errors import BeyondReachWarning, ViscousRegimeWarning
 
 Array = NDArray[np.float64]
 
@@ -116,7 +116,8 @@ def solved(problem: Problem) -> Result:
     start = time.perf_counter()
     with warnings.catch_warnings(record=True) as said:
         warnings.simplefilter("error")
-        warnings.simplefilter("always", ViscousRegimeWarning)  # a remark, not a failure
+        for remark in (BeyondReachWarning, ViscousRegimeWarning):  # no failures
+            warnings.simplefilter("always", remark)
         try:
             outcome = problem.run()
         except problem.raises as refusal:

@@ -15,7 +15,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from linear_theory.balance.balance import _AREA
+from linear_theory.balance.channels import AREA
 from linear_theory.common.pairs import product
 from linear_theory.gradient.adjoint import AdjointBalance, LawChange, _State
 from linear_theory.gradient.leaves import gathered, local_coordinates, point_weights
@@ -67,8 +67,8 @@ class CycleAdjoint(AdjointBalance):
         channels, count, cells, n, _ = self._values.shape
         place = np.broadcast_to(local_coordinates(n)[:, None], (2, count * cells, n, n))
         flat = self._values.reshape(channels, count * cells, n, n)
-        whole = np.concatenate([flat, place, flat[_AREA : _AREA + 1]])
-        whole[_AREA] = 1.0
+        whole = np.concatenate([flat, place, flat[AREA : AREA + 1]])
+        whole[AREA] = 1.0
         leaves = self._refined(
             whole,
             np.arange(count * cells),
@@ -76,8 +76,8 @@ class CycleAdjoint(AdjointBalance):
             self._stages[-1][0],
         )
         values, where = leaves.values[:channels], leaves.values[channels:-1]
-        shares = values[_AREA].copy()
-        values[_AREA] *= leaves.values[-1]
+        shares = values[AREA].copy()
+        values[AREA] *= leaves.values[-1]
         return leaves._replace(values=values), where, shares
 
 

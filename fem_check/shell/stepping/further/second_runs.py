@@ -30,7 +30,8 @@ large."""
 GAP_MARGIN, NARROWER = 2, 0.1
 """Error of the speed of a sheet that touches itself relative to the difference to a run with a NARROWER
 gap, by that factor. V is not linear in the gap, and a step to half of it may change V little by chance:
-see `figures.measure.self_contact`. The stiffness of the contact is not varied."""
+see `figures.measure.self_contact`. The stiffness is not varied: it says where within the gap layers
+come to rest, so that its effect is part of that of the gap (there from 0.1 to 10 times as stiff)."""
 
 WORK = {"mesh": 0.5, "snaps": 0.7, "feedback": 0.7, "contact": 1.0}
 """Of the run that tells a part of the error, relative to that of the first one: 4/9 of the elements,
