@@ -24,6 +24,9 @@ MARKS = {Confirmed.READ: "R", Confirmed.DERIVED: "D", Confirmed.MEMORY: "M"}
 
 HEAD = """# Checked against results that others wrote
 
+Numbers that others published, or that follow from independent theory, beside what this package
+computes: how far it can be trusted where it was not written to agree.
+
 Made by `python -m figures.validation.page` from figures/data/validation.csv, which
 `python -m figures.measure.validation` fills; each comparison is a few lines in figures/validation.
 

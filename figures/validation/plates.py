@@ -43,7 +43,7 @@ COMPARISONS = (
         "clamped square plate, in twelve digits",
         "the same, square",
         Source(
-            "R. L. Taylor, S. Govindjee, Commun. Numer. Meth. Eng. 20:757 (2004), doi:10.1002/cnm.708",
+            "R. L. Taylor, S. Govindjee, Commun. Numer. Meth. Eng. 20:757 (2004)",
             Confirmed.READ,
             "read where the Clough-Tocher shell of libMesh quotes it",
         ),
