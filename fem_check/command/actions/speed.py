@@ -20,7 +20,6 @@ from fem_check.command.status import MET, MISSED
 from fem_check.command.text import printable
 from fem_check.command.typed import as_typed
 from fem_check.command.waiting import Waiting
-from linear_theory.common.errors import SheetcrawlError
 from linear_theory.common.progress import Report
 
 WIDEST = 100
@@ -45,13 +44,7 @@ def speed(options: Options, path: Path | None = None) -> int:
         file = asked_by_file(path, options)
         units, solve = file.units, partial(answered, file)
     with warnings.catch_warnings(record=True, action="always") as seen, Waiting() as waiting:
-        try:
-            found = solve(waiting.report)
-        except SheetcrawlError as problem:
-            if isinstance(problem, ValueError):
-                raise
-            print(f"sheetcrawl: {' '.join(str(problem).split())}", file=sys.stderr)
-            return MISSED
+        found = solve(waiting.report)
     print(_told(found, units, options))
     for warning in seen:
         print(f"sheetcrawl: warning: {warning.message}", file=sys.stderr)
