@@ -58,7 +58,7 @@ def _answered(arguments: Sequence[str], stop: Stop) -> int:
 
 
 def _is_answer(problem: Exception) -> bool:
-    """Whether it says why there is no answer. Its class is not imported for that: that takes a second."""
+    """Whether it says why there is no answer. Its class is not imported for that, which takes long."""
     errors = sys.modules.get("linear_theory.common.errors")
     return errors is not None and isinstance(problem, errors.SheetcrawlError)
 

@@ -12,6 +12,7 @@ from fem_check.answer.record import record
 from fem_check.answer.units import Units
 from fem_check.choice.prediction import predict
 from fem_check.choice.result import Prediction
+from fem_check.choice.ways import check_shape
 from fem_check.command.actions.scenes import answered, asked_by_file
 from fem_check.command.files import check_files
 from fem_check.command.options import Options
@@ -39,9 +40,11 @@ def speed(options: Options, path: Path | None = None) -> int:
     if path is None:
         with as_typed(options):
             question = asked(options)
+        _check_film(options, options.method)
         units, solve = question.units, partial(_predicted, question, options)
     else:
         file = asked_by_file(path, options)
+        _check_film(options, file.run.level)
         units, solve = file.units, partial(answered, file)
     with warnings.catch_warnings(record=True, action="always") as seen, Waiting() as waiting:
         found = solve(waiting.report)
@@ -50,6 +53,15 @@ def speed(options: Options, path: Path | None = None) -> int:
         print(f"sheetcrawl: warning: {warning.message}", file=sys.stderr)
     _draw(found, units, options)
     return MET if found.converged else MISSED
+
+
+def _check_film(options: Options, level: str) -> None:
+    """Raise ValueError for a film of a level without a shape."""
+    if options.movie is not None:
+        try:
+            check_shape(level)
+        except ValueError as problem:
+            raise ValueError(f"--movie {options.movie}: {problem}") from None
 
 
 def _predicted(question: Asked, options: Options, report: Report) -> Prediction:

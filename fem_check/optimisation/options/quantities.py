@@ -2,7 +2,6 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -77,7 +76,14 @@ def _height(speed: CrawlSpeed, scene: Scene) -> Estimate:
 
 
 def largest_of_period(values: Array) -> Estimate:
-    """Over the times of a period (first axis) and points; the error is what may lie between the times."""
+    """Over the times of a period (first axis) and points; the error is what may lie between them.
+
+    >>> import numpy as np
+    >>> from fem_check.optimisation.options.quantities import largest_of_period
+    >>> value, error = largest_of_period(np.cos(2 * np.pi * (np.arange(32) + 0.5) / 32))
+    >>> print(value < 1.0 < value + error)
+    True
+    """
     ahead, behind = np.roll(values, -1, axis=0), np.roll(values, 1, axis=0)
     between = values + BETWEEN * np.maximum(2 * values - ahead - behind, 0.0)
     largest = float(values.max())

@@ -1,8 +1,8 @@
 """The largest stretch that growth asks for.
 
-A wave that travels takes every point of the sheet through all of its phases: the largest growth is that
-of its profile, whose turning values are known to rounding. Any other wave is surveyed over the sheet and
-a period, and the highest places of the survey are climbed from.
+A wave that travels takes every point of the sheet through all of its phases: the largest growth is
+that of its profile, whose turning values are known to rounding. Any other wave is surveyed over the
+sheet and a period, and the highest places of the survey are climbed from.
 """
 
 from dataclasses import dataclass
