@@ -162,6 +162,10 @@ def test_wave_of_harmonics_and_all_options(capsys):
         (["spede"], "'spede' is not a command; did you mean speed?"),
         ([*SPEED, "--mu", "0.4"], "--mu: is for scene files, as [friction] coefficient; a stiff sheet"),
         ([*SPEED, "--young", "1 MPa"], "--young: is for scene files, as [sheet] young"),
+        (
+            [*SPEED, "--waves", "2"],
+            "--waves: is not an option; the number of waves on the sheet is --count",
+        ),
         ([*SPEED, "--growht", "1 %"], "Did you mean --growth?"),
     ],
 )

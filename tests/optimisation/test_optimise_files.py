@@ -179,6 +179,26 @@ def test_check_says_it_by_the_body_on_a_line_too(place, capsys):
     assert f"speed <= 1 mm/s: {5 * float(line_speed(0.1)):.5g} mm/s as given" in out
 
 
+@pytest.mark.parametrize(
+    ("words", "text", "said"),
+    [
+        (
+            ["speed"],
+            FILE,
+            "is no scene but a sweep or an optimisation, as [over] says; sheetcrawl check",
+        ),
+        (["run"], 'scene = "a.toml"\n', "as [scene] says"),
+        (["optimise"], "[wave]\n[growth]\nalpha = 0.1\n", "is a scene, which sheetcrawl speed and run"),
+        (["sweep"], "[wave]\n[growth]\nalpha = 0.1\n", "sheetcrawl new sweep writes a file"),
+    ],
+)
+def test_a_file_of_another_kind_is_told_by_its_kind(words, text, said, place, capsys):
+    (place / "other.toml").write_text(text)
+    status, out, err = run(capsys, *words, "other.toml")
+    assert (status, out, err.count("\n")) == (2, "", 1)
+    assert said in err
+
+
 def test_check_knows_sweeps(place, capsys):
     over = FILE[: FILE.index("[over]")] + "[over]\ngrowth.alpha = [0.05, 0.1]\n"
     (place / "many.toml").write_text(over)
