@@ -68,6 +68,19 @@ def way_of(scene: Scene, asked: str = "auto") -> str:
     return way
 
 
+def check_shape(level: str) -> None:
+    """Raise ValueError for a level by name whose answers have no shape, which nothing can draw.
+
+    >>> from fem_check.choice.ways import check_shape
+    >>> check_shape("strip")
+    """
+    if level in ASIDE:
+        raise ValueError(
+            f"level = {level!r}: has no shape to be filmed or kept in a folder, only a speed; level = "
+            "'strip' has that of the sheet"
+        )
+
+
 def _cheapest(scene: Scene) -> str:
     """Of WAYS."""
     steps = not STEPPED.objections(scene)

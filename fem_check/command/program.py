@@ -49,7 +49,18 @@ def _answered(arguments: Sequence[str], stop: Stop) -> int:
         _forget_output()
         _complain(f"cannot write the answer: {problem}")
         status = MISSED
+    except Exception as problem:
+        if not _is_answer(problem):
+            raise
+        _complain(str(problem))
+        status = MISSED
     return status
+
+
+def _is_answer(problem: Exception) -> bool:
+    """Whether it says why there is no answer. Its class is not imported for that, which takes long."""
+    errors = sys.modules.get("linear_theory.common.errors")
+    return errors is not None and isinstance(problem, errors.SheetcrawlError)
 
 
 def _fit_words() -> None:

@@ -49,13 +49,26 @@ IN_A_FILE = {
 where a scene file has them."""
 
 
+MEANT = {
+    **dict.fromkeys(
+        ("--waves", "--wave-count", "--number"), "the number of waves on the sheet is --count"
+    ),
+    **dict.fromkeys(("--nu", "--poissons-ratio", "--poisson-ratio"), "Poisson's ratio is --poisson"),
+    **dict.fromkeys(("--swelling", "--amplitude"), "growth of lengths at the crest is --growth '12 %'"),
+    "--level": "the level is --method",
+}
+"""What is meant by options that `speed` has by another name."""
+
+
 def elsewhere(name: str) -> str:
-    """Where a scene file has what an option that is not there asks for; "" for other options.
+    """Where there is what an option that is not there asks for; "" for other options.
 
     >>> from fem_check.command.typed import elsewhere
     >>> print(elsewhere("--young"))
     --young: is for scene files, as [sheet] young; sheetcrawl new hydrogel writes one to change
     """
+    if name in MEANT:
+        return f"{name}: is not an option; {MEANT[name]}"
     if name not in IN_A_FILE:
         return ""
     table = IN_A_FILE[name]

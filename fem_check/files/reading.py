@@ -16,6 +16,9 @@ from fem_check.files.tables import ALWAYS, REQUIRED, TABLES
 PLACE = re.compile(r"(.*?) \(at (?:line (\d+), column (\d+)|(end of document))\)")
 
 
+BESIDE = {"scene", "over"}
+"""Tables of sweeps and optimisations, which no scene has."""
+
 LARGEST = 50_000_000
 """Characters: what is longer is another file by mistake, or has no end."""
 
@@ -33,12 +36,26 @@ def read(path: str | Path) -> SceneFile:
 def parsed(text: str, path: Path) -> SceneFile:
     """The same of the text of a file; files that it names are looked for beside `path`."""
     data = data_of(text, path)
+    if others := BESIDE & data.keys():
+        raise SceneFileError(
+            f"{path}: is no scene but a sweep or an optimisation, as [{min(others)}] says; sheetcrawl "
+            "check says which, and what reads it"
+        )
     mistakes = Mistakes()
     tables = tables_of(data, mistakes)
     found = built(tables, path, mistakes)
     if found is None or mistakes:
         raise mistakes.error(path, text)
     return found
+
+
+def check_no_scene(data: Mapping[str, Any], path: Path, command: str) -> None:
+    """Raise SceneFileError where the tables are those of a scene alone; command: that reads the file."""
+    if data.keys() & TABLES.keys() and not BESIDE & data.keys():
+        raise SceneFileError(
+            f"{path}: is a scene, which sheetcrawl speed and run answer; sheetcrawl new {command} "
+            f"writes a file for sheetcrawl {command} that may name it, scene = '{path.name}'"
+        )
 
 
 def data_of(text: str, path: Path) -> dict[str, Any]:

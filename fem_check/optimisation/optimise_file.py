@@ -29,7 +29,7 @@ from typing import Any
 from pydantic import ValidationError
 
 from fem_check.files.mistakes import Mistakes, nearest
-from fem_check.files.reading import data_of, text_of
+from fem_check.files.reading import check_no_scene, data_of, text_of
 from fem_check.optimisation.asked import Asked
 from fem_check.optimisation.objectives import OBJECTIVES
 from fem_check.optimisation.optimising import FINE, search
@@ -85,6 +85,7 @@ def read(path: str | Path) -> OptimiseFile:
 def parsed(text: str, path: Path) -> OptimiseFile:
     """The same of the text of a file; the scene file that it names is looked for beside `path`."""
     data, mistakes = data_of(text, path), Mistakes()
+    check_no_scene(data, path, "optimise")
     for name in data:
         if name not in PARTS:
             mistakes.add((name,), f"is not a table of an optimisation; {nearest(name, PARTS)}")

@@ -5,6 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from fem_check.choice.ways import THEORIES
 from fem_check.optimisation.asked import Asked
 from fem_check.optimisation.kept import Kept
 from fem_check.optimisation.objectives import OfScene
@@ -14,9 +15,6 @@ from fem_check.optimisation.values import Question
 from fem_check.optimisation.words import shown
 from linear_theory.common.estimate import Estimate
 from linear_theory.optimisation.problem import Unusable
-
-THEORIES = ("strip", "first order", "second order")
-"""Levels that answer a scene within a second or two."""
 
 LATER = "is asked for as the search begins"
 """What is said of the numbers of other levels."""
@@ -84,7 +82,7 @@ def _standing(name: str, side: Side, question: Question) -> Standing:
     try:
         if isinstance(quantity, OfScene):
             value = quantity.of_scene(scene)
-        elif question.settings.level in THEORIES:
+        elif question.settings.level in THEORIES:  # within a second or two
             value = quantity.of(question.answer(scene).speed, scene)
         else:
             return Standing(name, None, LATER)

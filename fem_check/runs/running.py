@@ -11,7 +11,7 @@ from fem_check.answer.units import Units
 from fem_check.choice.asked import check_contact_for
 from fem_check.choice.settings import RunSettings
 from fem_check.choice.solving import solved
-from fem_check.choice.ways import way_of
+from fem_check.choice.ways import check_shape, way_of
 from fem_check.files.writing import write as write_scene
 from fem_check.output.files import replacing
 from fem_check.runs import netcdf
@@ -64,11 +64,12 @@ def run(
     through time, or a result whose pictures are missing. Files appear when they are whole. progress:
     called with a `Progress`. again: what is said to be called after Ctrl-C.
 
-    Raises, before any work, ValueError for a scene that no level represents and for a folder that is in
-    use, not empty, not writable or of another scene, and ModuleNotFoundError without xarray; then what
-    `solve` raises; OSError where a file cannot be written, NotWrittenError, with the block, once the
-    answer is known; KeyboardInterrupt, saying what is kept. Warns of films that cannot be written, and
-    of a motion whose file was missing or damaged and is written again.
+    Raises, before any work, ValueError for a scene that no level represents, for the level "line",
+    which has no shape, and for a folder that is in use, not empty, not writable or of another scene,
+    and ModuleNotFoundError without xarray; then what `solve` raises; OSError where a
+    file cannot be written, NotWrittenError, with the block, once the answer is known;
+    KeyboardInterrupt, saying what is kept. Warns of films that cannot be written, and of a motion whose
+    file was missing or damaged and is written again.
 
     >>> import tempfile
     >>> from fem_check.files import RunSettings
@@ -84,6 +85,7 @@ def run(
     scene = validation.instance("scene", scene, Scene)
     folder, settings = Path(folder), settings or RunSettings()
     way = way_of(scene, settings.level)
+    check_shape(way)
     check_contact_for(scene, way)
     netcdf.require_netcdf()
     with locked(folder), _interruptible(again):

@@ -20,7 +20,7 @@ from pydantic import Field, PlainValidator, ValidationError, WithJsonSchema
 
 from fem_check.files.fields import Level, Natural, Table, Time
 from fem_check.files.mistakes import Mistakes, nearest
-from fem_check.files.reading import data_of, text_of
+from fem_check.files.reading import check_no_scene, data_of, text_of
 from fem_check.sweeps.plan import LIMIT, Varied
 from fem_check.sweeps.points.axes import Axis, Between, axis_of
 from fem_check.sweeps.points.designs import Design, Grid, LatinHypercube, Paired, Random
@@ -99,6 +99,7 @@ def read(path: str | Path) -> SweepFile:
 def parsed(text: str, path: Path) -> SweepFile:
     """The same of the text of a file; the scene file that it names is looked for beside `path`."""
     data = data_of(text, path)
+    check_no_scene(data, path, "sweep")
     mistakes = Mistakes()
     for name in data:
         if name not in PARTS:

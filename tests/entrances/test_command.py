@@ -151,6 +151,10 @@ def test_wave_of_harmonics_and_all_options(capsys):
         ([*PACED, "--pulse", "0.2"], "must not be combined with --pulse"),
         ([*SPEED, "--plot", "crawl.docx"], "must end in .png"),
         ([*SPEED, "--movie", "crawl.avi"], "must end in .gif or .mp4"),
+        (
+            [*SPEED, "--method", "line", "--movie", "l.gif"],
+            "--movie l.gif: level = 'line': has no shape",
+        ),
         ([*SPEED, "--json", "--csv"], "--json: must not be combined with --csv"),
         ([*SPEED, "12"], "'12': must follow an option"),
         (["run", "a.toml", "r1"], "'r1': must follow an option; see sheetcrawl run"),
@@ -158,6 +162,10 @@ def test_wave_of_harmonics_and_all_options(capsys):
         (["spede"], "'spede' is not a command; did you mean speed?"),
         ([*SPEED, "--mu", "0.4"], "--mu: is for scene files, as [friction] coefficient; a stiff sheet"),
         ([*SPEED, "--young", "1 MPa"], "--young: is for scene files, as [sheet] young"),
+        (
+            [*SPEED, "--waves", "2"],
+            "--waves: is not an option; the number of waves on the sheet is --count",
+        ),
         ([*SPEED, "--growht", "1 %"], "Did you mean --growth?"),
     ],
 )

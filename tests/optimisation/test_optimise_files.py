@@ -7,6 +7,7 @@ import pytest
 
 from fem_check.command.program import main
 from fem_check.optimisation.optimise_file import read
+from linear_theory import line_speed
 
 FILE = """
 [scene.sheet]
@@ -166,6 +167,36 @@ def test_check_says_how_the_scene_stands_to_its_limits(place, capsys):
     assert "limits sum <= 0.2: kept to as given; stretch" in said
     assert "next sheetcrawl optimise one.toml" in said
     assert not (place / "one.answers.jsonl").exists()
+
+
+def test_check_says_it_by_the_body_on_a_line_too(place, capsys):
+    """The speed of a sine in closed form, L/T = 5 mm/s."""
+    text = FILE.replace(CHECK, bounds("speed = { at_most = '1 mm/s' }")).replace("strip", "line")
+    text = text.replace("alpha = 0.1", "law = 'linear'\nalpha = 0.1", 1)
+    (place / "line.toml").write_text(text)
+    status, out, _ = run(capsys, "check", "line.toml")
+    assert status == 0
+    assert f"speed <= 1 mm/s: {5 * float(line_speed(0.1)):.5g} mm/s as given" in out
+
+
+@pytest.mark.parametrize(
+    ("words", "text", "said"),
+    [
+        (
+            ["speed"],
+            FILE,
+            "is no scene but a sweep or an optimisation, as [over] says; sheetcrawl check",
+        ),
+        (["run"], 'scene = "a.toml"\n', "as [scene] says"),
+        (["optimise"], "[wave]\n[growth]\nalpha = 0.1\n", "is a scene, which sheetcrawl speed and run"),
+        (["sweep"], "[wave]\n[growth]\nalpha = 0.1\n", "sheetcrawl new sweep writes a file"),
+    ],
+)
+def test_a_file_of_another_kind_is_told_by_its_kind(words, text, said, place, capsys):
+    (place / "other.toml").write_text(text)
+    status, out, err = run(capsys, *words, "other.toml")
+    assert (status, out, err.count("\n")) == (2, "", 1)
+    assert said in err
 
 
 def test_check_knows_sweeps(place, capsys):

@@ -79,7 +79,7 @@ def test_an_unknown_without_effect_and_a_scene_outside_are_told():
         ({"sheet.width": (-2, 1.0)}, "sheet.width: lower bound -2.0: must be > 0"),
         ({"sheet.poisson": (0.2, 0.8)}, r"sheet.poisson: upper bound 0.8: must be in \(-1, 0.5\]"),
         ({"growth.law": (0.0, 1.0)}, "growth.law: lower bound 0.0: must be 'exp'"),
-        ({"wave.cosine": (0, 1)}, "wave.cosine: lower bound 0.0: must be a valid list"),
+        ({"wave.cosine": (0, 1)}, "wave.cosine: amplitudes change together, as harmonics of the wave"),
         ({"run.rtol": (0.1, 0.2)}, "run.rtol: says how a scene is answered, not what it is"),
         ({"growth.alpha": Between(0, 1, count=3)}, "growth.alpha: count = 3: must be left out"),
         ({"growth.alpha": (True, 1)}, "growth.alpha = True: must be a finite number"),

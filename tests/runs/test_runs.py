@@ -265,6 +265,15 @@ def test_two_runs_do_not_share_a_folder(place, tmp_path, capsys):
         pass
 
 
+def test_a_level_without_a_shape_is_refused_before_the_work(tmp_path, capsys):
+    path = tmp_path / "line.toml"
+    path.write_text(PLANE + 'level = "line"\n')
+    status, out, err = command(capsys, "run", path, "--out", tmp_path / "line")
+    assert (status, out) == (BAD_ARGUMENTS, "")
+    assert not (tmp_path / "line").exists()
+    assert "level = 'line': has no shape to be filmed or kept in a folder" in err
+
+
 @pytest.mark.parametrize("kind", ["a file", "below a file", "other files", "no folder may be made"])
 def test_a_folder_that_cannot_be_that_of_a_run_is_refused_before_the_work(
     kind, place, tmp_path, capsys, monkeypatch

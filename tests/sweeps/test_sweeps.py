@@ -294,14 +294,27 @@ def test_another_program_that_reads_scenes_differently_is_told(file: Path) -> No
         ("UPDATE records SET converged = 1 - converged", "a record"),
         ("UPDATE points SET given = '[0.5, 0.5]' WHERE place = 3", "a point"),
         ('UPDATE sweeps SET units = \'["mm", "s"]\'', "a sweep"),
+        ("UPDATE records SET worker = x'ff00'", "a record"),
     ],
 )
-def test_a_number_that_was_damaged_is_not_believed(file: Path, change: str, named: str) -> None:
-    list(free_sweep(file).rows())
+def test_a_number_that_was_damaged_is_not_believed(
+    file: Path, change: str, named: str, capsys: Any
+) -> None:
+    list(free_sweep(file, 8).rows())
     with sqlite3.connect(file) as db:
         db.execute(change)
     db.close()
     with pytest.raises(SheetcrawlError, match=rf"is damaged \({named} is not what was written\)"):
+        list(kept(file).rows())
+    status, out, err = command(capsys, "sweep", str(file))
+    assert (status, out, err.count("\n")) == (1, "", 1)
+    assert f"is damaged ({named} is not" in err
+
+
+def test_a_schema_that_is_no_text_is_said_to_be_damage(file: Path) -> None:
+    free_sweep(file, 8)
+    file.write_bytes(file.read_bytes().replace(b"CREATE TABLE sweeps", b"CR\xe3ATE TABLE sweeps"))
+    with pytest.raises(ValueError, match=r"file = '.*': is damaged \("):
         list(kept(file).rows())
 
 

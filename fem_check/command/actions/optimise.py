@@ -55,14 +55,8 @@ def _optimised(path: Path, file: Path, out: Path | None, movie: Path | None, aga
     asked = read(path)
     if out is not None and asked.scene_file is not None and out.resolve() == asked.scene_file.resolve():
         raise ValueError(f"--out {out}: is the scene file of {path}; give another name")
-    try:
-        with Lines() as lines:
-            found = asked.run(file, lines.report, again)
-    except SheetcrawlError as problem:
-        if isinstance(problem, ValueError):
-            raise
-        print(f"sheetcrawl: {' '.join(str(problem).split())}", file=sys.stderr)
-        return MISSED
+    with Lines() as lines:
+        found = asked.run(file, lines.report, again)
     print(printable(f"\n{found}\n  kept in   {file}\n", sys.stdout))
     if out is not None:
         found.scene.to_toml(out)

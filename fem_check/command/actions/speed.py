@@ -12,6 +12,7 @@ from fem_check.answer.record import record
 from fem_check.answer.units import Units
 from fem_check.choice.prediction import predict
 from fem_check.choice.result import Prediction
+from fem_check.choice.ways import check_shape
 from fem_check.command.actions.scenes import answered, asked_by_file
 from fem_check.command.files import check_files
 from fem_check.command.options import Options
@@ -20,7 +21,6 @@ from fem_check.command.status import MET, MISSED
 from fem_check.command.text import printable
 from fem_check.command.typed import as_typed
 from fem_check.command.waiting import Waiting
-from linear_theory.common.errors import SheetcrawlError
 from linear_theory.common.progress import Report
 
 WIDEST = 100
@@ -40,23 +40,28 @@ def speed(options: Options, path: Path | None = None) -> int:
     if path is None:
         with as_typed(options):
             question = asked(options)
+        _check_film(options, options.method)
         units, solve = question.units, partial(_predicted, question, options)
     else:
         file = asked_by_file(path, options)
+        _check_film(options, file.run.level)
         units, solve = file.units, partial(answered, file)
     with warnings.catch_warnings(record=True, action="always") as seen, Waiting() as waiting:
-        try:
-            found = solve(waiting.report)
-        except SheetcrawlError as problem:
-            if isinstance(problem, ValueError):
-                raise
-            print(f"sheetcrawl: {' '.join(str(problem).split())}", file=sys.stderr)
-            return MISSED
+        found = solve(waiting.report)
     print(_told(found, units, options))
     for warning in seen:
         print(f"sheetcrawl: warning: {warning.message}", file=sys.stderr)
     _draw(found, units, options)
     return MET if found.converged else MISSED
+
+
+def _check_film(options: Options, level: str) -> None:
+    """Raise ValueError for a film of a level without a shape."""
+    if options.movie is not None:
+        try:
+            check_shape(level)
+        except ValueError as problem:
+            raise ValueError(f"--movie {options.movie}: {problem}") from None
 
 
 def _predicted(question: Asked, options: Options, report: Report) -> Prediction:

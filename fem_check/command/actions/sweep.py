@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING
 from fem_check.command.status import MET, MISSED
 from fem_check.command.text import printable
 from fem_check.command.waiting import Lines, in_words
-from linear_theory.common.errors import SheetcrawlError
 
 if TYPE_CHECKING:
     from fem_check.sweeps.cost import Expected
@@ -77,11 +76,6 @@ def _run(
             )
     except ModuleNotFoundError as missing:
         raise ValueError(str(missing)) from None
-    except SheetcrawlError as problem:
-        if isinstance(problem, ValueError):
-            raise
-        print(f"sheetcrawl: {' '.join(str(problem).split())}", file=sys.stderr)
-        return MISSED
     return _told(found, export)
 
 

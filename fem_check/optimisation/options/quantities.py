@@ -2,28 +2,31 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, ClassVar
 
 import numpy as np
+from numpy.typing import NDArray
 
 from fem_check.optimisation.objectives import (
     CostOfTransport,
     Distance,
     Objective,
-    OfScene,
     Power,
     Speed,
 )
+from fem_check.optimisation.options.stretch import Stretch
 from linear_theory.common.estimate import Estimate
 from linear_theory.optimisation.problem import Unusable
 from linear_theory.scene.scene import Scene
 from linear_theory.speed.result import CrawlSpeed
 
-TIMES = 32
-"""Of a period at which heights are looked at, and half of them for the error."""
+Array = NDArray[np.float64]
 
-ALONG = 65
-"""Points along the sheet at which growth is."""
+TIMES = 32
+"""Of a period at which heights are looked at."""
+
+BETWEEN = 0.25
+"""Of second differences, by which a value between two times may exceed both: an eighth of those of a
+parabola, twice as much for what is sampled four times in its own period only."""
 
 
 @dataclass(frozen=True)
@@ -40,20 +43,6 @@ class Measured(Objective):
         if not np.isfinite(value.value):
             raise Unusable(f"{self.name}: is not known of this motion")
         return value
-
-
-@dataclass(frozen=True)
-class Stretch(OfScene):
-    """The largest that growth asks for, at any point and time: 1.1 is a tenth longer."""
-
-    name: ClassVar[str] = "stretch"
-    unit: ClassVar[str] = ""
-
-    def of_scene(self, scene: Scene) -> Estimate:
-        """See OfScene."""
-        growths = scene.alpha * scene.drive.growths(*_points(scene))
-        stretch = np.asarray(scene.growth.law.stretch(np.asarray(growths)))
-        return _largest(stretch, 1.0)
 
 
 def _efficiency(speed: CrawlSpeed, scene: Scene) -> Estimate:
@@ -75,13 +64,6 @@ def _rigid(speed: CrawlSpeed, component: int) -> Estimate:
     return Estimate(float(speed.turning.mean[component]), float(speed.turning.error[component]))
 
 
-def _points(scene: Scene) -> tuple[Any, Any]:
-    """Along the middle and the edges of the sheet, (n,)."""
-    half, width = scene.sheet.length / 2, scene.sheet.width / 2
-    x, y = np.meshgrid([-width, 0.0, width], np.linspace(-half, half, ALONG))
-    return x.ravel(), y.ravel()
-
-
 def _height(speed: CrawlSpeed, scene: Scene) -> Estimate:
     """The largest of any point above the plane of the ground, at any time."""
     if speed.deformation is None:
@@ -90,14 +72,22 @@ def _height(speed: CrawlSpeed, scene: Scene) -> Estimate:
     places = speed.deformation.places(points, scene.period * np.arange(TIMES) / TIMES)
     if places.shape[0] < 3:
         raise Unusable("height: the sheet lies flat on the ground")
-    return _largest(places[2], 0.0)
+    return largest_of_period(places[2])
 
 
-def _largest(values: Any, rest: float) -> Estimate:
-    """Over times (first axis) and points; the error is what half of the times miss, and rounding."""
+def largest_of_period(values: Array) -> Estimate:
+    """Over the times of a period (first axis) and points; the error is what may lie between them.
+
+    >>> import numpy as np
+    >>> from fem_check.optimisation.options.quantities import largest_of_period
+    >>> value, error = largest_of_period(np.cos(2 * np.pi * (np.arange(32) + 0.5) / 32))
+    >>> print(value < 1.0 < value + error)
+    True
+    """
+    ahead, behind = np.roll(values, -1, axis=0), np.roll(values, 1, axis=0)
+    between = values + BETWEEN * np.maximum(2 * values - ahead - behind, 0.0)
     largest = float(values.max())
-    error = largest - float(values[::2].max()) + 1e-12 * abs(largest - rest)
-    return Estimate(largest, error)
+    return Estimate(largest, float(between.max()) - largest + 1e-12 * abs(largest))
 
 
 QUANTITIES: dict[str, Objective] = {

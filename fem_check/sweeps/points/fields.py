@@ -1,5 +1,6 @@
 """Fields of a scene by dotted path, named as in scene files: sheet.poisson, growth.alpha, run.rtol."""
 
+import difflib
 from collections.abc import Iterator, Mapping
 from functools import cache
 from typing import Any, get_args
@@ -18,6 +19,10 @@ RIVALS = (
     ("run.rtol", "run.steps"),
 )
 """Fields of which a scene has one: where a sweep gives it values, those of the others are left out."""
+
+
+ALIKE = 0.75
+"""Likeness of names, as of `difflib`, of which one may be meant by the other."""
 
 
 @cache
@@ -54,7 +59,7 @@ def checked(path: object) -> str:
 
 
 def _hint(path: str) -> str:
-    """Among the keys of its table where that is known, else among those of all."""
+    """Among the keys of its table where that is known, else of one spelled alike, else of all."""
     table, key = path.partition(".")[::2]
     if table in TABLES:
         here = [known for known in paths() if known.startswith(f"{table}.")]
@@ -63,9 +68,15 @@ def _hint(path: str) -> str:
             return like
         if here and not key:
             return f"must be one of {', '.join(here)}"
+    for alike in difflib.get_close_matches(table, TABLES, n=1) if key else ():
+        if (there := f"{alike}.{key}") in paths():
+            return f"did you mean {there!r}?"
     keys = {known.rpartition(".")[2]: known for known in reversed(paths())}
-    same = keys.get(path.rpartition(".")[2])
-    return f"did you mean {same!r}?" if same else nearest(path, paths())
+    name = path.rpartition(".")[2]
+    same = [name] if name in keys else [] if key else difflib.get_close_matches(name, keys, 1, ALIKE)
+    if same:
+        return f"did you mean {keys[same[0]]!r}?"
+    return nearest(path, paths()) if key else f"must be one of {', '.join(paths())}"
 
 
 def takes_whole_numbers(path: str) -> bool:

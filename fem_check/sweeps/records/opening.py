@@ -6,7 +6,7 @@ from contextlib import ExitStack, closing, contextmanager
 from pathlib import Path
 
 from fem_check.runs.lock import claimed
-from fem_check.sweeps.records.store import DAMAGED, SCHEMA, Store
+from fem_check.sweeps.records.store import DAMAGED, SCHEMA, UNREADABLE, Store
 
 VERSION = 3
 """Of the tables below."""
@@ -54,7 +54,7 @@ def _connected(path: Path, name: str, new: bool) -> Iterator[sqlite3.Connection]
             _check(db, name, new)
             if new:
                 _begin(db)
-        except sqlite3.Error as problem:
+        except UNREADABLE as problem:
             raise ValueError(f"{name}: {_words(problem)}") from None
         yield db
 
@@ -108,8 +108,10 @@ def _check(db: sqlite3.Connection, name: str, new: bool) -> None:
         raise ValueError(f"{name}: {DAMAGED.format(' '.join(str(found).split()))}")
 
 
-def _words(problem: sqlite3.Error) -> str:
+def _words(problem: Exception) -> str:
     text = str(problem)
     if "not a database" in text:
         return "is not a database of sweeps; name another file"
-    return DAMAGED.format(text) if "malformed" in text else f"cannot be used: {text}"
+    if "malformed" in text or isinstance(problem, UnicodeError):
+        return DAMAGED.format(text)
+    return f"cannot be used: {text}"

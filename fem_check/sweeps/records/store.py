@@ -51,6 +51,9 @@ DAMAGED = (
     "program sqlite3 and its command .recover"
 )
 
+UNREADABLE = (sqlite3.Error, UnicodeError)
+"""What SQLite raises where a file is damaged; the second where its words quote bytes of the file."""
+
 Row = tuple[Any, ...]
 
 
@@ -188,7 +191,7 @@ class Store:
         try:
             for row in self._db.execute(statement, values):  # noqa: UP028 (closes what may be closed)
                 yield row
-        except sqlite3.Error as problem:
+        except UNREADABLE as problem:
             raise StoreError(f"{self.path}: {DAMAGED.format(problem)}") from None
 
     def _whole(self, what: str, row: Sequence[Any]) -> Row:
@@ -199,13 +202,18 @@ class Store:
 
 
 def checksum(row: Sequence[Any]) -> int:
-    """CRC-32 of the values of a row as SQLite gives them back: true is 1, and no number is NULL."""
+    """CRC-32 of the values of a row as SQLite gives them back: true is 1, and no number is NULL.
+
+    Of a damaged row, whose values may be bytes, it is that of no other row.
+    """
     return zlib.crc32(repr([_given_back(value) for value in row]).encode("utf-8", "backslashreplace"))
 
 
-def _given_back(value: str | float | None) -> str | float | None:
-    if value is None or isinstance(value, str):
-        return None if value is None else str(value)  # members of an enumeration are texts there
+def _given_back(value: str | bytes | float | None) -> str | bytes | float | None:
+    if value is None or isinstance(value, bytes):
+        return value
+    if isinstance(value, str):
+        return str(value)  # members of an enumeration are texts there
     return None if math.isnan(value) else float(value)
 
 
