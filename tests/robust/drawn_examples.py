@@ -10,7 +10,7 @@ def without_local_constants() -> None:
     """Keep hypothesis from drawing numbers that it reads in the modules of the project.
 
     Those are the modules that happen to be loaded: a test would see other examples alone than with all
-    others, where a failure could not be found again. Versions up to 6.130 read none.
+    others, where a failure could not be found again.
     """
     if hasattr(providers, "_get_local_constants"):
         providers._get_local_constants = lambda: providers._local_constants

@@ -2,7 +2,7 @@
 
 import sqlite3
 from collections.abc import Iterator
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack, closing, contextmanager
 from pathlib import Path
 
 from fem_check.runs.lock import claimed
@@ -40,27 +40,37 @@ def writing(path: Path) -> Iterator[Store]:
             raise ValueError(
                 f"{name}: another sweep is at work in it ({other}); wait for it, or name another file"
             )
-        yield held.enter_context(Store(path, _opened(path, name)))
+        yield Store(path, held.enter_context(_connected(path, name, new=True)))
 
 
-def _opened(path: Path, name: str) -> sqlite3.Connection:
-    try:
-        db = sqlite3.connect(path, timeout=PATIENCE, isolation_level=None)
-        _check(db, name, new=True)
-        # The log keeps what is written through the end of the process; after a power cut the last
-        # records may be missing, which are then computed again, and none is damaged.
-        db.execute("PRAGMA journal_mode = WAL")
-        db.execute("PRAGMA synchronous = NORMAL")
-        if not db.execute("SELECT COUNT(*) FROM sqlite_master").fetchone()[0]:
-            db.executescript(
-                f"BEGIN; PRAGMA application_id = {MARK}; PRAGMA user_version = {VERSION};"
-                f"{SCHEMA} COMMIT;"
+@contextmanager
+def _connected(path: Path, name: str, new: bool) -> Iterator[sqlite3.Connection]:
+    """A checked database, closed at the end. Errors of SQLite become ValueErrors while it is opened."""
+    with ExitStack() as held:
+        try:
+            db = held.enter_context(
+                closing(sqlite3.connect(path, timeout=PATIENCE, isolation_level=None))
             )
-        db.execute("BEGIN IMMEDIATE")
-        db.execute("ROLLBACK")
-    except UNREADABLE as problem:
-        raise ValueError(f"{name}: {_words(problem)}") from None
-    return db
+            _check(db, name, new)
+            if new:
+                _begin(db)
+        except UNREADABLE as problem:
+            raise ValueError(f"{name}: {_words(problem)}") from None
+        yield db
+
+
+def _begin(db: sqlite3.Connection) -> None:
+    """Make the tables where there are none, and see that the file can be written."""
+    # The log keeps what is written through the end of the process; after a power cut the last
+    # records may be missing, which are then computed again, and none is damaged.
+    db.execute("PRAGMA journal_mode = WAL")
+    db.execute("PRAGMA synchronous = NORMAL")
+    if not db.execute("SELECT COUNT(*) FROM sqlite_master").fetchone()[0]:
+        db.executescript(
+            f"BEGIN; PRAGMA application_id = {MARK}; PRAGMA user_version = {VERSION};{SCHEMA} COMMIT;"
+        )
+    db.execute("BEGIN IMMEDIATE")
+    db.execute("ROLLBACK")
 
 
 @contextmanager
@@ -70,13 +80,8 @@ def reading(path: Path) -> Iterator[Store]:
     if not path.is_file():
         what = "is a folder, must be the file of a sweep" if path.is_dir() else "there is no such file"
         raise ValueError(f"{name}: {what}")
-    try:
-        db = sqlite3.connect(path, timeout=PATIENCE, isolation_level=None)
-        _check(db, name, new=False)
-    except UNREADABLE as problem:
-        raise ValueError(f"{name}: {_words(problem)}") from None
-    with Store(path, db) as store:
-        yield store
+    with _connected(path, name, new=False) as db:
+        yield Store(path, db)
 
 
 def _check(db: sqlite3.Connection, name: str, new: bool) -> None:
@@ -92,17 +97,14 @@ def _check(db: sqlite3.Connection, name: str, new: bool) -> None:
     if not tables and not mark and new:
         return
     if mark != MARK:
-        db.close()
         raise ValueError(f"{name}: is a database, but not of sweeps; name another file")
     if version != VERSION:
-        db.close()
         raise ValueError(
             f"{name}: is of version {version}, this program writes and reads version {VERSION}; name "
             "another file, or use the program that wrote it"
         )
     (found,) = db.execute("PRAGMA quick_check(1)").fetchone()
     if found != "ok":
-        db.close()
         raise ValueError(f"{name}: {DAMAGED.format(' '.join(str(found).split()))}")
 
 
