@@ -50,7 +50,7 @@ def parsed(text: str, path: Path) -> SceneFile:
 
 
 def check_no_scene(data: Mapping[str, Any], path: Path, command: str) -> None:
-    """Raise SceneFileError where the tables are those of a scene alone; command: that reads it."""
+    """Raise SceneFileError where the tables are those of a scene alone. command: that reads files."""
     if data.keys() & TABLES.keys() and not BESIDE & data.keys():
         raise SceneFileError(
             f"{path}: is a scene, which sheetcrawl speed and run answer; sheetcrawl new {command} "
