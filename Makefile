@@ -102,6 +102,7 @@ cost: $(STAMP)
 
 peers: $(STAMP) $(PEERS_VENV)/.installed
 	$(RUN) -m figures.measure.peers
+	$(PEERS_VENV)/bin/python -m figures.measure.peers.field
 	$(RUN) -m figures.draw.peers $(FIGURE_OUT)
 	$(RUN) -m figures.draw.peers.page
 
@@ -196,9 +197,9 @@ lock:
 	    --extra test --extra paper --extra docs --no-annotate --no-emit-index-url \
 	    --custom-compile-command "make lock" --output-file requirements-oldest.lock pyproject.toml
 
-$(PEERS_VENV)/.installed: requirements-peers.lock
+$(PEERS_VENV)/.installed: requirements-peers.lock requirements.lock
 	test -x $(PEERS_VENV)/bin/pip || $(PYTHON) -m venv $(PEERS_VENV)
-	$(PEERS_VENV)/bin/python -m pip install --disable-pip-version-check -r requirements-peers.lock
+	$(PEERS_VENV)/bin/python -m pip install --disable-pip-version-check -r requirements-peers.lock -r requirements.lock
 	@touch $@
 
 $(OLDEST_VENV)/.installed: requirements-oldest.lock pyproject.toml

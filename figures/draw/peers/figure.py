@@ -1,8 +1,8 @@
-"""Error against time of codes for soft bodies on two scenes, on the same axes.
+"""Error against time of other codes: two scenes on the ground, the displacement of a sheet that grows.
 
 python -m figures.draw.peers [--out FOLDER] [--formats png pdf]
 
-From the table of `figures.measure.peers`.
+From the tables of `figures.measure.peers` and `figures.measure.peers.field`.
 """
 
 import math
@@ -13,8 +13,10 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator, NullFormatter
 
 from figures.common import style
+from figures.measure.cost.cases import P4, RITZ, TAIL
+from figures.measure.peers import field
 from figures.measure.peers.command import TABLE, Row
-from figures.measure.peers.problems import MUJOCO, NEWTON, OURS, TITLES
+from figures.measure.peers.problems import BLOCK, MUJOCO, NEWTON, OURS, STRIP
 
 LOOKS = {
     OURS: (style.COLORS["blue"], "o"),
@@ -23,40 +25,63 @@ LOOKS = {
 }
 """Colour and marker of each code."""
 
+NAMES = {BLOCK: "block on an incline", STRIP: "strip that settles"}
+
 SECONDS, ERRORS = (1e-2, 100.0), (3e-5, 2.0)
 """Limits of the axes."""
 
+FIELD_LOOKS = {
+    f"{OURS}, {TAIL}": (style.COLORS["blue"], "o"),
+    f"{OURS}, {RITZ}": (style.COLORS["sky"], "D"),
+    f"{OURS}, {P4}": (style.COLORS["black"], "P"),
+    "NGSolve P4": (style.COLORS["orange"], "v"),
+    "SfePy Q2": (style.COLORS["vermillion"], "s"),
+}
+FIELD_SECONDS, FIELD_ERRORS = (1e-4, 1.0), (1e-14, 1.0)
 
-def draw(rows: Sequence[Row]) -> Figure:
-    """One panel for each scene."""
+Look = tuple[str, str]
+Limits = tuple[float, float]
+
+
+def draw(rows: Sequence[Row], solved: Sequence[field.Row]) -> Figure:
+    """One panel for each scene, and one for the displacement."""
     fig = style.figure(width=style.DOUBLE_CM, height=7.0)
-    panels = fig.subplots(1, len(TITLES), sharex=True, sharey=True)
-    for axes, letter, (problem, title) in zip(panels, "ab", TITLES.items(), strict=True):
-        axes.set_title(f"({letter})  {title}", loc="left")
-        for code in LOOKS:
-            _draw_code(axes, code, [r for r in rows if (r.problem, r.code) == (problem, code)])
-        axes.set(xscale="log", yscale="log", xlim=SECONDS, ylim=ERRORS, xlabel="processor time (s)")
-        axes.xaxis.set_major_locator(LogLocator(numticks=8))
-        axes.xaxis.set_minor_formatter(NullFormatter())
-        axes.grid(color="0.93", lw=0.5)
-        axes.set_axisbelow(True)
+    panels = fig.subplots(1, len(NAMES) + 1)
+    for axes, letter, (problem, words) in zip(panels[:-1], "ab", NAMES.items(), strict=True):
+        axes.set_title(f"({letter})  {words}", loc="left")
+        for code, look in LOOKS.items():
+            own = [r for r in rows if (r.problem, r.code) == (problem, code)]
+            _draw_code(axes, code, look, [r for r in own if math.isfinite(r.error)])
+        _prepare(axes, SECONDS, ERRORS)
+    panels[-1].set_title("(c)  sheet that grows", loc="left")
+    for code in dict.fromkeys(row.code for row in solved):
+        own = [row for row in solved if row.code == code]
+        _draw_code(panels[-1], code, FIELD_LOOKS[code], own)
+    _prepare(panels[-1], FIELD_SECONDS, FIELD_ERRORS)
     panels[0].set_ylabel("relative error")
-    handles, names = panels[0].get_legend_handles_labels()
-    fig.legend(handles, names, loc="outside upper center", ncols=len(LOOKS))
+    panels[1].legend(loc="lower right", frameon=False)
+    panels[-1].legend(loc="lower left", frameon=False)
     return fig
 
 
-def _draw_code(axes: Axes, code: str, rows: Sequence[Row]) -> None:
-    color, marker = LOOKS[code]
-    known = [r for r in rows if math.isfinite(r.error)]
-    x, y = [r.seconds for r in known], [r.error for r in known]
+def _prepare(axes: Axes, seconds: Limits, errors: Limits) -> None:
+    axes.set(xscale="log", yscale="log", xlim=seconds, ylim=errors, xlabel="processor time (s)")
+    axes.xaxis.set_major_locator(LogLocator(numticks=8))
+    axes.xaxis.set_minor_formatter(NullFormatter())
+    axes.grid(color="0.93", lw=0.5)
+    axes.set_axisbelow(True)
+
+
+def _draw_code(axes: Axes, code: str, look: Look, rows: Sequence[Row] | Sequence[field.Row]) -> None:
+    color, marker = look
+    x, y = [r.seconds for r in rows], [r.error for r in rows]
     axes.plot(x, y, marker=marker, ms=4, lw=1, color=color, label=code)
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
     """Draw the figure from its table."""
     options = style.options("peers", __doc__, arguments)
-    figure = draw(TABLE.read())
+    figure = draw(TABLE.read(), field.TABLE.read())
     print(*style.save(figure, "peers", options.out, tuple(options.formats)), sep="\n")
 
 
