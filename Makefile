@@ -8,7 +8,7 @@
 #   make paper     the write-up as a PDF, paper/out/sheetcrawl.pdf, with its figures
 #   make docs      the documentation as one site, build/docs/index.html: a minute
 #   make cost      error against time of every level, the price of each effect: four minutes
-#   make peers   other codes for soft bodies on two scenes, in an environment of their own: ten minutes
+#   make peers   other codes on two scenes and a displacement, in an environment of their own: ten minutes
 #   make bench-threads  times beside a busy core against one BLAS thread
 #   make bench-shell  time and memory of the sheet that bends
 #   make tables    every table that the figures, the paper and predict() read: an hour

@@ -99,8 +99,12 @@ def _shortly(solved: Sequence[field.Row]) -> str:
     """What a displacement to 1e-4 takes."""
     near = [row for row in solved if row.error <= NEAR]
     least = {row.code: row.seconds for row in sorted(near, key=lambda row: -row.seconds)}
-    told = ", ".join(f"{1e3 * seconds:.2g} ms ({code})" for code, seconds in least.items())
-    return f"A displacement\nto {NEAR:g} takes {told}."
+    told = ", ".join(f"{_time(seconds)} ({code})" for code, seconds in least.items())
+    return f"A displacement\nto {NEAR:.0e} takes {told}."
+
+
+def _time(seconds: float) -> str:
+    return f"{seconds:.2g} s" if seconds >= 0.1 else f"{1e3 * seconds:.2g} ms"
 
 
 def _field_table(solved: Sequence[field.Row]) -> Iterator[str]:
@@ -108,7 +112,7 @@ def _field_table(solved: Sequence[field.Row]) -> Iterator[str]:
     yield "| --- " * 4 + "|"
     for said, row in zip(["", *(row.code for row in solved)], solved, strict=False):
         name = row.code if row.code != said else ""
-        yield f"| {name} | {row.knob} {row.value} | {row.error:.1e} | {1e3 * row.seconds:.2g} ms |"
+        yield f"| {name} | {row.knob} {row.value} | {row.error:.1e} | {_time(row.seconds)} |"
 
 
 def _table(rows: Sequence[Row]) -> Iterator[str]:
