@@ -55,8 +55,8 @@ def draw(rows: Sequence[Row], solved: Sequence[field.Row]) -> Figure:
         _prepare(axes, SECONDS, ERRORS)
     panels[-1].set_title("(c)  sheet that grows", loc="left")
     for code in dict.fromkeys(row.code for row in solved):
-        own = [row for row in solved if row.code == code]
-        _draw_code(panels[-1], code, FIELD_LOOKS[code], own)
+        found = [row for row in solved if row.code == code]
+        _draw_code(panels[-1], code, FIELD_LOOKS[code], found)
     _prepare(panels[-1], FIELD_SECONDS, FIELD_ERRORS)
     panels[0].set_ylabel("relative error")
     panels[1].legend(loc="lower right", frameon=False)
