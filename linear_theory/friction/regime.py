@@ -1,6 +1,5 @@
 """Whether friction is dry, mixed or viscous, as the sheet meets it: by its slip ratio."""
 
-import math
 import warnings
 from typing import Literal
 
@@ -20,6 +19,9 @@ VISCOUS_RATIO = 1.0
 """Slip ratio from which it is viscous: v0 is above all speeds at all times. The speed of the paper's
 sheet has gone there 90 % of the way under a sine wave, 94 to 96 % under the pulse."""
 
+AT_REST = 1e12
+"""Slip ratio above which nothing moves: speeds that are left are those of rounding."""
+
 
 def regime_of(slip_ratio: float) -> Regime:
     """Regime of friction at a slip ratio (see `CrawlSpeed`); "none" for NaN, which is no friction."""
@@ -34,9 +36,9 @@ def warn_if_viscous(law: FrictionLaw, slip_ratio: float) -> None:
     """Warn where a law that stands for dry friction acts as viscous.
 
     To be called by the function that the user calls, to whose line the warning points. No warning where
-    nothing moves.
+    nothing moves but by rounding.
     """
-    if not law.regularised or regime_of(slip_ratio) != "viscous" or math.isinf(slip_ratio):
+    if not law.regularised or regime_of(slip_ratio) != "viscous" or slip_ratio > AT_REST:
         return
     fastest = law.width / slip_ratio
     warnings.warn(

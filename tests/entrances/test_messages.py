@@ -1,5 +1,7 @@
 """Messages of refusals are one line, whatever object they show."""
 
+import warnings
+
 import numpy as np
 import pytest
 
@@ -19,6 +21,7 @@ from fem_check import (
     simulate,
     speeds,
 )
+from fem_check.command.actions.remarks import tell
 from fem_check.files.writing import toml_of
 from linear_theory import (
     Coulomb,
@@ -106,3 +109,11 @@ def test_a_refusal_is_one_line(name: str) -> None:
         except (TypeError, AttributeError) as problem:
             pytest.fail(f"{type(one).__name__}: {problem!r}")
     assert refused
+
+
+def test_deprecations_of_libraries_are_not_told(capsys: pytest.CaptureFixture[str]) -> None:
+    with warnings.catch_warnings(record=True, action="always") as seen:
+        warnings.warn("of the answer", UserWarning, stacklevel=1)
+        warnings.warn("between libraries", DeprecationWarning, stacklevel=1)
+    tell(seen)
+    assert capsys.readouterr().err == "sheetcrawl: warning: of the answer\n"

@@ -35,6 +35,9 @@ from paper.numbers import shell
 
 ROOT = Path(__file__).resolve().parents[2]
 
+NEWER = ("-W", "ignore::DeprecationWarning")
+"""Packages newer than matplotlib deprecate what it uses; ours are held by the tests themselves."""
+
 DRAWING = """
 import sys
 import numpy as np
@@ -55,7 +58,7 @@ style.save(fig, "drawing", sys.argv[1], formats=("png", "pdf", "svg"))
 def draw(out: Path, hash_seed: str, **environment: str) -> dict[str, bytes]:
     """The files of DRAWING, drawn in a process of its own, where the order of sets differs."""
     settings = os.environ | {"PYTHONHASHSEED": hash_seed} | environment
-    command = [sys.executable, "-W", "error", "-c", DRAWING, str(out)]
+    command = [sys.executable, "-W", "error", *NEWER, "-c", DRAWING, str(out)]
     subprocess.run(command, cwd=ROOT, env=settings, check=True)
     return {path.suffix: path.read_bytes() for path in out.iterdir()}
 

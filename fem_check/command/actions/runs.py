@@ -5,6 +5,7 @@ import sys
 import warnings
 from pathlib import Path
 
+from fem_check.command.actions.remarks import tell
 from fem_check.command.actions.scenes import SUFFIX, answerable
 from fem_check.command.status import MET, MISSED
 from fem_check.command.text import printable
@@ -46,8 +47,7 @@ def run(path: Path, out: Path | None, resume: bool) -> int:
             return _failed(str(problem))
         except OSError as problem:  # of the folder, as on a full disk
             return _failed(f"{problem}; to go on: {again}")
-    for warning in seen:
-        print(f"sheetcrawl: warning: {warning.message}", file=sys.stderr)
+    tell(seen)
     print(printable(f"\n{found.block}\n\n  kept in {folder}: {_contents(folder)}\n", sys.stdout))
     return MET if found.converged else MISSED
 

@@ -13,6 +13,7 @@ from fem_check.answer.units import Units
 from fem_check.choice.prediction import predict
 from fem_check.choice.result import Prediction
 from fem_check.choice.ways import check_shape
+from fem_check.command.actions.remarks import tell
 from fem_check.command.actions.scenes import answered, asked_by_file
 from fem_check.command.files import check_files
 from fem_check.command.options import Options
@@ -49,8 +50,7 @@ def speed(options: Options, path: Path | None = None) -> int:
     with warnings.catch_warnings(record=True, action="always") as seen, Waiting() as waiting:
         found = solve(waiting.report)
     print(_told(found, units, options))
-    for warning in seen:
-        print(f"sheetcrawl: warning: {warning.message}", file=sys.stderr)
+    tell(seen)
     _draw(found, units, options)
     return MET if found.converged else MISSED
 
