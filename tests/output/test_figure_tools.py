@@ -8,6 +8,7 @@ import sys
 import time
 from pathlib import Path
 
+import matplotlib
 import numpy as np
 import pytest
 from matplotlib.image import imread
@@ -35,8 +36,9 @@ from paper.numbers import shell
 
 ROOT = Path(__file__).resolve().parents[2]
 
-NEWER = ("-W", "ignore::DeprecationWarning")
-"""Packages newer than matplotlib deprecate what it uses; ours are held by the tests themselves."""
+OLD = tuple(map(int, matplotlib.__version__.split(".")[:2])) < (3, 11)
+NEWER = ("-W", "ignore::DeprecationWarning") if OLD else ()
+"""Packages newer than an old matplotlib deprecate what that uses."""
 
 DRAWING = """
 import sys

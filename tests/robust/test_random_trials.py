@@ -10,18 +10,18 @@ from tests.robust.trials.families import FAMILIES, outcome
 
 SEED = 2026
 COUNTS = {
-    "speed": 4,
-    "line": 8,
-    "direction": 2,
-    "field": 3,
-    "bent": 1,
+    "speed": 8,
+    "line": 15,
+    "direction": 3,
+    "field": 6,
+    "bent": 2,
     "outline": 1,
     "prediction": 2,
-    "command": 10,
-    "damaged": 10,
-    "kept": 15,
+    "command": 20,
+    "damaged": 20,
+    "kept": 25,
 }
-"""So that all take some 12 s; thousands are in the table of `trials.table`, of the same seed."""
+"""So that all take some 20 s; thousands are in the table of `trials.table`, of the same seed."""
 
 
 @pytest.mark.parametrize(

@@ -15,6 +15,7 @@ from linear_theory import (
     FieldWave,
     Sheet,
     SineWave,
+    Tanh,
     TravellingWave,
     airy_series,
     crawl_speed,
@@ -24,6 +25,8 @@ from linear_theory import (
     ritz_field,
     second_order,
 )
+from linear_theory.common.errors import ViscousRegimeWarning
+from linear_theory.friction.regime import warn_if_viscous
 from linear_theory.speed.reach import LARGEST_GROWTH, rotation
 
 PAPER, SINE = Sheet(), SineWave()
@@ -247,3 +250,13 @@ def test_friction_at_rest_is_none_under_the_load_that_is_there():
         )
         np.testing.assert_array_equal(at.force, np.zeros((2, 2)))
         np.testing.assert_array_equal(at.weight, [1.0, 1.0])
+
+
+def test_speeds_of_rounding_are_no_viscous_regime() -> None:
+    """A law 1e13 times as wide as all speeds meets a sheet at rest; 1e3 times, a viscous one."""
+    law = Tanh(0.1)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        warn_if_viscous(law, 1e13)
+    with pytest.warns(ViscousRegimeWarning, match="acts as viscous"):
+        warn_if_viscous(law, 1e3)

@@ -105,8 +105,7 @@ def test_numbers_come_again(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     assert len(found) == len(COMPARISONS[name].numbers)
     for k, cheap in enumerate(found):
         row = ROWS[name, k]
-        # where the cheap form is the coarser of two meshes, the error is their distance
-        allowed = (cheap.error + row.error) * (1 + 1e-4) + 2e-9 * abs(row.here)
+        allowed = (cheap.error + row.error) * (1 + 1e-6) + 2e-9 * abs(row.here)
         assert abs(cheap.value - row.here) <= allowed
 
 
