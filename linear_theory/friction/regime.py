@@ -19,8 +19,8 @@ VISCOUS_RATIO = 1.0
 """Slip ratio from which it is viscous: v0 is above all speeds at all times. The speed of the paper's
 sheet has gone there 90 % of the way under a sine wave, 94 to 96 % under the pulse."""
 
-AT_REST = 1e12
-"""Slip ratio above which nothing moves: speeds that are left are those of rounding."""
+ROUNDING = 1e-13
+"""Largest speed (L/T) at which nothing moves: what is left are errors of rounding."""
 
 
 def regime_of(slip_ratio: float) -> Regime:
@@ -38,9 +38,11 @@ def warn_if_viscous(law: FrictionLaw, slip_ratio: float) -> None:
     To be called by the function that the user calls, to whose line the warning points. No warning where
     nothing moves but by rounding.
     """
-    if not law.regularised or regime_of(slip_ratio) != "viscous" or slip_ratio > AT_REST:
+    if not law.regularised or regime_of(slip_ratio) != "viscous":
         return
     fastest = law.width / slip_ratio
+    if fastest <= ROUNDING:
+        return
     warnings.warn(
         f"slip_speed = {law.width:.4g} is {slip_ratio:.3g} times the largest speed against the "
         f"ground, {fastest:.3g}: friction {law.formula} acts as viscous; at such speeds it is dry "

@@ -253,10 +253,11 @@ def test_friction_at_rest_is_none_under_the_load_that_is_there():
 
 
 def test_speeds_of_rounding_are_no_viscous_regime() -> None:
-    """A law 1e13 times as wide as all speeds meets a sheet at rest; 1e3 times, a viscous one."""
-    law = Tanh(0.1)
+    """Speeds of 1e-14 L/T are those of a sheet at rest, 1e-4 of one that moves, however wide the law."""
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        warn_if_viscous(law, 1e13)
-    with pytest.warns(ViscousRegimeWarning, match="acts as viscous"):
-        warn_if_viscous(law, 1e3)
+        warn_if_viscous(Tanh(0.1), 1e13)
+        warn_if_viscous(Tanh(0.1), math.inf)
+    for width in (0.1, 1e150):
+        with pytest.warns(ViscousRegimeWarning, match="acts as viscous"):
+            warn_if_viscous(Tanh(width), width / 1e-4)
