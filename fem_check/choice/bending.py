@@ -26,14 +26,14 @@ BENDING = ("second order", "cycle")
 """Levels of a bending scene, cheapest first; the last one is the target."""
 
 
-def bending_answer(scene: Scene, tolerance: Tolerance, method: str = "auto") -> Prediction:
+def bending_answer(scene: Scene, tolerance: Tolerance, level: str = "auto") -> Prediction:
     """The answer of the cheapest level that is known to meet the tolerance, or of that of a name.
 
     Raises ValueError, and errors of the level, as `predict`.
     """
-    if method == "second order":
+    if level == "second order":
         return replace(_by_plate(scene, tolerance), reason="requested")
-    if method == "cycle":
+    if level == "cycle":
         return replace(_by_cycle(scene, tolerance), reason="requested")
     begin = time.perf_counter()
     obstacle = _obstacle(scene)

@@ -59,7 +59,7 @@ def line(scene: Scene, tolerance: Tolerance) -> CrawlSpeed:
 
 def _narrow(scene: Scene, tolerance: Tolerance, body: str) -> CrawlSpeed:
     if scene.drive.depends_on_x:
-        raise ValueError(f"method = {body!r}: must be 'cycle' for a wave that depends on x")
+        raise ValueError(f"level = {body!r}: must be 'cycle' for a wave that depends on x")
     return line_crawl(scene, tolerance, body)
 
 

@@ -31,7 +31,8 @@ from linear_theory.sheet.rectangle import Sheet
 from linear_theory.speed.reach import warn_if_beyond
 from linear_theory.wave.protocol import Wave
 
-METHODS = ("auto", *LEVELS, *ASIDE)
+NAMES = ("auto", *LEVELS, *ASIDE)
+"""What `level` may be for a flat sheet."""
 
 
 def predict(
@@ -45,7 +46,7 @@ def predict(
     slip_speed: float | None = None,
     rtol: float = 1e-2,
     atol: float | None = None,
-    method: str = "auto",
+    level: str = "auto",
     *,
     progress: bool | Report | None = None,
 ) -> Prediction:
@@ -53,10 +54,10 @@ def predict(
 
     The target is a planar sheet that grows by growth_law, with its elastic energy counted per `area`
     and the normal load `load`, too stiff for friction to change its shape; arguments as in
-    `crawl_speed`, or a `Scene`. method = "auto" tries "strip", "first order", "second order" and
+    `crawl_speed`, or a `Scene`. level = "auto" tries "strip", "first order", "second order" and
     "cycle" in this order and returns the first whose numerical plus model error is below
     max(rtol |mean|, atol), atol = 1e-3 rtol alpha^2 L/T unless given; a level whose model error is
-    unknown (see `model_error`) is skipped. The name of a level as method selects that level,
+    unknown (see `model_error`) is skipped. The name of a level selects that level,
     and "line" the one-dimensional body of eqs 5 to 7, with its weight per length, which is no sheet.
     `converged` is False if even the last level misses the tolerance. `left_out` lists what the target
     neglects (bending, and with it the thickness; the ground; deformation by friction). A scene with
@@ -64,7 +65,7 @@ def predict(
     levels; `solve` answers those that neither represents. progress: True prints on stderr, a function
     is called with a `linear_theory.common.progress.Progress`.
 
-    Raises ValueError for bad input, for sheets wider than 20 lengths unless by method "strip", "line"
+    Raises ValueError for bad input, for sheets wider than 20 lengths unless by level "strip", "line"
     or "first order", and what the chosen level raises. Warns as `crawl_speed` does, for
     the level that gives the answer.
 
@@ -78,28 +79,28 @@ def predict(
     scene = Scene.stated(
         sheet, wave, alpha, load, friction, slip_speed, growth_law=growth_law, area=area
     )
-    validation.choice("method", method, METHODS if scene.planar else ("auto", *BENDING))
-    _target(scene, method).require(scene)
+    validation.choice("level", level, NAMES if scene.planar else ("auto", *BENDING))
+    _target(scene, level).require(scene)
     tolerance = Tolerance(rtol, atol).of_speed(scene.alpha, scene.unit)
-    check_width(scene, method)
+    check_width(scene, level)
     with watched(progress, "predict"):
         if not scene.planar:
-            found = bending_answer(scene, tolerance, method)
-        elif method == "auto":
+            found = bending_answer(scene, tolerance, level)
+        elif level == "auto":
             found = _cheapest(scene, tolerance)
         else:
-            found = _answer(scene, method, tolerance, "requested")
+            found = _answer(scene, level, tolerance, "requested")
             found = replace(found, reason=f"{found.reason}; {found.speed.reach}")
     warn_if_viscous(scene.contact.friction, found.speed.slip_ratio)
     warn_if_beyond(scene.alpha, found.speed.beyond_reach)
     return replace(found, seconds=time.perf_counter() - start)
 
 
-def _target(scene: Scene, method: str) -> Level:
+def _target(scene: Scene, level: str) -> Level:
     """What must represent the scene: the target, or the plate where that is asked for by name."""
     if scene.planar:
         return THEORY
-    return PLATE if method == "second order" else CYCLE
+    return PLATE if level == "second order" else CYCLE
 
 
 def _cheapest(scene: Scene, tolerance: Tolerance) -> Prediction:

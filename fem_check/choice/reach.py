@@ -13,14 +13,14 @@ order, which does not reach 1 %; to 0.1 % the cycle takes more than a minute at 
 ANY_WIDTH = ("strip", "line", "first order")
 
 
-def check_width(scene: Scene, method: str) -> None:
+def check_width(scene: Scene, level: str) -> None:
     """Raise ValueError for a flat sheet wider than any whose cost was measured.
 
-    method: of `predict`.
+    level: of `predict`.
     """
     sheet = scene.sheet
-    if scene.planar and method not in ANY_WIDTH and sheet.width > WIDEST * sheet.length:
+    if scene.planar and level not in ANY_WIDTH and sheet.width > WIDEST * sheet.length:
         raise ValueError(
             f"width = {sheet.width:g}: must be <= {WIDEST:g} times the length, {sheet.length:g}, for "
-            f"method = {method!r}; only 'first order' answers wider sheets, as far as that theory holds"
+            f"level = {level!r}; only 'first order' answers wider sheets, as far as that theory holds"
         )

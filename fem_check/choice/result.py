@@ -27,7 +27,7 @@ class Prediction(Drawable, Shown):
     """A speed and the level that gave it.
 
     speed: `speed.error` is the numerical error and `speed.model_error` the distance to the target, NaN
-    where unknown (never for method = "auto"). level: a key of `levels.LEVELS`; reason: why this level
+    where unknown (never for level = "auto"). level: a key of `levels.LEVELS`; reason: why this level
     was chosen and no cheaper one, in words. converged: whether `error`, numerical plus model error,
     meets the tolerance (or none was asked for, tolerance = None) and there is no caution: what else is
     wrong with the speed, in words. not_in_error: parts that were not estimated, in words, of a level

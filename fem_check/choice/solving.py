@@ -9,7 +9,7 @@ from fem_check.choice.answers import CROSSES, answer_of, by_cycle, noise
 from fem_check.choice.prediction import predict
 from fem_check.choice.result import Prediction
 from fem_check.choice.settings import RTOL, RunSettings
-from fem_check.choice.ways import METHODS, way_of
+from fem_check.choice.ways import PREDICTED, way_of
 from fem_check.shell.cycle.wrinkling import WRINKLES
 from fem_check.shell.statics.meter import Meter, metered
 from fem_check.shell.stepping.further.progress import FIRST
@@ -85,7 +85,7 @@ def solved(
         tolerance = tolerance or Tolerance(RTOL).of_speed(scene.alpha, scene.unit)
         if way == "cycle":
             return Solved(by_cycle(scene, tolerance, progress), None, cost)
-        found = predict(scene, rtol=tolerance.rtol, method=METHODS[way], progress=progress)
+        found = predict(scene, rtol=tolerance.rtol, level=PREDICTED[way], progress=progress)
     return Solved(found, None, cost)
 
 

@@ -22,8 +22,8 @@ THEORIES = (*(level for level in LEVELS if level not in WAYS), *ASIDE)
 
 ANSWERS = ("auto", *WAYS, *THEORIES)
 
-METHODS = {"predict": "auto", **{level: level for level in THEORIES}}
-"""Levels that `predict` answers, and its argument `method` for them."""
+PREDICTED = {"predict": "auto", **{level: level for level in THEORIES}}
+"""Levels that `predict` answers, and its argument `level` for them."""
 
 ON_GROUND: dict[str, Level] = {"predict": CYCLE, "second order": PLATE}
 """What they represent of a sheet that bends, where that is more than of a flat one."""
@@ -63,8 +63,8 @@ def way_of(scene: Scene, asked: str = "auto") -> str:
     way = _cheapest(scene) if asked == "auto" else asked
     if asked != "auto":
         _require(scene, asked)
-    if way in METHODS:
-        check_width(scene, METHODS[way])
+    if way in PREDICTED:
+        check_width(scene, PREDICTED[way])
     return way
 
 

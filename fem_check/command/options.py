@@ -109,7 +109,7 @@ class Options:
     """Relative tolerance for the numerical plus model error, e.g. "1 %"."""
     atol: Annotated[str | None, In(group=COST)] = None
     """Absolute tolerance for the same error, a speed."""
-    method: Annotated[
+    level: Annotated[
         Literal["auto", "strip", "first order", "second order", "cycle", "line"], In(group=COST)
     ] = "auto"
     """Level of theory; auto chooses the cheapest that is known to meet the tolerance. "line" is the

@@ -55,7 +55,7 @@ MEANT = {
     ),
     **dict.fromkeys(("--nu", "--poissons-ratio", "--poisson-ratio"), "Poisson's ratio is --poisson"),
     **dict.fromkeys(("--swelling", "--amplitude"), "growth of lengths at the crest is --growth '12 %'"),
-    "--level": "the level is --method",
+    "--method": "the level of theory is --level",
 }
 """What is meant by options that `speed` has by another name."""
 

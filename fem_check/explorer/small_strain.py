@@ -170,7 +170,7 @@ def strip(question: Question) -> Answer:
 
 
 def _strip(question: Question) -> Answer:
-    found = predict(question.scene, rtol=question.rtol, method=STRIP)
+    found = predict(question.scene, rtol=question.rtol, level=STRIP)
     model_error, problem = found.speed.model_error, found.speed.beyond_reach
     return Answer(
         STRIP, question.alpha, found.mean, found.speed.error, model_error, found.seconds, problem

@@ -19,7 +19,7 @@ PREDICTED = "nonlinear"
 ROWS = {STRIP: "Narrow strip", FIRST: "Sheet, small strain", PREDICTED: "Sheet, nonlinear"}
 """Rows of the table by level."""
 
-CALLS = {STRIP: "predict, method='strip'", FIRST: "crawl_speed", PREDICTED: "predict"}
+CALLS = {STRIP: "predict, level='strip'", FIRST: "crawl_speed", PREDICTED: "predict"}
 """What a row is in Python."""
 
 Found = Answer | Predicted | Progress | None

@@ -19,7 +19,8 @@ from fem_check.mesh.checks import check_mesh
 from fem_check.mesh.location import TriangleFinder, covering, quadrilateral_points
 from fem_check.mesh.outline import Outline
 from fem_check.mesh.shown import MeshShown
-from fem_check.plane_stress.solver import ELEMENTS, PlaneStressSolver
+from fem_check.plane_stress.elements import ELEMENTS
+from fem_check.plane_stress.solver import PlaneStressSolver
 from linear_theory.common import validation
 from linear_theory.common.threads import one_blas_thread
 from linear_theory.deformation.field import LinearField

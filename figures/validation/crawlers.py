@@ -45,7 +45,7 @@ def truncated(name: str, count: int) -> tuple[float]:
     wave = scene.wave
     assert isinstance(wave, TravellingWave)
     series = wave.cosine[:count], wave.sine[:count], wave.count, wave.period, wave.mean
-    return (predict(scene.but(wave=TravellingWave(*series)), method="line").mean,)
+    return (predict(scene.but(wave=TravellingWave(*series)), level="line").mean,)
 
 
 def pulse(y: Array, t: Array) -> Array:

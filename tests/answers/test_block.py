@@ -54,7 +54,7 @@ def numbers(text, pattern):
 
 def test_a_speed_in_mm_per_s_is_that_of_the_strip():
     """Against the closed form of a strip, whose speed is 40 mm/8 s times its number."""
-    found = predict(Sheet(40.0, 4.0, 0.5, 0.8), SineWave(1, 8.0), 0.1, method="strip", rtol=0.2)
+    found = predict(Sheet(40.0, 4.0, 0.5, 0.8), SineWave(1, 8.0), 0.1, level="strip", rtol=0.2)
     said = lines(block(found, MM))
     exact = line_cycle_speed(0.1, body="strip") * 40 / 8
     value, error = numbers(said["speed"], rf"^{NUMBER} ± {NUMBER} mm/s, along the wave;")
@@ -70,7 +70,7 @@ def test_a_speed_in_mm_per_s_is_that_of_the_strip():
 def test_direction_is_the_sign_of_the_speed_and_of_the_wave(count, pulse):
     """A sine crawls along its wave, a pulse of growth against it (first order of its median)."""
     wave = pulse_wave(0.3, count) if pulse else SineWave(count)
-    found = predict(Sheet(), wave, 0.05, method="first order")
+    found = predict(Sheet(), wave, 0.05, level="first order")
     expected = crawl_speed(Sheet(), wave, 0.05).mean
     assert np.sign(expected) == (-count if pulse else count)
     text = str(found)
@@ -107,21 +107,21 @@ def test_accuracy_is_both_errors_rounded_up():
 
 
 def test_what_is_left_out_is_all_of_what_the_answer_leaves_out():
-    found = predict(Sheet(), SineWave(), 0.1, method="strip")
+    found = predict(Sheet(), SineWave(), 0.1, level="strip")
     assert lines(str(found))["left out"] == "; ".join(found.left_out)
     assert len(found.left_out) == 5  # bending, ground, weight, friction that deforms, inertia
     assert not set(found.left_out) - set(lines(block(found, width=60))["left out"].split("; "))
 
 
 def test_a_tolerance_that_is_missed_and_a_model_that_is_not_known_are_said():
-    known = predict(Sheet(), SineWave(), 0.1, method="strip", rtol=1e-3)
+    known = predict(Sheet(), SineWave(), 0.1, level="strip", rtol=1e-3)
     said = lines(str(known))
     asked, error = numbers(
         said["NOT MET"], rf"the tolerance, {NUMBER} %, is not met: the error is {NUMBER} %"
     )
     assert asked == 0.1
     assert error >= 100 * known.error / abs(known.mean)
-    unknown = lines(str(predict(Sheet(), SineWave(), 0.1, method="strip", friction="viscous")))
+    unknown = lines(str(predict(Sheet(), SineWave(), 0.1, level="strip", friction="viscous")))
     assert "may not be met" in unknown["NOT MET"]
     assert "model unknown" in unknown["accuracy"]
     assert unknown["friction"].startswith("viscous: force proportional to the sliding velocity")
@@ -132,7 +132,7 @@ def test_a_tolerance_that_is_missed_and_a_model_that_is_not_known_are_said():
 
 def test_beyond_reach_is_said():
     with warnings.catch_warnings(action="ignore"):
-        found = predict(Sheet(), SineWave(), 0.9, method="second order", rtol=0.5)
+        found = predict(Sheet(), SineWave(), 0.9, level="second order", rtol=0.5)
     said = lines(str(found))
     assert said["NO ANSWER"] == f"beyond the reach of the theory: {found.speed.beyond_reach}"
 
@@ -146,7 +146,7 @@ def test_nothing_moves_without_growth():
 def test_a_sheet_that_turns():
     """A wave that is stronger on the right turns it: the rate is that of the first-order balance."""
     wave = FieldWave(lambda x, y, t: (1 + 3 * x) * np.sin(2 * np.pi * (y - t)), 1.0)
-    found = predict(Sheet(), wave, 0.05, method="first order", rtol=0.05)
+    found = predict(Sheet(), wave, 0.05, level="first order", rtol=0.05)
     expected = crawl_speed(Sheet(), wave, 0.05, rtol=1e-3)
     said = lines(str(found))
     rate, error = numbers(said["turning"], rf"^{NUMBER} ± {NUMBER} degrees per period, anticlockwise")
@@ -166,7 +166,7 @@ def test_mixed_friction_names_its_slip_speed_in_the_units_of_the_answer():
             0.1,
             friction="tanh",
             slip_speed=0.1,
-            method="first order",
+            level="first order",
         )
     slip, share = numbers(lines(block(found, MM))["friction"], rf"slip speed {NUMBER} mm/s, {NUMBER} %")
     assert slip == 0.1
@@ -178,7 +178,7 @@ def test_mixed_friction_names_its_slip_speed_in_the_units_of_the_answer():
 
 @pytest.mark.parametrize("width", [60, 80, 100])
 def test_lines_are_as_long_as_they_may_be(width):
-    text = block(predict(Sheet(), SineWave(), 0.1, method="strip"), width=width)
+    text = block(predict(Sheet(), SineWave(), 0.1, level="strip"), width=width)
     assert width - 20 < max(map(len, text.splitlines())) <= width
     assert not re.search(r"(=|±|\d)$", text, re.MULTILINE)  # no number is parted from its unit
 
@@ -225,7 +225,7 @@ def test_errors_are_never_shown_smaller_than_they_are():
 
 def test_a_tolerance_is_told_as_a_speed_where_that_is_what_counts():
     """Of a speed of nearly zero: 1e-3 rtol alpha^2 L/T, which is no meaningful share of it."""
-    found = predict(Sheet(), SineWave(), 0.1, method="strip", rtol=1e-3)
+    found = predict(Sheet(), SineWave(), 0.1, level="strip", rtol=1e-3)
     still = Estimate(1e-16, 3e-3)
     found = replace(found, speed=replace(found.speed, estimate=still, model_error=0.0), converged=False)
     said = lines(block(found, Units("mm", "s", 40.0, 8.0)))["NOT MET"]
@@ -238,7 +238,7 @@ def test_a_tolerance_is_told_as_a_speed_where_that_is_what_counts():
 
 def test_a_tolerance_that_is_met_is_never_said_to_be_missed():
     """What else is wrong with the answer has a line of its own, and so does nothing else."""
-    found = predict(Sheet(), SineWave(), 0.1, method="strip", rtol=0.5)
+    found = predict(Sheet(), SineWave(), 0.1, level="strip", rtol=0.5)
     wrong = replace(found, converged=False, caution="the sheet snaps over")
     said = lines(str(wrong))
     assert said["CAUTION"] == "the sheet snaps over"

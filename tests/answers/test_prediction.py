@@ -77,23 +77,23 @@ def test_a_level_of_unknown_model_error_is_not_taken(wave, friction, slip_speed)
 
 def test_asked_for_levels_are_their_functions():
     sheet, wave = Sheet(width=0.2), SineWave()
-    strip = predict(sheet, wave, 0.1, method="strip")
+    strip = predict(sheet, wave, 0.1, level="strip")
     assert strip.mean == pytest.approx(
         line_cycle_speed(0.1, body="strip"), rel=1e-12
     )  # both to rounding
     for order, name in ((1, "first order"), (2, "second order")):
         # predict gives half of its tolerance to the numbers
         expected = crawl_speed(sheet, wave, 0.1, rtol=5e-3, atol=5e-8, order=order)
-        assert predict(sheet, wave, 0.1, method=name).mean == pytest.approx(expected.mean, rel=1e-13)
-    pulse = predict(sheet, PULSE, 0.1, method="strip")
+        assert predict(sheet, wave, 0.1, level=name).mean == pytest.approx(expected.mean, rel=1e-13)
+    pulse = predict(sheet, PULSE, 0.1, level="strip")
     assert math.isnan(pulse.error)
     assert not pulse.converged
 
 
-@pytest.mark.parametrize("method", LEVELS)
-def test_units(method):
-    small = predict(Sheet(1.0, 0.4), SineWave(), 0.1, method=method)
-    large = predict(Sheet(3.0, 1.2), SineWave(period=2.0), 0.1, method=method)
+@pytest.mark.parametrize("level", LEVELS)
+def test_units(level):
+    small = predict(Sheet(1.0, 0.4), SineWave(), 0.1, level=level)
+    large = predict(Sheet(3.0, 1.2), SineWave(period=2.0), 0.1, level=level)
     # the same numbers but for rounding, which the iterations see
     assert large.mean == pytest.approx(1.5 * small.mean, rel=1e-9)
     assert large.error == pytest.approx(1.5 * small.error, rel=1e-3)
@@ -117,7 +117,7 @@ def test_no_growth_no_motion():
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        ({"method": "magic"}, "'strip'"),
+        ({"level": "magic"}, "'strip'"),
         ({"growth_law": "log"}, "'metric'"),
         ({"area": "none"}, "'undeformed'"),
         ({"load": "ground"}, "'material'"),
@@ -136,19 +136,19 @@ def test_a_strip_refuses_a_wave_that_it_does_not_see():
     """It is the axis x = 0, where this wave is a sine."""
     lopsided = FieldWave(lambda x, y, t: (1 + 2 * x) * np.sin(2 * np.pi * (y - t)), 1.0)
     with pytest.raises(ValueError, match="'strip': must be 'cycle' for a wave that depends on x"):
-        predict(Sheet(), lopsided, 0.1, method="strip")
+        predict(Sheet(), lopsided, 0.1, level="strip")
     assert predict(Sheet(), lopsided, 0.1, rtol=0.5).level == TARGET
 
 
-@pytest.mark.parametrize("method", ["auto", "second order", "cycle"])
-def test_a_sheet_too_wide_is_refused_by_name_and_not_after_minutes(method):
-    with pytest.raises(ValueError, match=r"width = 100: must be <= 20 times the length, 1, for method"):
-        predict(Sheet(width=100.0), SineWave(), 0.1, method=method)
+@pytest.mark.parametrize("level", ["auto", "second order", "cycle"])
+def test_a_sheet_too_wide_is_refused_by_name_and_not_after_minutes(level):
+    with pytest.raises(ValueError, match=r"width = 100: must be <= 20 times the length, 1, for level"):
+        predict(Sheet(width=100.0), SineWave(), 0.1, level=level)
 
 
 def test_a_wide_sheet_has_an_answer_of_first_order():
     with warnings.catch_warnings(action="ignore", category=BeyondReachWarning):
-        found = predict(Sheet(width=100.0), SineWave(), 0.1, rtol=0.3, method="first order")
+        found = predict(Sheet(width=100.0), SineWave(), 0.1, rtol=0.3, level="first order")
         other = crawl_speed(Sheet(width=100.0), SineWave(), 0.1, rtol=0.03, method="ritz")
     assert "ends of the sheet turn by 9.55 rad" in found.speed.beyond_reach
     assert abs(found.mean - other.mean) <= found.speed.error + other.error

@@ -15,9 +15,7 @@ SCENE = Scene(Sheet(), SineWave(), 0.1, effects=[Membrane(Material(0.03, 0.5))],
 CALLS = {
     "crawl_speed": lambda **told: crawl_speed(Sheet(), SineWave(), 0.1, rtol=1e-2, **told),
     "cycle_speed": lambda **told: cycle_speed(SCENE, rtol=0.1, **told),
-    "predict": lambda **told: predict(
-        Sheet(), SineWave(), 0.1, rtol=1e-2, method="first order", **told
-    ),
+    "predict": lambda **told: predict(Sheet(), SineWave(), 0.1, rtol=1e-2, level="first order", **told),
 }
 
 
@@ -76,7 +74,7 @@ def test_time_left_is_at_the_pace_so_far(monkeypatch):
 
 def test_levels_and_meshes_are_named():
     seen = []
-    predict(Sheet(), SineWave(), 0.1, rtol=0.1, method="cycle", progress=seen.append)
+    predict(Sheet(), SineWave(), 0.1, rtol=0.1, level="cycle", progress=seen.append)
     across, along = default_cells(SineWave().on(Sheet()), planar=True)  # enough for this tolerance
     assert all(one.task.startswith(f"cycle, {across} x {along} elements: ") for one in seen)
     assert any("shapes" in one.task for one in seen)

@@ -141,10 +141,10 @@ def line(length: float, time: float) -> np.ndarray:
     return numbers(speed, length, time)
 
 
-def predicted(method: str, wave: Callable[..., FieldWave] | None = None) -> Callable[..., np.ndarray]:
+def predicted(level: str, wave: Callable[..., FieldWave] | None = None) -> Callable[..., np.ndarray]:
     def solve(length: float, time: float) -> np.ndarray:
         given = SineWave(1, time) if wave is None else wave(length, time)
-        found = predict(sheet(length), given, 0.1, rtol=0.1, method=method)
+        found = predict(sheet(length), given, 0.1, rtol=0.1, level=level)
         return numbers(found.speed, length, time)
 
     return solve
@@ -318,10 +318,10 @@ def running(length: float) -> FieldWave:
 
 def test_a_strip_is_as_long_as_its_sheet():
     exact = 0.5 * float(line_cycle_speed(0.1, body="strip"))
-    found = predict(Sheet(0.5, 0.05), running(0.5), 0.1, method="strip").speed
+    found = predict(Sheet(0.5, 0.05), running(0.5), 0.1, level="strip").speed
     assert found.error <= 1e-2 * exact
     assert abs(found.mean - exact) <= found.error
-    assert predict(Sheet(0.5, 0.05), SineWave(), 0.1, method="strip").mean == pytest.approx(
+    assert predict(Sheet(0.5, 0.05), SineWave(), 0.1, level="strip").mean == pytest.approx(
         exact, rel=1e-12
     )
 

@@ -84,7 +84,7 @@ def test_second_order_is_crawl_speed_to_that_order(bending: Scene) -> None:
     with pytest.raises(ValueError, match=r"level = 'predict': cannot .* must be 'stepped' or 'second"):
         solve(current, "predict")
     flat = Scene(Sheet(), SineWave(), 0.1)
-    assert solve(flat, "second order").mean == predict(flat, method="second order").mean
+    assert solve(flat, "second order").mean == predict(flat, level="second order").mean
 
 
 def test_predict_is_predict(bending: Scene) -> None:
@@ -172,7 +172,7 @@ def test_the_expected_cost_of_the_plate_is_of_the_right_size(bending: Scene) -> 
 @pytest.mark.parametrize("friction", ["coulomb", "viscous"])
 def test_a_body_on_a_line_is_that_of_the_closed_form(friction: str) -> None:
     """Eqs 5 to 7: its error is its own, for it is no sheet whose distance could be known."""
-    found = predict(Sheet(), SineWave(), 0.25, "linear", friction=friction, method="line")
+    found = predict(Sheet(), SineWave(), 0.25, "linear", friction=friction, level="line")
     exact = float({"coulomb": line_speed, "viscous": line_speed_viscous}[friction](0.25))
     assert abs(found.mean - exact) <= found.error + 1e-15
     assert (found.level, found.converged, found.not_in_error) == ("line", True, (TO_A_SHEET,))
@@ -182,5 +182,5 @@ def test_a_body_on_a_line_is_that_of_the_closed_form(friction: str) -> None:
 def test_auto_never_takes_a_body_on_a_line() -> None:
     assert predict(Sheet(), SineWave(), 0.25, rtol=0.3).level == "strip"
     wide = FieldWave(lambda x, y, t: np.sin(2 * np.pi * (y - t)) * (1 + x), period=1.0)
-    with pytest.raises(ValueError, match="method = 'line': must be 'cycle'"):
-        predict(Sheet(), wide, 0.1, method="line")
+    with pytest.raises(ValueError, match="level = 'line': must be 'cycle'"):
+        predict(Sheet(), wide, 0.1, level="line")

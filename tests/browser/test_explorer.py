@@ -112,7 +112,7 @@ def test_loads_without_error_and_without_network(page):
 
 def test_numbers_are_those_of_python(page):
     sheet, wave = Sheet(), SineWave()
-    assert mean(page, "strip") == predict(sheet, wave, 0.11, rtol=0.05, method="strip").mean
+    assert mean(page, "strip") == predict(sheet, wave, 0.11, rtol=0.05, level="strip").mean
     assert mean(page, "first order") == crawl_speed(sheet, wave, 0.11, rtol=0.02).mean
     assert mean(page, "nonlinear") == predict(sheet, wave, 0.11, rtol=0.05).mean
     assert "alpha=0.11, rtol=0.05" in words(page, "pre")

@@ -235,7 +235,7 @@ def test_a_standing_wave_goes_nowhere_at_infinite_cost():
     assert math.isinf(found.cost_of_transport.value)
     assert found.efficiency.value <= found.efficiency.error
     assert "infinite" in repr(found)
-    assert "infinite" in energy(predict(SHEET, standing, 0.1, method="first order", rtol=1e-2))
+    assert "infinite" in energy(predict(SHEET, standing, 0.1, level="first order", rtol=1e-2))
 
 
 def test_conserved_weight_is_never_dragged_more_cheaply():
@@ -410,7 +410,7 @@ def test_bad_input_is_named():
 
 
 def test_tables_and_words_hold_the_energy():
-    found = predict(SHEET, SINE, 0.05, method="second order", rtol=1e-2)
+    found = predict(SHEET, SINE, 0.05, level="second order", rtol=1e-2)
     said = record(found, None)
     assert said["power"] == found.speed.power.value
     assert said["cost_of_transport"] == found.speed.cost_of_transport.value
@@ -427,8 +427,8 @@ def test_tables_and_words_hold_the_energy():
 def test_an_energy_is_as_unknown_as_the_speed():
     """Predictions, records and rows claimed 1e-14 for strips beyond the measured distances."""
     wide = Sheet(width=2.0)
-    for sheet, method, known in ((SHEET, "second order", True), (wide, "strip", False)):
-        found = predict(sheet, SINE, 0.1 if known else 0.3, method=method, rtol=1e-2)
+    for sheet, level, known in ((SHEET, "second order", True), (wide, "strip", False)):
+        found = predict(sheet, SINE, 0.1 if known else 0.3, level=level, rtol=1e-2)
         assert math.isnan(found.error) is not known
         row = found.to_row()
         for name in ENERGIES:
@@ -441,8 +441,8 @@ def test_an_energy_is_as_unknown_as_the_speed():
 
 
 def test_errors_of_a_row_cover_the_nonlinear_sheet():
-    exact = predict(SHEET, SINE, 0.2, method="cycle", rtol=1e-2)
-    row = predict(SHEET, SINE, 0.2, method="second order", rtol=1e-2).to_row()
+    exact = predict(SHEET, SINE, 0.2, level="cycle", rtol=1e-2)
+    row = predict(SHEET, SINE, 0.2, level="second order", rtol=1e-2).to_row()
     for name in ENERGIES:
         known, error = getattr(exact, name)
         assert error < abs(row[name] - known) <= row[f"{name}_error"] + error
@@ -518,7 +518,7 @@ def test_efficiency_on_a_mapped_ground_is_unknown_and_says_so():
     assert math.isnan(speed.efficiency.value)
     assert speed.cost_of_transport == small(1).cost_of_transport
     assert "efficiency unknown: a map of friction on the ground" in " ".join(repr(speed).split())
-    found = replace(predict(SHEET, SINE, 0.1, method="first order", rtol=1e-2), speed=speed)
+    found = replace(predict(SHEET, SINE, 0.1, level="first order", rtol=1e-2), speed=speed)
     assert "efficiency unknown, for a map of friction on the ground" in energy(found)
 
 

@@ -43,7 +43,7 @@ GOOD: dict[str, dict[str, Any]] = {
     "ritz_field": {"sheet": SHEET, "wave": WAVE, "rtol": 0.1},
     "line_balance": {"wave": WAVE, "alpha": 0.1, "rtol": 0.1},
     "rigid_path": {"speed": crawl_speed(SHEET, WAVE, 0.1, rtol=0.1)},
-    "predict": {"sheet": SHEET, "wave": WAVE, "alpha": 0.1, "rtol": 0.1, "method": "strip"},
+    "predict": {"sheet": SHEET, "wave": WAVE, "alpha": 0.1, "rtol": 0.1, "level": "strip"},
     "plane_stress_field": {"outline": SHEET, "wave": WAVE, "size": 0.4},
     "Scene": {
         "sheet": SHEET,
@@ -80,7 +80,7 @@ WRONG: dict[str, tuple[Any, ...]] = {
     "t": ("0", None, [0.0], np.inf),
     "periods": (None, 0, 1.5, "2", True),
     "density": (None, "1", 0.0, [1.0]),
-    "method": (None, 1, "best", growth),
+    "level": (None, 1, "best", growth),
     "size": ("0.1", 0.0, [0.1], np.nan),
 }
 NONE_IS_THE_DEFAULT = {("ritz_field", "rtol")}
@@ -259,6 +259,6 @@ def test_a_wave_of_a_masked_series_is_refused():
 
 
 def test_messages_are_short():
-    with pytest.raises(ValueError, match="method") as refusal:
-        predict(SHEET, WAVE, 0.1, method=np.zeros(10**5).tolist())
+    with pytest.raises(ValueError, match="level") as refusal:
+        predict(SHEET, WAVE, 0.1, level=np.zeros(10**5).tolist())
     assert len(str(refusal.value)) < 200

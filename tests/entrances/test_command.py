@@ -19,7 +19,7 @@ import pytest
 
 from fem_check.answer.block import block
 from fem_check.choice.levels import LEVELS
-from fem_check.choice.prediction import METHODS, predict
+from fem_check.choice.prediction import NAMES, predict
 from fem_check.command import BAD_ARGUMENTS, CLOSED_PIPE, INTERRUPTED, MET, MISSED, main, screens
 from fem_check.command.actions.speed import HINTS
 from fem_check.command.options import Options
@@ -84,7 +84,7 @@ def test_wave_of_harmonics_and_all_options(capsys):
         "--friction": "tanh",
         "--slip-speed": "0.001",
         "--atol": "1e-3",
-        "--method": "first order",
+        "--level": "first order",
     }
     arguments = [word for pair in options.items() for word in pair]
     status, out, _ = run(capsys, *arguments, "--cosine", "0.5", "0.3", "--sine", "0.2", "--json")
@@ -99,7 +99,7 @@ def test_wave_of_harmonics_and_all_options(capsys):
         "tanh",
         1e-3,
         atol=1e-3,
-        method="first order",
+        level="first order",
     )
     found = json.loads(out)
     assert found["mean"] == expected.mean
@@ -152,7 +152,7 @@ def test_wave_of_harmonics_and_all_options(capsys):
         ([*SPEED, "--plot", "crawl.docx"], "must end in .png"),
         ([*SPEED, "--movie", "crawl.avi"], "must end in .gif or .mp4"),
         (
-            [*SPEED, "--method", "line", "--movie", "l.gif"],
+            [*SPEED, "--level", "line", "--movie", "l.gif"],
             "--movie l.gif: level = 'line': has no shape",
         ),
         ([*SPEED, "--json", "--csv"], "--json: must not be combined with --csv"),
@@ -200,12 +200,12 @@ def test_negative_numbers_are_no_options(capsys, alpha):
         "2e-1",
         "--cosine",
         "-3e-1",
-        "--method",
+        "--level",
         "strip",
         "--json",
     )
     wave = TravellingWave([-0.3, 0.0], [-1.0, 0.2])
-    assert json.loads(out)["mean"] == predict(Sheet(), wave, -0.1, method="strip").mean
+    assert json.loads(out)["mean"] == predict(Sheet(), wave, -0.1, level="strip").mean
 
 
 def test_a_negative_infinity_is_refused_as_a_number(capsys):
@@ -214,7 +214,7 @@ def test_a_negative_infinity_is_refused_as_a_number(capsys):
 
 
 def test_a_speed_beyond_reach_says_so(capsys):
-    arguments = ("--alpha", "12", "--method", "second order")
+    arguments = ("--alpha", "12", "--level", "second order")
     status, out, err = run(capsys, *arguments)
     assert status == MISSED
     assert "beyond the reach of the theory: growth |alpha c| reaches 12" in out
@@ -326,7 +326,7 @@ def test_quantities_become_the_units_of_length_and_period(capsys):
 def test_slip_speed_and_tolerance_with_units(capsys):
     units = "--length", "2 cm", "--period", "1 min", "--slip-speed", "1 mm/s", "--atol", "1 cm/s"
     status, out, _ = run(
-        capsys, *SPEED, *units, "--friction", "tanh", "--method", "first order", "--json"
+        capsys, *SPEED, *units, "--friction", "tanh", "--level", "first order", "--json"
     )
     sheet, wave = Sheet(2.0, 1.0, 0.5, 0.06), SineWave()
     with pytest.warns(UserWarning, match="viscous"):  # 6 cm/min is above all speeds
@@ -337,21 +337,21 @@ def test_slip_speed_and_tolerance_with_units(capsys):
             friction="tanh",
             slip_speed=6.0,
             atol=60.0,
-            method="first order",
+            level="first order",
         )
     assert json.loads(out)["unit"] == "cm/min"
     assert json.loads(out)["mean"] == pytest.approx(expected.mean, rel=1e-9)
     assert status == MISSED  # how far this model is from the sheet is not known
 
 
-@pytest.mark.parametrize("name", ["growth_law", "area", "load", "friction", "method"])
+@pytest.mark.parametrize("name", ["growth_law", "area", "load", "friction", "level"])
 def test_choices_are_those_of_the_library(name):
     known = {
         "growth_law": GROWTH_LAWS,
         "area": tuple(Reference),
         "load": LOADS,
         "friction": [name for law in LAWS for name in ((law, "dry") if law == "coulomb" else (law,))],
-        "method": METHODS,
+        "level": NAMES,
     }
     choices = get_args(get_type_hints(Options)[name])
     assert choices == tuple(known[name])
@@ -510,9 +510,9 @@ def test_no_terminal_no_progress(monkeypatch, capsys):
 
 
 def test_pulse_is_the_wave_of_that_name(capsys):
-    words = "--pulse", "0.3", "--alpha", "0.05", "--method", "strip", "--json"
+    words = "--pulse", "0.3", "--alpha", "0.05", "--level", "strip", "--json"
     found = json.loads(run(capsys, "speed", *words)[1])
-    expected = predict(Sheet(), pulse_wave(0.3), 0.05, method="strip")
+    expected = predict(Sheet(), pulse_wave(0.3), 0.05, level="strip")
     assert found["mean"] == expected.mean
 
 

@@ -60,7 +60,7 @@ def test_small_strain_is_that_of_crawl_speed(question):
     found = crawl_speed(question.scene, rtol=SMALL_STRAIN_RTOL)
     shown = small_strain.first_order(question)
     assert (shown.mean, shown.error) == (found.mean, found.error)
-    narrow = predict(question.scene, rtol=question.rtol, method="strip").speed
+    narrow = predict(question.scene, rtol=question.rtol, level="strip").speed
     assert small_strain.strip(question).mean == narrow.mean
     assert small_strain.strip(question).error == narrow.error
 

@@ -122,7 +122,7 @@ def test_the_error_of_an_orbit_is_honest(train: PeriodicExcitation) -> None:
 
 @pytest.mark.filterwarnings("ignore::linear_theory.BeyondReachWarning")
 def test_answers_call_the_wave_and_its_error_what_they_are(train: PeriodicExcitation) -> None:
-    found = predict(SHEET, train, 0.1, rtol=0.3, method="strip")
+    found = predict(SHEET, train, 0.1, rtol=0.3, level="strip")
     said = " ".join(str(found).split())
     assert f"an excitable wave of period {train.period:.4g}" in said
     assert "numerical error of the excitable wave" in said

@@ -260,8 +260,8 @@ def test_outline_of_a_sheet_with_a_hole_is_both_loops():
 
 
 def test_all_panels_of_a_prediction_at_any_level():
-    for method in ("strip", "second order"):
-        found = predict(SHEET, WAVE, 0.1, rtol=0.2, method=method)
+    for level in ("strip", "second order"):
+        found = predict(SHEET, WAVE, 0.1, rtol=0.2, level=level)
         _, sheet, _, _, _, path = found.plot(phase=0.25)
         assert sheet.collections
         assert path.lines[0].get_data()[0][-1] == pytest.approx(10 * found.mean)

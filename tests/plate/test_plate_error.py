@@ -79,7 +79,7 @@ def test_error_of_predict_covers_the_cycle_of_a_new_scene() -> None:
     asked = model_error.scene(row, 0.0)
     limit = second_order(asked, rtol=1e-2).lift_off[1]
     asked = model_error.scene(row, row.share * limit)
-    found, cycle = predict(asked, method="second order"), cycle_speed(asked, rtol=1e-2)
+    found, cycle = predict(asked, level="second order"), cycle_speed(asked, rtol=1e-2)
     assert math.isfinite(found.error)
     assert abs(found.mean - cycle.mean) <= found.error + cycle.error
 
@@ -111,9 +111,9 @@ def test_the_cycle_answers_elsewhere() -> None:
 
 
 def test_levels_by_name_and_refusals() -> None:
-    assert predict(scene(), rtol=1e-3, method="second order").level == "second order"
-    with pytest.raises(ValueError, match="method = 'strip': must be one of"):
-        predict(scene(), method="strip")
+    assert predict(scene(), rtol=1e-3, level="second order").level == "second order"
+    with pytest.raises(ValueError, match="level = 'strip': must be one of"):
+        predict(scene(), level="strip")
     damped = [Ground(0.5, damping=0.1) if isinstance(e, Ground) else e for e in scene().effects]
     with pytest.raises(ValueError, match=r"damping = 0\.1.*simulate\(scene\) can"):
         predict(scene().but(effects=damped))

@@ -75,7 +75,7 @@ ENTRANCES: dict[str, Callable[[FieldWave], object]] = {
     "crawl_speed": lambda wave: crawl_speed(SHEET, wave, 0.1, rtol=0.3),
     "second_order": lambda wave: second_order(SHEET, wave, rtol=0.3),
     "line_balance": lambda wave: line_balance(wave, 0.1, rtol=0.1, length=1),
-    "predict": lambda wave: predict(SHEET, wave, 0.1, rtol=0.3, method="first order"),
+    "predict": lambda wave: predict(SHEET, wave, 0.1, rtol=0.3, level="first order"),
 }
 
 

@@ -213,7 +213,7 @@ REFUSED = (
     (("speed", "kg.toml"), "kg.toml:2: [sheet] length = '40 kg': is not a length"),
     (("check", "thin.toml"), "thin.toml:2: [sheet] thickness = '-1 mm': must be > 0"),
     (("speed", "good.toml", "--width", "3"), "--width '3': must be left out, good.toml says it"),
-    (("speed", "good.toml", "--method", "strip"), "--method 'strip': must be left out"),
+    (("speed", "good.toml", "--level", "strip"), "--level 'strip': must be left out"),
     (("speed", "good.toml", "--rtol", "3"), "rtol = 3: must be in"),
     (
         ("speed", "good"),

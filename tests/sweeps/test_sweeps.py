@@ -70,7 +70,7 @@ def test_a_level_by_its_name(file: Path) -> None:
     found = sweep(BASE, {"growth.alpha": [0.1]}, file, level="first order", rtol=0.05, workers=1)
     (record,) = [record for _, record in found.rows()]
     assert record is not None
-    assert record.mean == predict(BASE, rtol=0.05, method="first order").mean
+    assert record.mean == predict(BASE, rtol=0.05, level="first order").mean
 
 
 def test_what_is_kept_is_not_computed_again(file: Path) -> None:

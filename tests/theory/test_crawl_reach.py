@@ -77,7 +77,7 @@ def test_numbers_that_mean_nothing_say_so_however_they_are_asked_for(alpha):
         lambda: crawl_speed(PAPER, SINE, alpha, order=2, rtol=0.3),
         lambda: crawl_speed(PAPER, SINE, alpha, load="material", rtol=0.3),
         lambda: field_speed(field, alpha, load="material", rtol=0.3),
-        lambda: predict(PAPER, SINE, alpha, method="second order", rtol=0.3).speed,
+        lambda: predict(PAPER, SINE, alpha, level="second order", rtol=0.3).speed,
     ]
     for call in calls:
         with pytest.warns(BeyondReachWarning, match="alpha = ") as seen:
@@ -173,10 +173,10 @@ def test_what_is_known_of_the_nonlinear_sheet_is_said_in_words():
 
 def test_predict_says_in_its_reason_what_is_not_known():
     pulse = TravellingWave([0.5, 0.3], [0.2, 0.1])
-    found = predict(PAPER, pulse, 0.1, method="strip")
+    found = predict(PAPER, pulse, 0.1, level="strip")
     assert found.reason == "requested; distance to the nonlinear sheet unknown"
     with warnings.catch_warnings(category=BeyondReachWarning, action="ignore"):
-        found = predict(PAPER, SINE, 0.6, method="second order")
+        found = predict(PAPER, SINE, 0.6, level="second order")
     assert found.reason.startswith("requested; beyond the reach of the theory: growth")
     assert not found.converged
 
@@ -209,7 +209,7 @@ def test_nothing_crawls_without_growth_that_changes(name, friction):
         field_speed(plane_stress_field(PAPER, wave, size=0.4), alpha, rtol=0.1, **law),
         line_balance(wave, alpha, rtol=0.1, length=1, **law),
         cycle_speed(scene, rtol=0.1, **law),
-        *(predict(PAPER, wave, alpha, method=m, **law).speed for m in ("strip", "second order")),
+        *(predict(PAPER, wave, alpha, level=m, **law).speed for m in ("strip", "second order")),
     ]
     for speed in found:
         assert abs(speed.mean) <= speed.error <= 1e-14  # roundoff of shapes and of rates
@@ -232,7 +232,7 @@ def test_the_distance_to_the_nonlinear_sheet_is_nothing_at_rest():
     for friction, slip_speed in FRICTION.items():
         law = {"friction": friction, "slip_speed": slip_speed}
         assert crawl_speed(PAPER, SINE, 0.0, rtol=0.1, **law).model_error == 0
-        still = predict(PAPER, TravellingWave([0.0], [0.0]), 0.1, method="second order", **law)
+        still = predict(PAPER, TravellingWave([0.0], [0.0]), 0.1, level="second order", **law)
         assert (still.mean, still.converged) == (0.0, True)
 
 
@@ -253,7 +253,7 @@ def test_friction_at_rest_is_none_under_the_load_that_is_there():
 
 
 def test_speeds_of_rounding_are_no_viscous_regime() -> None:
-    """Speeds of 1e-14 L/T are those of a sheet at rest, 1e-4 of one that moves, however wide the law."""
+    """Speeds of 1e-14 L/T are those of a sheet at rest, 1e-4 are not, however wide the law."""
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         warn_if_viscous(Tanh(0.1), 1e13)

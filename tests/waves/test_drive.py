@@ -287,7 +287,7 @@ def test_finer_meshes_are_not_tried_where_they_do_not_help(monkeypatch: pytest.M
         return cycle.Cycle(scene)
 
     monkeypatch.setattr("fem_check.choice.levels.Cycle", counted)
-    found = predict(SHEET, trembling(12, share=0.5), ALPHA, method="cycle", rtol=1e-3)
+    found = predict(SHEET, trembling(12, share=0.5), ALPHA, level="cycle", rtol=1e-3)
     assert not found.converged
     assert len(asked) < len(MESHES)
 

@@ -157,7 +157,7 @@ LEVELS = {
     "line": lambda wave: line_balance(wave, 0.25, length=1.0),
     "order 1": lambda wave: crawl_speed(Sheet(), wave, 0.25, rtol=3e-2),
     "order 2": lambda wave: crawl_speed(Sheet(), wave, 0.25, rtol=3e-2, order=2),
-    "predict": lambda wave: predict(Sheet(), wave, 0.25, method="cycle", rtol=3e-2).speed,
+    "predict": lambda wave: predict(Sheet(), wave, 0.25, level="cycle", rtol=3e-2).speed,
 }
 """The error of the wave, 1 to 4 %, does not depend on that of the numbers."""
 
@@ -256,7 +256,7 @@ class TestErrorOfSpeeds:
 
     def test_the_block_names_it(self):
         with warnings.catch_warnings(action="ignore", category=BeyondReachWarning):
-            found = predict(Sheet(), noisy(SineWave(), 0), 0.05, rtol=0.1, method="second order")
+            found = predict(Sheet(), noisy(SineWave(), 0), 0.05, rtol=0.1, level="second order")
         assert "a measured wave of 1 harmonic in time" in str(found)
         assert "noise of the measured wave" in " ".join(str(found).split())
 

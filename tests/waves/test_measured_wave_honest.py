@@ -143,7 +143,7 @@ class TestErrors:
         c = np.sin(W * (y - t)) + 0.5 * np.sin(2 * W * (y - t))
         y[:2] = -0.5, 0.5
         wave = SampledWave(y, t, c, period=1.0, harmonics=1, degree=8)
-        text = " ".join(str(predict(Sheet(), wave, 0.05, rtol=0.5, method="cycle")).split())
+        text = " ".join(str(predict(Sheet(), wave, 0.05, rtol=0.5, level="cycle")).split())
         assert "the wave is not known well enough: the fit may miss" in text
 
 

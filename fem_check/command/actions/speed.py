@@ -41,7 +41,7 @@ def speed(options: Options, path: Path | None = None) -> int:
     if path is None:
         with as_typed(options):
             question = asked(options)
-        _check_film(options, options.method)
+        _check_film(options, options.level)
         units, solve = question.units, partial(_predicted, question, options)
     else:
         file = asked_by_file(path, options)
@@ -65,9 +65,9 @@ def _check_film(options: Options, level: str) -> None:
 
 
 def _predicted(question: Asked, options: Options, report: Report) -> Prediction:
-    rtol, atol, method = question.rtol, question.atol, options.method
+    rtol, atol, level = question.rtol, question.atol, options.level
     with as_typed(options):
-        return predict(question.scene, rtol=rtol, atol=atol, method=method, progress=report)
+        return predict(question.scene, rtol=rtol, atol=atol, level=level, progress=report)
 
 
 def _told(found: Prediction, units: Units | None, options: Options) -> str:

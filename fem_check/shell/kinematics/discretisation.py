@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from fem_check.mesh.checks import check_mesh
 from fem_check.mesh.location import TriangleFinder
+from fem_check.mesh.orientation import oriented
 from fem_check.mesh.shown import MeshShown
 from fem_check.shell.kinematics import elements
 from fem_check.shell.kinematics.region import Region
@@ -33,13 +34,14 @@ a single element then has three zero-energy modes besides the rigid motions."""
 class Discretisation(Shown):
     """Displacement fields of a surface: `components` copies of one scalar finite element.
 
-    mesh: skfem.MeshTri or MeshQuad of the parameter domain. element: ElementQuadBFS on rectangles,
+    mesh: skfem.MeshTri or MeshQuad of the parameter domain; the vertices of its elements are put in
+    the order that neighbours agree on. element: ElementQuadBFS on rectangles,
     ElementTriArgyris on triangles, or a continuous Lagrange element for a scene that does not bend.
     surface: the undeformed surface over that domain, exact. components: 3, or 2 in the plane.
     degree: of the polynomials that quadrature integrates exactly.
 
     Unknowns u are displacements in space, (size,): the components of a scalar degree of freedom are
-    neighbours. Raises ValueError for meshes that are not one sheet (see `mesh_checks`) and for
+    neighbours. Raises ValueError for meshes that are not one sheet (see `check_mesh`) and for
     unsuitable elements.
     """
 
@@ -56,12 +58,12 @@ class Discretisation(Shown):
         elements.check_rectangles(mesh, element)
         if components not in (2, 3):
             raise ValueError(f"components = {shown(components)}: must be 2 (planar) or 3")
-        self.mesh, self.element = mesh, element
+        self.mesh, self.element = oriented(mesh), element
         self.surface = Flat() if surface is None else surface
         self.components = components
         default = QUADRATURE.get(type(element).__name__, 2 * element.maxdeg)
         self.degree = default if degree is None else validation.integer("degree", degree, 1)
-        self._dofs = skfem.Dofs(mesh, element)
+        self._dofs = skfem.Dofs(self.mesh, element)
         if components == 2 and np.abs(self._full_reference()[1:, 2]).max() > 0:
             raise ValueError(
                 f"surface = {shown(self.surface)}: must lie in a plane z = const for 2 components"

@@ -18,7 +18,7 @@ WORDS: tuple[tuple[str, ...], ...] = (
     *(("--count", value) for value in ("2", "-1", "0")),
     *(("--load", value) for value in ("grown", "material", "heavy")),
     *(("--rtol", value) for value in ("0.3", "0.05", "0")),
-    *(("--method", level) for level in LEVELS),
+    *(("--level", level) for level in LEVELS),
     *(("--friction", "viscous"), ("--friction", "tanh"), ("--slip-speed", "0.01")),
     *(("--length", "2"), ("--period", "3"), ("--growth-law", "metric"), ("--area", "undeformed")),
     *(("--sine", "1", "0.2"), ("--cosine", "0.5"), ("--atol", "1e-4"), ("--unknown", "1")),
