@@ -3,8 +3,6 @@
 from fem_check.choice.levels import TARGET
 from fem_check.choice.result import Prediction, not_estimated
 from fem_check.shell.abilities import left_out
-from fem_check.shell.cycle.deformation import CycleDeformation
-from fem_check.shell.cycle.speed import cycle_speed
 from fem_check.shell.effects.effect import Effect
 from fem_check.shell.effects.friction import Friction
 from linear_theory.common.progress import Report
@@ -21,6 +19,8 @@ SIDEWAYS = "the tolerance is met along the sheet, but not by the sideways motion
 
 def by_cycle(scene: Scene, tolerance: Tolerance, progress: Report | None = None) -> Prediction:
     """The answer of a cycle of shapes."""
+    from fem_check.shell.cycle.speed import cycle_speed  # here: it loads finite elements
+
     speed = cycle_speed(scene, rtol=tolerance.rtol, progress=progress)
     lacking, caution, lost = not_estimated(TARGET, speed), _crossing(speed), noise(speed, scene)
     met = speed.error <= tolerance.allowed(speed.mean)
@@ -32,6 +32,8 @@ def by_cycle(scene: Scene, tolerance: Tolerance, progress: Report | None = None)
 
 def _crossing(speed: CrawlSpeed) -> str:
     """A caution, if the shapes of a cycle pass through themselves."""
+    from fem_check.shell.cycle.deformation import CycleDeformation
+
     shown = speed.deformation
     return CROSSES if isinstance(shown, CycleDeformation) and shown.crosses else ""
 

@@ -17,8 +17,6 @@ from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
 
-from fem_check.mesh.elements import default_cells
-from fem_check.shell.cycle.speed import Cycle
 from fem_check.shell.effects.koiter import Membrane
 from linear_theory.common.progress import part_of
 from linear_theory.common.tolerance import Tolerance
@@ -79,6 +77,10 @@ def cycle(scene: Scene, tolerance: Tolerance) -> CrawlSpeed:
 
 
 def _numbers_of_cycle(scene: Scene, tolerance: Tolerance) -> CrawlSpeed:
+    from fem_check.shell.cycle.speed import (
+        Cycle,  # here: finite elements take as long to load as a strip
+    )
+
     seconds, before = 0.0, math.inf
     for factor in MESHES:
         fine = finer(scene, factor)
@@ -93,6 +95,8 @@ def _numbers_of_cycle(scene: Scene, tolerance: Tolerance) -> CrawlSpeed:
 
 def finer(scene: Scene, factor: int) -> Scene:
     """A planar scene with `factor` times its cells in each direction."""
+    from fem_check.mesh.elements import default_cells
+
     across, along = scene.cells or default_cells(scene.drive, planar=True)
     return scene.but(cells=(factor * across, factor * along))
 

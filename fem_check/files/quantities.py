@@ -3,8 +3,9 @@
 import math
 import re
 from dataclasses import dataclass
-from functools import cache
 from typing import TYPE_CHECKING, Any, NamedTuple
+
+from fem_check.files.units import registry, unit_named
 
 if TYPE_CHECKING:
     import pint
@@ -134,20 +135,12 @@ def _article(word: str) -> str:
     return "an" if word[0] in "aeiou" else "a"
 
 
-@cache
-def registry() -> "pint.UnitRegistry[Any]":
-    """All units, made once."""
-    import pint  # a quarter of a second, for those who write units
-
-    return pint.UnitRegistry(cache_folder=None)
-
-
 def _unit(text: str) -> "pint.Unit | None":
     """The unit of that name; None where there is none."""
     if len(text) > LONGEST or ENDLESS.search(text):
         return None
-    units = registry()  # outside of the try: a pint that is broken is no unknown unit
+    registry()  # outside of the try: a pint that is broken is no unknown unit
     try:
-        return units.parse_units(text.replace("%", "percent"))
+        return unit_named(text)
     except Exception:  # pint fails on text in many ways: "mmm", "m/0", "1/", "m m ("
         return None

@@ -6,7 +6,8 @@ from typing import Any, NamedTuple
 from fem_check.answer.units import Units
 from fem_check.files.fields import Table
 from fem_check.files.mistakes import Mistakes, Place
-from fem_check.files.quantities import KINDS, UNIT_OF_ANGLE, Quantity, length_unit, registry
+from fem_check.files.quantities import KINDS, UNIT_OF_ANGLE, Quantity, length_unit
+from fem_check.files.units import registry
 
 BASES: dict[str, Place] = {"length": ("sheet", "length"), "time": ("wave", "period")}
 """Whose units are those of the file."""

@@ -12,10 +12,11 @@ from fem_check.files.fields import Table
 from fem_check.files.mistakes import Mistakes, Place, line_of
 from fem_check.files.parts.made import Made
 from fem_check.files.parts.scene_file import SceneFile, built, wave_made_of
-from fem_check.files.quantities import read, registry
+from fem_check.files.quantities import read
 from fem_check.files.reading import tables_of as tables_in
 from fem_check.files.system import BASES, system_of
 from fem_check.files.tables import TABLES
+from fem_check.files.units import unit_named
 from fem_check.files.writing import tables_of
 from fem_check.sweeps.points.axes import Axis
 from fem_check.sweeps.points.fields import with_value, without_rivals
@@ -131,7 +132,7 @@ class Variation:
             return value  # refused, with its words, as in a scene file
         if quantity.unit is None:
             return value
-        return f"{quantity.into(registry().parse_units(unit))!r} {unit}"
+        return f"{quantity.into(unit_named(unit))!r} {unit}"
 
     def told(self, place: Place, words: str) -> str:
         """With the file and the line where a field is given its values, if there is one."""

@@ -32,7 +32,7 @@ from fem_check.output.geometry import edges, inside, middle_line, refined
 from fem_check.output.pictures import moving_of, panels
 from fem_check.output.simulated import Simulated
 from fem_check.output.tint import tint_of
-from fem_check.shell.cycle import cycle_of_shapes
+from fem_check.shell.cycle.shapes import cycle_of_shapes
 from fem_check.shell.effects.koiter import Bending
 from linear_theory import (
     FieldWave,

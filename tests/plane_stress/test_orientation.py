@@ -64,7 +64,9 @@ def test_neighbours_agree(mesh, seed):
 
 def places(mesh, effects):
     """Where the vertices of TRIANGLES are in a static shape of the grown sheet."""
-    shapes = cycle_of_shapes(Scene(Sheet(thickness=0.1), SineWave(), 0.02, effects=effects, mesh=mesh), 4)
+    shapes = cycle_of_shapes(
+        Scene(Sheet(thickness=0.1), SineWave(), 0.02, effects=effects, mesh=mesh), 4
+    )
     points = shapes.discretisation.points(TRIANGLES.p)
     return points.position(shapes.states[1], (0,))
 

@@ -1,6 +1,8 @@
 """What a scene names is honoured or refused: effects, loads, friction, slopes, by every level."""
 
 from dataclasses import dataclass, replace
+from importlib import import_module
+from pkgutil import walk_packages
 
 import numpy as np
 import pytest
@@ -19,7 +21,7 @@ from fem_check import (
     predict,
     simulate,
 )
-from fem_check.shell import effects as effect_classes
+from fem_check.shell import effects as package
 from fem_check.shell.abilities import CYCLE, LEVELS, STEPPED, WORDS
 from fem_check.shell.cycle.contact import creep
 from fem_check.shell.effects.contact.self_contact import SelfContact
@@ -81,7 +83,10 @@ def test_every_effect_has_words_for_what_leaves_it_out() -> None:
 
     Nor of contact with itself: an answer says so where a sheet without it passes through itself.
     """
-    named = {kind for kind in vars(effect_classes).values() if isinstance(kind, type)}
+    modules = [
+        import_module(one.name) for one in walk_packages(package.__path__, f"{package.__name__}.")
+    ]
+    named = {kind for one in modules for kind in vars(one).values() if isinstance(kind, type)}
     effects = {kind for kind in named if issubclass(kind, Effect)}
     assert effects - {Effect, Membrane, DeadLoad, EdgeMoment, SelfContact} == set(WORDS)
 

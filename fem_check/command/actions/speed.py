@@ -14,7 +14,6 @@ from fem_check.choice.prediction import predict
 from fem_check.choice.result import Prediction
 from fem_check.choice.ways import check_shape
 from fem_check.command.actions.remarks import tell
-from fem_check.command.actions.scenes import answered, asked_by_file
 from fem_check.command.files import check_files
 from fem_check.command.options import Options
 from fem_check.command.quantities import Asked, asked
@@ -44,6 +43,11 @@ def speed(options: Options, path: Path | None = None) -> int:
         _check_film(options, options.level)
         units, solve = question.units, partial(_predicted, question, options)
     else:
+        from fem_check.command.actions.scenes import (  # here: it loads all effects
+            answered,
+            asked_by_file,
+        )
+
         file = asked_by_file(path, options)
         _check_film(options, file.run.level)
         units, solve = file.units, partial(answered, file)

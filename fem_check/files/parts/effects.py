@@ -8,7 +8,6 @@ from fem_check.files.mistakes import Mistakes
 from fem_check.files.parts.friction import TANH, law_of
 from fem_check.files.parts.made import Made
 from fem_check.files.parts.terrains import terrain_of
-from fem_check.files.quantities import registry
 from fem_check.files.system import System
 from fem_check.files.tables import (
     DeadLoadTable,
@@ -18,6 +17,7 @@ from fem_check.files.tables import (
     InertiaTable,
     SelfContactTable,
 )
+from fem_check.files.units import registry
 from fem_check.shell.effects.contact.self_contact import SelfContact
 from fem_check.shell.effects.friction import Friction
 from fem_check.shell.effects.gravity import Gravity

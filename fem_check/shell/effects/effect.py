@@ -12,13 +12,12 @@ the order of `pairs.PAIRS`: block [k, l, (c, d)] belongs to component c of entry
 
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
-from typing import ClassVar, Self
+from typing import TYPE_CHECKING, ClassVar, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
 from fem_check.shell.effects.contact.coupling import Coupling
-from fem_check.shell.kinematics.discretisation import Discretisation
 from fem_check.shell.kinematics.point_state import PointState
 from fem_check.shell.kinematics.rates import Step
 from fem_check.shell.kinematics.region import Entries
@@ -26,6 +25,9 @@ from linear_theory.friction.law import FrictionLaw
 from linear_theory.friction.load import Load
 from linear_theory.scene.scene import Scene
 from linear_theory.sheet.rectangle import Sheet
+
+if TYPE_CHECKING:  # finite elements, which answers in closed form do not load
+    from fem_check.shell.kinematics.discretisation import Discretisation
 
 Array = NDArray[np.float64]
 
@@ -90,7 +92,7 @@ class Effect(ABC):
         """Normal force between sheet and ground at each point, (points,), if it presses."""
         raise NotImplementedError
 
-    def coupling(self, discretisation: Discretisation, scene: Scene) -> Coupling:
+    def coupling(self, discretisation: "Discretisation", scene: Scene) -> Coupling:
         """What it does between distant parts of the sheet, if it `couples`.
 
         Raises ValueError for a mesh on which that cannot be computed.
@@ -106,7 +108,7 @@ class Effect(ABC):
         """Unit normal of the ground under each point, (3, points); None if it is e_z."""
         return None
 
-    def check_elements(self, discretisation: Discretisation, scene: Scene) -> None:  # noqa: B027
+    def check_elements(self, discretisation: "Discretisation", scene: Scene) -> None:  # noqa: B027
         """Raise ValueError if the elements of a scene do not suit it, before any step in time."""
 
     def check_scene(self, scene: Scene) -> None:  # noqa: B027 - most need nothing

@@ -6,7 +6,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fem_check.files.quantities import NUMBER, Quantity, registry
+from fem_check.files.quantities import NUMBER, Quantity
+from fem_check.files.units import unit_named
 
 
 def measured(value: Any) -> Quantity | None:
@@ -17,7 +18,7 @@ def measured(value: Any) -> Quantity | None:
     if parts is None or not math.isfinite(float(parts[1])):
         return None
     try:
-        unit = registry().parse_units(parts[2].replace("%", "percent")) if parts[2] else None
+        unit = unit_named(parts[2]) if parts[2] else None
     except Exception:  # pint fails on text in many ways; the scene file then says what is wrong
         return None
     return Quantity("", str(value), float(parts[1]), unit)
