@@ -28,6 +28,7 @@ from fem_check.shell.effects.contact.self_contact import SelfContact
 from fem_check.shell.effects.effect import Effect
 from fem_check.shell.effects.friction import WEAK, friction_over_growth
 from fem_check.shell.effects.loads import EdgeMoment
+from fem_check.shell.effects.restraint import Restraint
 from figures.measure.limits import friction_strength
 from linear_theory import FieldWave, Sheet, SineWave, TravellingWave, ViscousRegimeWarning, rigid_path
 
@@ -81,14 +82,14 @@ def test_an_effect_that_knows_of_no_level_is_refused_by_all(level: object) -> No
 def test_every_effect_has_words_for_what_leaves_it_out() -> None:
     """`left_out` tells of all but stretching and loads, which are a user's own.
 
-    Nor of contact with itself: an answer says so where a sheet without it passes through itself.
+    Nor of contact with itself: an answer says so where a sheet without it passes through itself; nor of
+    the springs that slow down a snap from step to step.
     """
-    modules = [
-        import_module(one.name) for one in walk_packages(package.__path__, f"{package.__name__}.")
-    ]
+    names = [one.name for one in walk_packages(package.__path__, f"{package.__name__}.")]
+    modules = [import_module(name) for name in names]
     named = {kind for one in modules for kind in vars(one).values() if isinstance(kind, type)}
     effects = {kind for kind in named if issubclass(kind, Effect)}
-    assert effects - {Effect, Membrane, DeadLoad, EdgeMoment, SelfContact} == set(WORDS)
+    assert effects - {Effect, Membrane, DeadLoad, EdgeMoment, SelfContact, Restraint} == set(WORDS)
 
 
 GROUNDED = (BENDING, Gravity(WEIGHT), Ground(0.5))
