@@ -63,8 +63,19 @@ class Equation(Value):
 
     def reaction(self, c: Array, w: Array) -> tuple[Array, Array]:
         """dc/dt without diffusion, and dw/dt."""
-        cubic = c * (1 - c) * (c - self.threshold)
-        return cubic - w, self.recovery_rate * (c - self.recovery_decay * w)
+        found = np.empty((2, *c.shape))
+        self.react(c, w, *found)
+        return found[0], found[1]
+
+    def react(self, c: Array, w: Array, dc: Array, dw: Array) -> None:
+        """The same into given arrays: steps in time do little else."""
+        np.subtract(1, c, out=dc)
+        dc *= c
+        dc *= c - self.threshold
+        dc -= w
+        np.multiply(w, -self.recovery_decay, out=dw)
+        dw += c
+        dw *= self.recovery_rate
 
     def slope(self, c: Array) -> Array:
         """Derivative of the cubic with respect to c."""

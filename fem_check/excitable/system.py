@@ -62,14 +62,14 @@ class System:
 
     def rates(self, t: float, state: Array) -> Array:
         """d state/dt."""
-        n = state.size // 2
-        c, out = state[:n], np.empty_like(state)
-        out[:n], out[n:] = self.equation.reaction(c, state[n:])
-        out[:n] -= self._spreading @ c
-        if self.equation.pacing is not None:
-            out[:n] += self.stimulus * self.equation.pacing.course(t)
-        if self.strain is not None and self.equation.feedback is not None:
-            out[:n] += self.equation.feedback.coefficient * self.strain(t)
+        n, equation, out = state.size // 2, self.equation, np.empty_like(state)
+        c, dc = state[:n], out[:n]
+        equation.react(c, state[n:], dc, out[n:])
+        dc -= self._spreading @ c
+        if equation.pacing is not None:
+            dc += self.stimulus * equation.pacing.course(t)
+        if self.strain is not None and equation.feedback is not None:
+            dc += equation.feedback.coefficient * self.strain(t)
         return out
 
     def jacobian(self, t: float, state: Array) -> Any:

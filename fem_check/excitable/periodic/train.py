@@ -124,15 +124,15 @@ def _oscillation(equation: Equation, points: int) -> Profile:
     from scipy.integrate import solve_ivp
 
     def rates(_: float, u: Array) -> Array:
-        return np.stack(equation.reaction(u[0], u[1]))
+        return np.concatenate(equation.reaction(u[:1], u[1:]))
 
-    def trough(_: float, u: Array) -> float:
-        return float(equation.reaction(u[0], u[1])[0])
+    def trough(t: float, u: Array) -> float:
+        return float(rates(t, u)[0])
 
     trough.direction = 1.0  # type: ignore[attr-defined]
     options: dict[str, Any] = {"rtol": 1e-9, "atol": 1e-11, "method": "LSODA"}
     slow = max(1.0, 0.01 / max(abs(equation.threshold), 1e-3))  # to settle near a Hopf point
-    found = solve_ivp(rates, (0, slow * LONGEST), [0.3, 0.0], events=trough, **options)
+    found = solve_ivp(rates, (0, slow * LONGEST), np.array([0.3, 0.0]), events=trough, **options)
     late = found.t_events[0] > slow * SETTLING
     if late.sum() < 2 or np.ptp(found.y[0, found.t > slow * LONGEST / 2]) < 1e-3:
         raise NotConvergedError(
