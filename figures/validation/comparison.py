@@ -164,7 +164,9 @@ class Comparison:
     @property
     def identity(self) -> str:
         """Changes with the numbers, the inputs of the calculation, and the files of the scene."""
-        text = f"{self.calculation.inputs} {[(n.value, n.accuracy) for n in self.numbers]}"
+        # Nine digits, as in the table: the last ones differ between processors.
+        numbers = [(f"{n.value:.9g}", f"{n.accuracy:.9g}") for n in self.numbers]
+        text = f"{self.calculation.inputs} {numbers}"
         for place in self.files:
             text += place.read_text(encoding="utf-8")
         return hashlib.sha256(text.encode()).hexdigest()[:12]

@@ -43,10 +43,15 @@ def test_forty_parameters_cost_less_than_three_speeds_of_a_wave_that_has_them():
 
 @pytest.mark.parametrize("number", [0, 1, 2, 3])
 def test_a_row_is_what_the_table_says(number):
-    """Of viscous, tanh, directional and dry friction."""
+    """Of viscous, tanh, directional and dry friction.
+
+    Under dry friction rounding decides which cells are halved near the points at rest: the derivative
+    moves by a tenth of its error, the error itself by 4 % from one processor to another.
+    """
     old, new = ROWS[Key("accuracy", number)], row_of(Key("accuracy", number))
-    for name in ("alpha", "width", "gradient", "error"):
+    for name in ("alpha", "width", "gradient"):
         assert getattr(new, name) == pytest.approx(getattr(old, name), rel=2e-3), name
+    assert new.error == pytest.approx(old.error, rel=0.1 if old.friction == "coulomb" else 2e-3)
     assert new.parameter == old.parameter
     assert new.difference < 1e-5
     assert new.share <= 1

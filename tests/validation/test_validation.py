@@ -105,7 +105,8 @@ def test_numbers_come_again(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     assert len(found) == len(COMPARISONS[name].numbers)
     for k, cheap in enumerate(found):
         row = ROWS[name, k]
-        allowed = (cheap.error + row.error) * (1 + 1e-6) + 2e-9 * abs(row.here)
+        # the error may be just this difference; slender beams magnify rounding 1e8 times, by processor
+        allowed = (cheap.error + row.error) * (1 + 1e-6) + 2e-8 * abs(row.here)
         assert abs(cheap.value - row.here) <= allowed
 
 
