@@ -49,7 +49,7 @@ unexport PYTHONDONTWRITEBYTECODE
 FIGURE_OUT = $(if $(OUT),--out "$(OUT)")
 FIGURE_RTOL = $(if $(RTOL),--rtol $(RTOL))
 
-.PHONY: figures test test-browser test-dist test-oldest dist paper docs cost peers bench-shell bench-threads gaits movies tables lock clean distclean
+.PHONY: figures test types suite test-browser test-dist test-oldest dist paper docs cost peers bench-shell bench-threads gaits movies tables lock clean distclean
 .DEFAULT_GOAL := figures
 .DELETE_ON_ERROR:
 
@@ -77,7 +77,13 @@ figures: $(STAMP)
 test: $(STAMP)
 	$(RUN) -m ruff check .
 	$(RUN) -m ruff format --check .
+	+$(MAKE) --no-print-directory -j 2 types suite
+
+# Side by side: mypy takes a minute of one core.
+types: $(STAMP)
 	$(RUN) -m mypy
+
+suite: $(STAMP)
 	$(RUN) -m pytest -n $(WORKERS) --dist worksteal
 
 # One test after the other, since times are measured. CI_BROWSER=1 makes a missing browser an error.

@@ -26,7 +26,7 @@ from fem_check.runs.pictures import pictures, possible_films, write_films
 from linear_theory import FieldWave, Scene, Sheet, SineWave
 from linear_theory.speed.crawl import crawl_speed
 from tests.runs.processes import interruptible
-from tests.runs.run_cases import FRAMES, PLANE, STEPPED, short_films  # noqa: F401
+from tests.runs.run_cases import FRAMES, PLANE, STEPPED, draw_nothing, short_films  # noqa: F401
 
 DRAWN = {f"{kind}{suffix}" for kind in ("motion", "kymographs") for suffix in (".png", ".pdf")}
 FILES = {"scene.toml", "result.json", "trajectory.nc", "report.html", *DRAWN}
@@ -225,7 +225,10 @@ def long(tmp_path):
 
 
 @pytest.mark.parametrize("how", [signal.SIGINT, signal.SIGKILL])
-def test_a_run_that_is_stopped_goes_on_and_ends_with_the_same_numbers(how, long, tmp_path, capsys):
+def test_a_run_that_is_stopped_goes_on_and_ends_with_the_same_numbers(
+    how, long, tmp_path, capsys, monkeypatch
+):
+    draw_nothing(monkeypatch)
     folder = tmp_path / "long"
     program = _begin(long, folder)
     until = time.monotonic() + 100

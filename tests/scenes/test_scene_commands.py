@@ -22,6 +22,8 @@ from fem_check.choice.settings import RunSettings
 from fem_check.choice.solving import solve, solved
 from fem_check.choice.ways import way_of
 from fem_check.command import BAD_ARGUMENTS, MET, MISSED, main, screens
+from fem_check.command.options import Options
+from fem_check.command.quantities import asked
 from fem_check.files import gallery, read
 from fem_check.files.schema import schema
 from fem_check.shell.stepping.trajectory import SpeedErrors
@@ -290,11 +292,10 @@ def test_a_wave_by_a_table_is_that_of_the_scene_file(capsys: Any) -> None:
     """In the units of length and period, and only beside what gives them."""
     run(capsys, "new", "measured")
     scene = read(Path("measured.toml")).scene
-    sheet = ["--length", "40 mm", "--width", "15 mm", "--thickness", "0.8 mm", "--poisson", "0.45"]
-    words = ["--period", "8 s", "--alpha", "0.1", "--rtol", "20 %", "--json"]
-    status, out, _ = run(capsys, "speed", *sheet, *words, "--wave-csv", "measured.csv")
-    assert status == MET
-    assert json.loads(out)["mean"] == predict(scene, rtol=0.2).mean
+    sheet = {"length": "40 mm", "width": "15 mm", "thickness": "0.8 mm", "poisson": 0.45}
+    question = asked(Options(period="8 s", alpha=0.1, wave_csv=Path("measured.csv"), **sheet))
+    assert question.scene.wave == scene.wave
+    assert (question.scene.sheet, question.scene.alpha) == (scene.sheet, scene.alpha)
     for beside, named in (
         ([], "--length: must be given"),
         (["--length", "40", "--pulse", "0.2"], "'measured.csv': must not be combined with --pulse"),
