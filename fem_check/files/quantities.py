@@ -96,7 +96,7 @@ def read(value: object, kind: str) -> Quantity:
     number, unit_text = float(parts[1]), parts[2]
     if not unit_text:
         return Quantity(kind, str(value), number, None)
-    unit = _unit(unit_text)
+    unit = unit_of(unit_text)
     if unit is None:
         raise ValueError(f"{unit_text!r} is not a known unit; {example}")
     if not _fits(unit, kind):
@@ -117,7 +117,7 @@ def direction(angle: Quantity) -> float:
 
 def length_unit(text: str) -> "pint.Unit":
     """The unit of length of that name. Raises ValueError for anything else."""
-    unit = _unit(text)
+    unit = unit_of(text)
     if unit is None or not _fits(unit, "length"):
         raise ValueError("must be a unit of length such as 'mm'")
     return unit
@@ -125,7 +125,7 @@ def length_unit(text: str) -> "pint.Unit":
 
 def _fits(unit: "pint.Unit", kind: str) -> bool:
     """Whether it is a unit of that kind."""
-    base = _unit(KINDS[kind].base)
+    base = unit_of(KINDS[kind].base)
     if not unit.is_compatible_with(base):
         return False
     return kind not in ("share", "angle") or (str(unit) in ANGLES) == (kind == "angle")
@@ -135,8 +135,8 @@ def _article(word: str) -> str:
     return "an" if word[0] in "aeiou" else "a"
 
 
-def _unit(text: str) -> "pint.Unit | None":
-    """The unit of that name; None where there is none."""
+def unit_of(text: str) -> "pint.Unit | None":
+    """The unit of that name; None where there is none, and where it would take for ever to work out."""
     if len(text) > LONGEST or ENDLESS.search(text):
         return None
     registry()  # outside of the try: a pint that is broken is no unknown unit

@@ -8,6 +8,7 @@ import pytest
 
 from fem_check.files.quantities import read
 from fem_check.files.units import WORDS, registry, unit_named
+from fem_check.sweeps.points.measures import measured
 
 PINT = pint.UnitRegistry()
 
@@ -64,3 +65,11 @@ def test_what_is_no_time(text: str) -> None:
 @pytest.mark.parametrize(("text", "seconds"), [("1 Ms", 1e6), ("1 as", 1e-18), ("1 ns", 1e-9)])
 def test_other_prefixes(text: str, seconds: float) -> None:
     assert read(text, "time").into("s") == pytest.approx(seconds, rel=1e-12)
+
+
+@pytest.mark.parametrize("text", ["1 m**9**9**9", "2 m^9^9^9", "3 m**99999999"])
+def test_a_unit_that_would_take_for_ever_is_none(text: str) -> None:
+    """In scene files and on the command line, and in the lists and ranges of a sweep."""
+    with pytest.raises(ValueError, match="is not a known unit"):
+        read(text, "length")
+    assert measured(text) is None

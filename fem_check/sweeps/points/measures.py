@@ -6,8 +6,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fem_check.files.quantities import NUMBER, Quantity
-from fem_check.files.units import unit_named
+from fem_check.files.quantities import NUMBER, Quantity, unit_of
 
 
 def measured(value: Any) -> Quantity | None:
@@ -17,10 +16,9 @@ def measured(value: Any) -> Quantity | None:
     parts = NUMBER.fullmatch(value) if isinstance(value, str) else None
     if parts is None or not math.isfinite(float(parts[1])):
         return None
-    try:
-        unit = unit_named(parts[2]) if parts[2] else None
-    except Exception:  # pint fails on text in many ways; the scene file then says what is wrong
-        return None
+    unit = unit_of(parts[2]) if parts[2] else None
+    if parts[2] and unit is None:
+        return None  # the scene file then says what is wrong
     return Quantity("", str(value), float(parts[1]), unit)
 
 
