@@ -10,6 +10,7 @@ Asked for by name "predict" answers a sheet that bends, too, by the plate or a c
 from fem_check.choice.levels import ASIDE, LEVELS
 from fem_check.choice.reach import check_width
 from fem_check.shell.abilities import CYCLE, STEPPED
+from fem_check.shell.effects.gravity import Gravity
 from linear_theory.common import validation
 from linear_theory.scene.level import PLATE, THEORY, Level
 from linear_theory.scene.scene import Scene
@@ -88,7 +89,18 @@ def _cheapest(scene: Scene) -> str:
         if not level.objections(scene) and (not steps or level is STEPPED or _repeats(scene)):
             return name
     objections = (f"{name}: {'; '.join(level.objections(scene))}" for name, level in WAYS.items())
-    raise ValueError(f"effects: no level represents this scene ({', '.join(objections)})")
+    raise ValueError(
+        f"effects: no level represents this scene{_remedy(scene)} ({', '.join(objections)})"
+    )
+
+
+def _remedy(scene: Scene) -> str:
+    """What is missing, where one effect is that every level needs."""
+    rubs = any(effect.law is not None for effect in scene.effects)
+    slopes = [e for e in scene.effects if isinstance(e, Gravity) and e.incline]
+    if rubs or not slopes:
+        return ""
+    return f": nothing holds the sheet on its slope, incline = {slopes[0].incline:g}; name Friction"
 
 
 def _require(scene: Scene, asked: str) -> None:

@@ -345,6 +345,15 @@ def test_helps_and_lists_load_no_libraries(words: list[str]) -> None:
     assert not loaded & {"numpy", "scipy", "sympy", "skfem", "matplotlib", "pint", "pydantic", "meshio"}
 
 
+def test_a_slope_without_friction_is_refused_with_what_is_missing() -> None:
+    slope = Gravity(1e-4, incline=0.2)
+    scene = Scene(Sheet(), SineWave(), 0.1, effects=[Membrane(Material(0.03, 0.5)), slope])
+    with pytest.raises(
+        ValueError, match=r"nothing holds the sheet on its slope, incline = 0.2; name Fr"
+    ):
+        solve(scene)
+
+
 def test_the_way_of_a_scene() -> None:
     scenes = {name: read(gallery.FOLDER / f"{name}.toml").scene for name in gallery.names()}
     assert {name: way_of(scene) for name, scene in scenes.items()} == WAYS
