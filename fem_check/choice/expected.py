@@ -7,6 +7,7 @@ from fem_check.choice.ways import THEORIES
 from fem_check.shell.effects.contact.self_contact import SelfContact
 from fem_check.shell.model import ShellModel
 from linear_theory.scene.scene import Scene
+from linear_theory.wave.uncertain import uncertainty_of
 
 RAMP = 0.5
 """Periods in which growth rises before those that are counted, of `simulate`."""
@@ -24,6 +25,10 @@ sheets that bend; and of a step in time. Measured on the scenes of the gallery, 
 TIGHTER = 0.35
 """Power of 1 % over the tolerance with which a cycle grows: 0.6, 2, 12 s of the paper's sheet at 1e-2,
 1e-4 and 1e-6."""
+
+UNCERTAIN = 8.0
+"""Factor of a cycle for a wave with an error of its own, from measured samples: speeds of others that
+could be the true one, and what they leave of the tolerance."""
 
 CURLED, IN_CONTACT = 4.0, 20.0
 """Angle to which a sheet bends beyond which it may touch itself, and the factor of a step in time then,
@@ -55,7 +60,8 @@ def expected_seconds(scene: Scene, way: str, settings: RunSettings) -> float:
         triangles = scene.mesh is not None and scene.mesh.t.shape[0] == 3
         price = IN_SPACE if bends else TRIANGLES if triangles else RECTANGLES
         tried = PLATE if bends and way == "predict" else 0.0
-        return float(price * points * max(1.0, 1e-2 / rtol) ** TIGHTER + tried)
+        doubts = 1.0 if uncertainty_of(scene.wave) is None else UNCERTAIN
+        return float(doubts * price * points * max(1.0, 1e-2 / rtol) ** TIGHTER + tried)
     count = settings.steps or STEPS * math.sqrt(0.1 / rtol) * _highest(scene)
     touching = IN_CONTACT if _touches(scene) else 1.0
     return float(touching * STEP * points * count * (settings.periods + RAMP))
