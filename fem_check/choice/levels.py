@@ -77,9 +77,8 @@ def cycle(scene: Scene, tolerance: Tolerance) -> CrawlSpeed:
 
 
 def _numbers_of_cycle(scene: Scene, tolerance: Tolerance) -> CrawlSpeed:
-    from fem_check.shell.cycle.speed import (
-        Cycle,  # here: finite elements take as long to load as a strip
-    )
+    # Here: finite elements take longer to load than a strip to be answered.
+    from fem_check.shell.cycle.speed import Cycle
 
     seconds, before = 0.0, math.inf
     for factor in MESHES:

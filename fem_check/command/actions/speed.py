@@ -43,10 +43,8 @@ def speed(options: Options, path: Path | None = None) -> int:
         _check_film(options, options.level)
         units, solve = question.units, partial(_predicted, question, options)
     else:
-        from fem_check.command.actions.scenes import (  # here: it loads all effects
-            answered,
-            asked_by_file,
-        )
+        # Here: it loads all that a scene file may name.
+        from fem_check.command.actions.scenes import answered, asked_by_file
 
         file = asked_by_file(path, options)
         _check_film(options, file.run.level)
