@@ -77,7 +77,7 @@ figures: $(STAMP)
 test: $(STAMP)
 	$(RUN) -m ruff check .
 	$(RUN) -m ruff format --check .
-	+$(MAKE) --no-print-directory -j 2 types suite
+	+$(MAKE) --no-print-directory $(if $(findstring jobserver,$(MAKEFLAGS)),,-j 2) types suite
 
 # Side by side: mypy takes a minute of one core.
 types: $(STAMP)

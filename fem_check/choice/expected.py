@@ -27,8 +27,8 @@ TIGHTER = 0.35
 1e-4 and 1e-6."""
 
 UNCERTAIN = 8.0
-"""Factor of a cycle for a wave with an error of its own, from measured samples: speeds of others that
-could be the true one, and what they leave of the tolerance."""
+"""Factor of a cycle for a wave with an error of its own, from measured samples or an equation: speeds
+of others that could be the true one, and what they leave of the tolerance."""
 
 CURLED, IN_CONTACT = 4.0, 20.0
 """Angle to which a sheet bends beyond which it may touch itself, and the factor of a step in time then,

@@ -31,7 +31,7 @@ from linear_theory.sheet.rectangle import Sheet
 from linear_theory.speed.reach import warn_if_beyond
 from linear_theory.wave.protocol import Wave
 
-NAMES = ("auto", *LEVELS, *ASIDE)
+LEVEL_NAMES = ("auto", *LEVELS, *ASIDE)
 """What `level` may be for a flat sheet."""
 
 
@@ -65,7 +65,7 @@ def predict(
     levels; `solve` answers those that neither represents. progress: True prints on stderr, a function
     is called with a `linear_theory.common.progress.Progress`.
 
-    Raises ValueError for bad input, for sheets wider than 20 lengths unless by level "strip", "line"
+    Raises ValueError for bad input, for sheets wider than 20 lengths unless `level` is "strip", "line"
     or "first order", and what the chosen level raises. Warns as `crawl_speed` does, for
     the level that gives the answer.
 
@@ -79,7 +79,7 @@ def predict(
     scene = Scene.stated(
         sheet, wave, alpha, load, friction, slip_speed, growth_law=growth_law, area=area
     )
-    validation.choice("level", level, NAMES if scene.planar else ("auto", *BENDING))
+    validation.choice("level", level, LEVEL_NAMES if scene.planar else ("auto", *BENDING))
     _target(scene, level).require(scene)
     tolerance = Tolerance(rtol, atol).of_speed(scene.alpha, scene.unit)
     check_width(scene, level)

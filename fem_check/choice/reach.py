@@ -22,5 +22,5 @@ def check_width(scene: Scene, level: str) -> None:
     if scene.planar and level not in ANY_WIDTH and sheet.width > WIDEST * sheet.length:
         raise ValueError(
             f"width = {sheet.width:g}: must be <= {WIDEST:g} times the length, {sheet.length:g}, for "
-            f"level = {level!r}; only 'first order' answers wider sheets, as far as that theory holds"
+            f"level = {level!r}; only 'strip', 'line' and 'first order' answer wider ones"
         )

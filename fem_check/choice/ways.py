@@ -95,7 +95,7 @@ def _cheapest(scene: Scene) -> str:
 
 
 def _remedy(scene: Scene) -> str:
-    """What is missing, where one effect is that every level needs."""
+    """What is missing on a slope, which every level needs."""
     rubs = any(effect.law is not None for effect in scene.effects)
     slopes = [e for e in scene.effects if isinstance(e, Gravity) and e.incline]
     if rubs or not slopes:

@@ -171,8 +171,7 @@ class Pacing(Value):
 
     def course(self, t: float | Array) -> Array:
         """p at times."""
-        shape: Array = np.exp(-((np.sin(self._angle(t)) / self._width) ** 2))
-        return shape
+        return np.asarray(np.exp(-((np.sin(self._angle(t)) / self._width) ** 2)))
 
     def change(self, t: float | Array) -> Array:
         """dp/dt at times."""
@@ -184,5 +183,5 @@ class Pacing(Value):
     def _width(self) -> float:
         return math.pi * self.duration / (2 * self.period)
 
-    def _angle(self, t: float | Array) -> float | Array:
-        return math.pi * t / self.period - math.pi / 4
+    def _angle(self, t: float | Array) -> Array:
+        return np.asarray(math.pi * np.asarray(t) / self.period - math.pi / 4)

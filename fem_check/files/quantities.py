@@ -139,7 +139,7 @@ def unit_of(text: str) -> "pint.Unit | None":
     """The unit of that name; None where there is none, and where it would take for ever to work out."""
     if len(text) > LONGEST or ENDLESS.search(text):
         return None
-    registry()  # outside of the try: a pint that is broken is no unknown unit
+    registry(text)  # outside of the try: a pint that is broken is no unknown unit
     try:
         return unit_named(text)
     except Exception:  # pint fails on text in many ways: "mmm", "m/0", "1/", "m m ("

@@ -14,9 +14,9 @@ if TYPE_CHECKING:
     import pint
 
 COMMON = """
+micro- = 1e-6 = µ- = μ- = u- = mu- = mc-
 milli- = 1e-3 = m-
 centi- = 1e-2 = c-
-micro- = 1e-6 = µ- = μ- = u-
 kilo- = 1e3 = k-
 mega- = 1e6 = M-
 giga- = 1e9 = G-
@@ -32,26 +32,28 @@ degree = π / 180 * radian = deg
 newton = kilogram * meter / second ** 2 = N
 pascal = newton / meter ** 2 = Pa
 """
-"""Definitions as in pint's own list."""
+"""Some definitions of pint's own list, in its order, in which prefixes are tried."""
 
 NAMES = """
 m mm cm um µm μm km meter meters metre metres millimeter millimeters micrometer
 s ms min h sec second seconds minute minutes hour hours millisecond milliseconds
-g kg mg N mN Pa kPa MPa GPa pascal % percent rad mrad radian milliradian deg degree degrees
+g kg mg N mN Pa kPa MPa GPa pascal percent rad mrad radian milliradian deg degree degrees
 dimensionless
 """
 WORDS = frozenset(NAMES.split())
 """How they are written. Other words might be read as another unit by a list that is not whole: "cd"."""
 
-WORD = re.compile(r"%|[^\W\d]+")
+WORD = re.compile(r"[^\W\d]\w*")
 
 LOCK = threading.RLock()
 """There is one registry, whichever thread asks first."""
 
 
-def registry() -> "pint.UnitRegistry[Any]":
-    """Of all units that were named so far."""
+def registry(text: str = "") -> "pint.UnitRegistry[Any]":
+    """Of the units in a text, and of all that were named before."""
     with LOCK:
+        if not WORDS.issuperset(WORD.findall(_spelt(text))):
+            _read_all()
         return _made()
 
 
@@ -62,10 +64,11 @@ def unit_named(text: str) -> "pint.Unit":
     >>> print(unit_named("kPa/mm^2"), unit_named("inch"))
     kilopascal / millimeter ** 2 inch
     """
-    if not WORDS.issuperset(WORD.findall(text)):
-        with LOCK:
-            _read_all()
-    return registry().parse_units(text.replace("%", "percent"))
+    return registry(text).parse_units(_spelt(text))
+
+
+def _spelt(text: str) -> str:
+    return text.replace("%", "percent")
 
 
 @cache
@@ -77,6 +80,11 @@ def _made() -> "pint.UnitRegistry[Any]":
 
 @cache
 def _read_all() -> None:
+    _made().load_definitions(whole_list())
+
+
+def whole_list() -> Path:
+    """Pint's own definitions."""
     import pint
 
-    _made().load_definitions(Path(pint.__file__).with_name("default_en.txt"))
+    return Path(pint.__file__).with_name("default_en.txt")

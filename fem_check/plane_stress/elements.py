@@ -1,6 +1,6 @@
 """Integrals over straight triangles, all at once, from those over one reference triangle.
 
-The map from the reference triangle is linear: an integral of a product of slopes is one over the
+The map from the reference triangle is affine: an integral of a product of slopes is one over the
 reference triangle times constants of the triangle (R. C. Kirby, A. Logg, ACM Trans. Math. Softw.
 32:417, 2006), and a matrix is one product instead of a loop over pairs of shape functions.
 """

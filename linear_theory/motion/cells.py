@@ -96,12 +96,12 @@ def _halved(values: Array, owners: Integers, axis: Integers, rule: Rule) -> tupl
     """The halves of all cells, along axis 0 or 1 of each."""
     across = axis == 0
     first, second = values[:, across], values[:, ~across]
-    one, both, three = first.shape[1], 2 * first.shape[1], 2 * first.shape[1] + second.shape[1]
+    ends = np.cumsum([first.shape[1], first.shape[1], second.shape[1]])
     halves = np.empty((len(values), 2 * values.shape[1], *values.shape[2:]))
     begin, end = rule.halves  # into their places: to copy them takes longer than the products
-    np.matmul(begin, first, out=halves[:, :one])
-    np.matmul(end, first, out=halves[:, one:both])
-    np.matmul(second, begin.T, out=halves[:, both:three])
-    np.matmul(second, end.T, out=halves[:, three:])
+    np.matmul(begin, first, out=halves[:, : ends[0]])
+    np.matmul(end, first, out=halves[:, ends[0] : ends[1]])
+    np.matmul(second, begin.T, out=halves[:, ends[1] : ends[2]])
+    np.matmul(second, end.T, out=halves[:, ends[2] :])
     ours, theirs = owners[across], owners[~across]
     return halves, np.concatenate([ours, ours, theirs, theirs])

@@ -19,7 +19,7 @@ import pytest
 
 from fem_check.answer.block import block
 from fem_check.choice.levels import LEVELS
-from fem_check.choice.prediction import NAMES, predict
+from fem_check.choice.prediction import LEVEL_NAMES, predict
 from fem_check.command import BAD_ARGUMENTS, CLOSED_PIPE, INTERRUPTED, MET, MISSED, main, screens
 from fem_check.command.actions.speed import HINTS
 from fem_check.command.options import Options
@@ -351,7 +351,7 @@ def test_choices_are_those_of_the_library(name):
         "area": tuple(Reference),
         "load": LOADS,
         "friction": [name for law in LAWS for name in ((law, "dry") if law == "coulomb" else (law,))],
-        "level": NAMES,
+        "level": LEVEL_NAMES,
     }
     choices = get_args(get_type_hints(Options)[name])
     assert choices == tuple(known[name])

@@ -2,27 +2,90 @@
 
 import subprocess
 import sys
+from collections.abc import Sequence
 
+import numpy as np
 import pint
 import pytest
 
+from fem_check.files import units
 from fem_check.files.quantities import read
-from fem_check.files.units import WORDS, registry, unit_named
+from fem_check.files.units import WORDS
 from fem_check.sweeps.points.measures import measured
 
 PINT = pint.UnitRegistry()
 
 
-@pytest.mark.parametrize("word", sorted(WORDS))
-def test_common_units_are_those_of_pint(word: str) -> None:
-    found, expected = unit_named(word), PINT.parse_units(word.replace("%", "percent"))
-    assert str(found) == str(expected)
-    assert f"{found:~P}" == f"{expected:~P}"
-    mine, theirs = (
-        units.Quantity(1.0, unit).to_root_units()
-        for units, unit in ((registry(), found), (PINT, expected))
-    )
-    assert (mine.magnitude, str(mine.units)) == (theirs.magnitude, str(theirs.units))
+def fresh(whole: bool) -> pint.UnitRegistry:
+    """A registry as a new process has it, before or after the whole list is read."""
+    found = units._made.__wrapped__()
+    if whole:
+        found.load_definitions(units.whole_list())
+    return found
+
+
+def told(registry: pint.UnitRegistry, text: str) -> tuple[str, ...] | None:
+    """Name, symbol, and size in root units; None for what is no unit, or has no size."""
+    try:
+        unit = registry.parse_units(text.replace("%", "percent"))
+        root = registry.Quantity(1.0, unit).to_root_units()
+    except Exception:  # of many kinds
+        return None
+    return str(unit), f"{unit:~P}", repr(root.magnitude), str(root.units)
+
+
+def texts(words: Sequence[str], count: int, seed: int) -> set[str]:
+    random = np.random.default_rng(seed)
+    joints = ("*", "/", " ", "**2/", "^-1*", "**0.5 ", " * 3/")
+    return {
+        "".join(f"{random.choice(words)}{random.choice(joints)}" for _ in range(random.integers(1, 4)))
+        + str(random.choice(words))
+        for _ in range(count)
+    }
+
+
+@pytest.mark.parametrize("whole", [False, True])
+def test_common_units_are_those_of_pint(whole: bool) -> None:
+    """Alone and in random texts, before and after the whole list was read."""
+    words, registry = [*sorted(WORDS), "%"], fresh(whole)
+    for text in (*words, *texts(words, 300, seed=0)):
+        assert told(registry, text) == told(PINT, text), text
+
+
+def test_other_units_are_those_of_pint() -> None:
+    """Among them those that prefixes make ambiguous, and names with digits."""
+    registry = fresh(whole=True)
+    random = np.random.default_rng(1)
+    names = [name for name in PINT if name.isidentifier()]
+    words = [
+        *random.choice(names, 150),
+        "mcd",
+        "mct",
+        "mcc",
+        "mcmil",
+        "cd",
+        "as",
+        "Ms",
+        "g0",
+        "kg0",
+        "Pa0",
+    ]
+    for text in (*words, *texts([*words, *WORDS], 150, seed=2)):
+        assert told(registry, text) == told(PINT, text), text
+
+
+@pytest.mark.parametrize("text", ["g0", "kg*g0/mm^2", "h%", "mcd", "cd", "Pa0", "inch", "µm·g0", "ft"])
+def test_a_word_that_is_not_among_them_leads_to_the_whole_list(text: str) -> None:
+    assert not WORDS.issuperset(units.WORD.findall(text.replace("%", "percent")))
+
+
+def test_a_list_that_cannot_be_read_is_no_unknown_unit(monkeypatch: pytest.MonkeyPatch) -> None:
+    def broken() -> None:
+        raise OSError("no list")
+
+    monkeypatch.setattr(units, "_read_all", broken)
+    with pytest.raises(OSError, match="no list"):
+        read("2 inch", "length")
 
 
 def test_every_example_is_of_common_units() -> None:

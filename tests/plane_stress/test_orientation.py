@@ -87,12 +87,10 @@ def test_a_mesh_on_which_neighbours_agree_is_left_as_it_is(mesh):
     assert oriented(mesh) is mesh
 
 
-@pytest.mark.parametrize("degree", [2, 4])
-def test_small_strain(degree):
-    """Degree 4: 6 % wrong where neighbours disagree."""
+def test_small_strain():
+    """A third wrong here where neighbours disagreed."""
     one, other = (
-        plane_stress_field(mesh, SineWave(), degree=degree)
-        for mesh in (TRIANGLES, renamed(TRIANGLES, 0))
+        plane_stress_field(mesh, SineWave(), degree=4) for mesh in (TRIANGLES, renamed(TRIANGLES, 0))
     )
     at = (np.array([0.1, -0.2]), np.array([0.2, 0.4]), 0.3)
     np.testing.assert_allclose(other.displacement(*at), one.displacement(*at), rtol=1e-10)

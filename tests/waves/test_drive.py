@@ -280,13 +280,13 @@ def test_errors_on_a_line_are_honest_for_random_tremors(seed: int) -> None:
 def test_finer_meshes_are_not_tried_where_they_do_not_help(monkeypatch: pytest.MonkeyPatch) -> None:
     """A wave too rough in time is asked on two meshes at most, and is not converged."""
     monkeypatch.setattr(cycle, "MOST_PHASES", cycle.FIRST_PHASES)
-    asked = []
+    asked, real = [], cycle.Cycle
 
     def counted(scene: Scene) -> cycle.Cycle:
         asked.append(scene.cells)
-        return cycle.Cycle(scene)
+        return real(scene)
 
-    monkeypatch.setattr("fem_check.choice.levels.Cycle", counted)
+    monkeypatch.setattr(cycle, "Cycle", counted)
     found = predict(SHEET, trembling(12, share=0.5), ALPHA, level="cycle", rtol=1e-3)
     assert not found.converged
     assert len(asked) < len(MESHES)

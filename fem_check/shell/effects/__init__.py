@@ -5,7 +5,7 @@ import lazy_loader
 from fem_check.shell.material import Material
 
 # Each class is imported on first use: a closed form loads none, scenes as data look for them here.
-__getattr__, __dir__, _classes = lazy_loader.attach(
+__getattr__, _, _classes = lazy_loader.attach(
     __name__,
     submod_attrs={
         "contact.self_contact": ["SelfContact"],
@@ -20,3 +20,7 @@ __getattr__, __dir__, _classes = lazy_loader.attach(
     },
 )
 __all__ = [*_classes, Material.__name__]
+
+
+def __dir__() -> list[str]:
+    return sorted(__all__)
