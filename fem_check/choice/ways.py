@@ -10,7 +10,6 @@ Asked for by name "predict" answers a sheet that bends, too, by the plate or a c
 from fem_check.choice.levels import ASIDE, LEVELS
 from fem_check.choice.reach import check_width
 from fem_check.shell.abilities import CYCLE, STEPPED
-from fem_check.shell.effects.gravity import Gravity
 from linear_theory.common import validation
 from linear_theory.scene.level import PLATE, THEORY, Level
 from linear_theory.scene.scene import Scene
@@ -97,10 +96,10 @@ def _cheapest(scene: Scene) -> str:
 def _remedy(scene: Scene) -> str:
     """What is missing on a slope, which every level needs."""
     rubs = any(effect.law is not None for effect in scene.effects)
-    slopes = [e for e in scene.effects if isinstance(e, Gravity) and e.incline]
-    if rubs or not slopes:
+    inclines = [effect.incline for effect in scene.effects if effect.incline]
+    if rubs or not inclines:
         return ""
-    return f": nothing holds the sheet on its slope, incline = {slopes[0].incline:g}; name Friction"
+    return f": nothing holds the sheet on its slope, incline = {inclines[0]:g}; name Friction"
 
 
 def _require(scene: Scene, asked: str) -> None:
