@@ -3,6 +3,7 @@
 import inspect
 import typing
 from functools import cache, partial
+from types import SimpleNamespace
 
 import numpy as np
 
@@ -211,7 +212,9 @@ def returned_by(function):
     function = inspect.unwrap(function)
     if "Rational" in str(function.__annotations__.get("return")):
         return set()  # a type of sympy, imported for the checker alone
-    return named_in(typing.get_type_hints(function).get("return"))
+    # Of the result alone: arguments may have types that are imported for the checker.
+    result = SimpleNamespace(__annotations__={"return": function.__annotations__.get("return")})
+    return named_in(typing.get_type_hints(result, function.__globals__)["return"])
 
 
 def functions_of(kind):
