@@ -1,7 +1,7 @@
 # Every target does its own set-up; a fresh machine needs only make and Python >= 3.11.
 #
 #   make figures   all figures and the film of the README (options: OUT=folder RTOL=1e-6): a minute
-#   make test      lint, types, tests: ten minutes on two cores
+#   make test      lint, types, tests: a quarter of an hour on two cores, twice that on slow ones
 #   make test-browser  the pages in a real browser (Debian: chromium, chromium-driver): a minute
 #   make test-dist  wheel and source distribution, installed and used in clean environments: two minutes
 #   make test-oldest  the tests with the oldest versions of all that it needs: twelve minutes
@@ -11,7 +11,7 @@
 #   make peers   other codes on two scenes and a displacement, in an environment of their own: ten minutes
 #   make bench-threads  times beside a busy core against one BLAS thread
 #   make bench-shell  time and memory of the sheet that bends
-#   make tables    every table that the figures, the paper and predict() read: an hour
+#   make tables    every table that the figures, the paper and predict() read: one to three hours
 #   make gaits     bending gaits: the map of figure 4, an hour and a half; trapezoids and terrain, an
 #                  hour; 300 at random, hours
 #   make movies    movies 1 to 4 of the paper into figures/out: five minutes
